@@ -1,0 +1,101 @@
+"""Polarised light along optical paths.
+
+Optical elements are nodes of a path graph, each with its own reference frames. A
+composer aligns the frames and orders the work; the plan it makes runs on one set of
+values or on millions.
+"""
+
+from optipath.cases import Case
+from optipath.composer import Composer
+from optipath.domains import (
+    Angle,
+    Fraction,
+    Incidence,
+    Index,
+    MuellerMatrix,
+    NonNegative,
+    Real,
+    StokesState,
+)
+from optipath.elements import (
+    Attenuator,
+    BeamSplitter,
+    Combiner,
+    Coupling,
+    Detector,
+    Dump,
+    Element,
+    Interface,
+    MuellerElement,
+    Operation,
+    Polarizer,
+    Retarder,
+    Rotator,
+    Source,
+)
+from optipath.errors import (
+    ComposerError,
+    FrameError,
+    OptipathError,
+    ParameterError,
+    PathError,
+    PresetError,
+    ShapeError,
+    UnitError,
+    ValueFault,
+)
+from optipath.frames import Frame
+from optipath.fresnel import fresnel_reflection
+from optipath.light import Light
+from optipath.materials import Material
+from optipath.mueller import Mueller
+from optipath.parameters import Parameter
+from optipath.path_graph import PathGraph
+from optipath.plan import Plan
+from optipath.presets import load_preset, preset_names
+
+__all__ = [
+    "Angle",
+    "Attenuator",
+    "BeamSplitter",
+    "Case",
+    "Combiner",
+    "Composer",
+    "ComposerError",
+    "Coupling",
+    "Detector",
+    "Dump",
+    "Element",
+    "Fraction",
+    "Frame",
+    "FrameError",
+    "Incidence",
+    "Index",
+    "Interface",
+    "Light",
+    "Material",
+    "Mueller",
+    "MuellerElement",
+    "MuellerMatrix",
+    "NonNegative",
+    "Operation",
+    "OptipathError",
+    "Parameter",
+    "ParameterError",
+    "PathError",
+    "PathGraph",
+    "Plan",
+    "Polarizer",
+    "PresetError",
+    "Real",
+    "Retarder",
+    "Rotator",
+    "ShapeError",
+    "Source",
+    "StokesState",
+    "UnitError",
+    "ValueFault",
+    "fresnel_reflection",
+    "load_preset",
+    "preset_names",
+]

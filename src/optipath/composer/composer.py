@@ -1,0 +1,111 @@
+"""Composer: turns a path into a plan."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import networkx as nx
+
+from optipath.composer.lower import lower
+from optipath.composer.ports import outlets
+from optipath.composer.validate import validate
+from optipath.composer.values import inputs_of
+from optipath.errors import ComposerError, did_you_mean
+from optipath.kernels import METHODS
+from optipath.plan import Plan
+
+_CHOICES = {
+    "method": METHODS,
+    "model": ("auto", "full"),
+    "engine": ("auto", "numpy"),
+    "dtype": ("float64", "float32"),
+}
+
+
+class Path(Protocol):
+    """Anything that has a graph of elements."""
+
+    @property
+    def graph(self) -> nx.MultiDiGraph:
+        """The graph: nodes with ``element`` and ``frames``, links with ``azimuth``."""
+
+
+@dataclass(frozen=True)
+class Composer:
+    """How paths are turned into plans.
+
+    Parameters
+    ----------
+    method : {"stable", "textbook"}, optional
+        How Fresnel's equations are computed.
+    model : {"auto", "full"}, optional
+        What is carried along: all four Stokes components.
+    engine : {"auto", "numpy"}, optional
+        What runs the steps.
+    dtype : {"float64", "float32"}, optional
+        The precision.
+    tolerance : None, optional
+        Kept for approximations; only exact plans are made in this version.
+
+    Raises
+    ------
+    ComposerError
+        With every option that does not exist.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> plan = op.Composer(method="textbook").compose(op.load_preset("malus"))
+    >>> plan.method, plan.engine
+    ('textbook', 'numpy')
+    """
+
+    method: str = "stable"
+    model: str = "auto"
+    engine: str = "auto"
+    dtype: str = "float64"
+    tolerance: None = None
+
+    def __post_init__(self) -> None:
+        faults = []
+        for option, choices in _CHOICES.items():
+            value = getattr(self, option)
+            if value not in choices:
+                faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
+        if self.tolerance is not None:
+            faults.append("tolerance is not available in this version; leave it None")
+        if faults:
+            raise ComposerError(*faults)
+
+    def compose(self, path: Path | nx.MultiDiGraph) -> Plan:
+        """Return the plan of a path.
+
+        Parameters
+        ----------
+        path : PathGraph or networkx.MultiDiGraph
+            The elements and links.
+
+        Raises
+        ------
+        PathError
+            With every fault of the path.
+        """
+        graph: Any = path if isinstance(path, nx.MultiDiGraph) else path.graph
+        validate(graph)
+        return Plan(
+            program=lower(graph, self.method),
+            inputs=inputs_of(graph),
+            outlets=tuple(outlets(graph)),
+            copied=_copied(graph),
+            method=self.method,
+            model="full",
+            engine="numpy",
+            dtype=self.dtype,
+        )
+
+
+def _copied(graph: nx.MultiDiGraph) -> tuple[str, ...]:
+    counts = Counter(f"{start}.{leaves}" for start, _, (leaves, _) in graph.edges(keys=True))
+    return tuple(port for port, count in counts.items() if count > 1)

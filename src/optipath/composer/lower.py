@@ -1,0 +1,164 @@
+"""Lowering: a validated path graph becomes a program of steps."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import networkx as nx
+import numpy as np
+
+from optipath.composer.placement import alignment, frame_at
+from optipath.composer.ports import Port, element_of, emitting, ending, port_graph, reached_from
+from optipath.elements import Detector
+from optipath.frames import Frame
+from optipath.parameters import Parameter
+from optipath.program import Evaluation, Program, Reading, Step
+from optipath.views import View, view_of
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+    from optipath.elements import Coupling, Operation
+
+_COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
+
+
+def lower(graph: nx.MultiDiGraph, method: str) -> Program:
+    """Return the program of a path: ports in the order of travel, each a step or none.
+
+    Ports from which no light reaches a detector or a dump are left out.
+    """
+    builder = _Builder(graph, method)
+    ports = port_graph(graph)
+    wanted = reached_from(ports, emitting(graph)) & reached_from(
+        ports.reverse(copy=False), ending(graph)
+    )
+    for port in nx.lexicographical_topological_sort(ports.subgraph(wanted)):
+        builder.add_port(port)
+    return builder.program()
+
+
+class _Builder:
+    """Collects leaves, evaluations and steps; equal ones are entered once."""
+
+    def __init__(self, graph: nx.MultiDiGraph, method: str) -> None:
+        self.graph = graph
+        self.method = method
+        self.leaves: list[View] = []
+        self.evaluations: list[Evaluation] = []
+        self.steps: list[Step] = []
+        self.lights: dict[Port, int] = {}
+        self.sources: dict[str, tuple[int, Frame]] = {}
+        self._leaf_at: dict[Hashable, int] = {}
+        self._evaluation_at: dict[Evaluation, int] = {}
+
+    def program(self) -> Program:
+        """Return what has been collected."""
+        detectors, dumps = {}, {}
+        for name, port in ending(self.graph):
+            if (name, port) not in self.lights:
+                continue
+            element = element_of(self.graph, name)
+            reads = element.reads if isinstance(element, Detector) else "stokes"
+            kept = detectors if isinstance(element, Detector) else dumps
+            light, frame = self.lights[name, port], self._reading_frame(name, port)
+            kept[name] = Reading(light, frame, _COMPONENTS[reads])
+        return Program(
+            tuple(self.leaves),
+            tuple(self.evaluations),
+            tuple(self.steps),
+            self.sources,
+            detectors,
+            dumps,
+        )
+
+    def add_port(self, port: Port) -> None:
+        """Add the steps that make the light at a port."""
+        name, way = port
+        element = element_of(self.graph, name)
+        if way in element.inputs:
+            self._add_arrivals(port)
+            return
+        lights = []
+        for coupling in element.couplings():
+            if coupling.leaves == way and self._is_lit(name, coupling):
+                lights.append(self._pass(name, coupling))
+        self.lights[port] = self._sum(f"{name}.{way}", lights)
+
+    def _add_arrivals(self, port: Port) -> None:
+        name, way = port
+        lights = []
+        for link in sorted(self.graph.in_edges(name, keys=True)):
+            start, _, (leaves, enters) = link
+            if enters != way or (start, leaves) not in self.lights:
+                continue
+            light = self.lights[start, leaves]
+            turn = alignment(self.graph, link)
+            if turn is not None:
+                light = self._step(f"{start}.{leaves} -> {name}.{way}", (light,), turn, None)
+            lights.append(light)
+        self.lights[port] = self._sum(f"{name}.{way}", lights)
+
+    def _is_lit(self, name: str, coupling: Coupling) -> bool:
+        return coupling.enters is None or (name, coupling.enters) in self.lights
+
+    def _pass(self, name: str, coupling: Coupling) -> int:
+        label = f"{name}.{coupling.leaves}"
+        if coupling.enters is None:
+            light = self._step(label, (), coupling.operations[0], None)
+            self.sources[name] = (light, frame_at(self.graph, name, coupling.leaves) or Frame())
+            return light
+        light = self.lights[name, coupling.enters]
+        presence = _presence(coupling.operations)
+        if presence is not None and presence.known and not np.any(presence.present()):
+            return light
+        for operation in coupling.operations:
+            light = self._step(label, (light,), operation, presence)
+        return light
+
+    def _step(
+        self, label: str, inputs: tuple[int, ...], operation: Operation, presence: View | None
+    ) -> int:
+        arguments = tuple(self._leaf(view_of(argument)) for argument in operation.arguments)
+        there = None if presence is None else self._leaf(presence)
+        evaluation = Evaluation(operation.kernel.by_method(self.method), arguments, there)
+        index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
+        if index == len(self.evaluations):
+            self.evaluations.append(evaluation)
+        self.steps.append(Step(label, inputs, index))
+        return len(self.steps) - 1
+
+    def _sum(self, label: str, lights: list[int]) -> int:
+        if len(lights) == 1:
+            return lights[0]
+        self.steps.append(Step(label, tuple(lights)))
+        return len(self.steps) - 1
+
+    def _leaf(self, view: View) -> int:
+        key = view.key()
+        index = len(self.leaves) if key is None else self._leaf_at.setdefault(key, len(self.leaves))
+        if index == len(self.leaves):
+            self.leaves.append(view)
+        return index
+
+    def _reading_frame(self, name: str, port: str) -> Frame:
+        own = frame_at(self.graph, name, port)
+        if own is not None:
+            return own
+        arriving = [
+            frame_at(self.graph, start, leaves)
+            for start, _, (leaves, _) in self.graph.in_edges(name, keys=True)
+        ]
+        return next((frame for frame in arriving if frame is not None), Frame())
+
+
+def _presence(operations: tuple[Operation, ...]) -> View | None:
+    for operation in operations:
+        for argument in operation.arguments:
+            value: Any = view_of(argument).value
+            if isinstance(value, Parameter) and value.optional:
+                presence = View(value, "present")
+                if presence.known and np.all(presence.present()):
+                    return None
+                return presence
+    return None

@@ -1,0 +1,189 @@
+"""Domains: which values a quantity of an element may take.
+
+The annotated types below say it where the fields of an element are declared:
+``angle: Angle = 0.0``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import ValueFault, did_you_mean
+from optipath.frozen import array_of
+from optipath.materials import Material
+from optipath.parameters import Parameter
+from optipath.units import format_quantity
+
+_ROUNDING = 1e-12
+
+Quantity: TypeAlias = npt.ArrayLike | Parameter
+"""A number, an array over paths, or a parameter that will give either."""
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Real numbers between two limits, both included.
+
+    Attributes
+    ----------
+    name : str
+        What error messages call the quantity.
+    dimension : str
+        ``"angle"``, ``"length"``, or ``""``.
+    minimum, maximum : float
+        The limits, in radians or metres where there is a dimension.
+    tail : tuple of int
+        The axes behind the batch: ``(4,)`` for a Stokes vector.
+    """
+
+    name: str
+    dimension: str = ""
+    minimum: float = -np.inf
+    maximum: float = np.inf
+    tail: tuple[int, ...] = ()
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        """Return the value as an array of numbers, or say what is wrong with it.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner, the value, and what is asked for.
+        """
+        try:
+            array = array_of(value)
+        except ValueError:
+            raise ValueFault(f"{owner} has rows of unequal lengths; make it one shape") from None
+        if array.dtype.kind in "iu":
+            array = array.astype(np.float64)
+        if array.dtype.kind not in "fc":
+            raise ValueFault(f"{owner} must be {self.described()}, not {value!r}")
+        if self.tail and array.shape[-len(self.tail) :] != self.tail:
+            wanted = ", ".join(map(str, ("...", *self.tail)))
+            raise ValueFault(f"{owner} must have shape ({wanted}), not {array.shape}")
+        if not np.all(np.isfinite(array)):
+            found = array[~np.isfinite(array)].ravel()[0]
+            raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
+        self._check_numbers(owner, array)
+        return array
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the numbers that make up a value: their names, values and domains."""
+        return [(name, value, self)]
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        low, high = self._text(self.minimum), self._text(self.maximum)
+        if np.isinf(self.minimum) and np.isinf(self.maximum):
+            return f"a real {self.name}"
+        if np.isinf(self.maximum):
+            return f"a real {self.name} of {low} or more"
+        return f"a real {self.name} within {low} .. {high}"
+
+    def _text(self, value: float) -> str:
+        return format_quantity(value, {"angle": "deg", "length": "nm"}.get(self.dimension, ""))
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        if array.dtype.kind == "c":
+            raise ValueFault(f"{owner} is complex; give {self.described()}")
+        bad = (array < self.minimum) | (array > self.maximum)
+        if np.any(bad):
+            value = self._text(float(array[bad].ravel()[0]))
+            raise ValueFault(f"{owner} is {value}; give {self.described()}")
+
+
+class IndexDomain(Domain):
+    """Complex numbers n + ik with n and k not negative, not both 0."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself."""
+        if not isinstance(value, Material):
+            return super().parts(name, value)
+        return [(f"{name}.n", value.n, _N), (f"{name}.k", value.k, _K)]
+
+    def described(self) -> str:
+        return "an index of refraction n + ik with n and k not negative"
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        bad = (array.real < 0.0) | (array.imag < 0.0) | (array == 0.0)
+        if np.any(bad):
+            value = array[bad].ravel()[0]
+            sign = " (the field is exp(-iwt): a medium with k > 0 absorbs)" * (value.imag < 0.0)
+            raise ValueFault(f"{owner} is {value}; give {self.described()}{sign}")
+
+
+class OutsideDomain(Domain):
+    """Positive real numbers: the medium that light comes from does not absorb."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself."""
+        if not isinstance(value, Material):
+            return super().parts(name, value)
+        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K)]
+
+
+class StokesDomain(Domain):
+    """Stokes vectors that light can have; none at all is unpolarised light."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the vector, if there is one."""
+        return [] if value is None else super().parts(name, value)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        super()._check_numbers(owner, array)
+        negative = array[..., 0] < 0.0
+        if np.any(negative):
+            value = array[..., 0][negative].ravel()[0]
+            raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
+        polarised = np.linalg.norm(array[..., 1:], axis=-1)
+        bad = polarised > array[..., 0] * (1.0 + _ROUNDING)
+        if np.any(bad):
+            state = array[bad].reshape(-1, 4)[0].tolist()
+            raise ValueFault(
+                f"{owner} is {state}, polarised by more than 100 %; "
+                f"give S1^2 + S2^2 + S3^2 <= S0^2"
+            )
+
+
+@dataclass(frozen=True)
+class Choice(Domain):
+    """One word out of a few."""
+
+    words: tuple[str, ...] = ()
+
+    def check(self, owner: str, value: Any) -> Any:
+        """Return the word, or say which ones there are.
+
+        Raises
+        ------
+        ValueFault
+            If the value is none of the words.
+        """
+        if isinstance(value, str) and value in self.words:
+            return value
+        raise ValueFault(f"{owner} is {value!r}{did_you_mean(str(value), self.words)}")
+
+
+_N = Domain("index of refraction", minimum=0.0)
+_K = Domain("extinction coefficient", minimum=0.0)
+_NO_K = Domain("extinction coefficient of the medium that light comes from", minimum=0.0, maximum=0)
+REAL = Domain("number")
+
+Angle: TypeAlias = Annotated[Quantity, Domain("angle", "angle")]
+Incidence: TypeAlias = Annotated[
+    Quantity, Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
+]
+Fraction: TypeAlias = Annotated[Quantity, Domain("fraction", minimum=0.0, maximum=1.0)]
+NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
+Real: TypeAlias = Annotated[Quantity, REAL]
+Index: TypeAlias = Annotated[Quantity | Material, IndexDomain("index of refraction")]
+OutsideIndex: TypeAlias = Annotated[
+    Quantity | Material, OutsideDomain("index of refraction", minimum=np.finfo(float).tiny)
+]
+StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
+MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
+Reads: TypeAlias = Annotated[str, Choice("reading", words=("stokes", "linear", "intensity"))]

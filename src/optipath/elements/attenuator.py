@@ -1,0 +1,29 @@
+"""Attenuator: a grey filter."""
+
+from __future__ import annotations
+
+from optipath.domains import Fraction
+from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.element import Element
+from optipath.kernels import ATTENUATOR
+
+
+class Attenuator(Element, kind="attenuator"):
+    """A filter that dims light and leaves its polarisation as it is.
+
+    Parameters
+    ----------
+    transmittance : float, array_like or Parameter
+        The fraction of light let through, 0 to 1.
+
+    Examples
+    --------
+    >>> Attenuator(transmittance=0.25)
+    Attenuator(transmittance=0.25)
+    """
+
+    transmittance: Fraction
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the attenuation."""
+        return (Coupling("in", "out", (Operation(ATTENUATOR, (self.transmittance,)),)),)

@@ -1,0 +1,44 @@
+"""BeamSplitter: parts one beam into two."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from optipath.domains import Angle, Fraction
+from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.element import Element
+from optipath.kernels import COMPLEMENT, MIRROR
+
+
+class BeamSplitter(Element, kind="beam-splitter"):
+    """A lossless beam splitter that does not polarise.
+
+    Light that enters at ``in`` leaves in part at ``reflected``, as from an ideal
+    mirror (r_p = -r_s), and in part at ``transmitted``, unchanged.
+
+    Parameters
+    ----------
+    reflectance : float, array_like or Parameter, optional
+        The fraction reflected, 0 to 1; the rest is transmitted.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame, x = s, against the frame of the port before it.
+
+    Examples
+    --------
+    >>> BeamSplitter(reflectance=0.3)
+    BeamSplitter(reflectance=0.3, azimuth=0.0)
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
+    natural: ClassVar[str] = ""
+    straight: ClassVar[bool] = False
+
+    reflectance: Fraction = 0.5
+    azimuth: Angle = 0.0
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the mirror and what passes it."""
+        return (
+            Coupling("in", "reflected", (Operation(MIRROR, (self.reflectance,)),)),
+            Coupling("in", "transmitted", (Operation(COMPLEMENT, (self.reflectance,)),)),
+        )

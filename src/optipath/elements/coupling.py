@@ -1,0 +1,90 @@
+"""Couplings: which way light goes through an element, and what happens to it there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.domains import IndexDomain
+from optipath.frozen import frozen
+from optipath.kernels import IDENTITY_COLUMNS, NUMPY, TURN, TURN_BACK
+from optipath.materials import Material
+from optipath.mueller import stacked
+from optipath.parameters import Parameter
+from optipath.views import View, view_of
+
+if TYPE_CHECKING:
+    from optipath.domains import Domain
+    from optipath.kernels import Kernel, KernelFamily
+
+
+@dataclass(frozen=True, eq=False)
+class Operation:
+    """A kernel and the values it is given."""
+
+    kernel: Kernel | KernelFamily
+    arguments: tuple[Any, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Coupling:
+    """One way through an element: from an in-port to an out-port, in order of travel.
+
+    `enters` is None where light begins (a source).
+    """
+
+    enters: str | None
+    leaves: str
+    operations: tuple[Operation, ...]
+
+    def matrix(self, method: str) -> np.ndarray[Any, Any]:
+        """Return the Mueller matrix of shape (..., 4, 4); every value must be a number."""
+        columns = list(IDENTITY_COLUMNS)
+        for operation in self.operations:
+            kernel = operation.kernel.by_method(method)
+            values = [view_of(argument) for argument in operation.arguments]
+            numbers = kernel.made_for(NUMPY)(*(view.numbers({}) for view in values))
+            assert kernel.structure is not None  # noqa: S101 - only sources have none
+            columns = [kernel.structure.apply(numbers, column) for column in columns]
+        return stacked(list(zip(*columns, strict=True)))
+
+
+def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
+    """Return operations whose axes stand at an angle to the frame, right-handed from x.
+
+    Examples
+    --------
+    >>> turned(0.0, Operation(TURN, (0.3,)))[0].kernel.name
+    'turn'
+    >>> [operation.kernel.name for operation in turned(0.5)]
+    ['turn', 'turn back']
+    """
+    if isinstance(angle, (int, float)) and angle == 0.0:
+        return operations
+    return (Operation(TURN, (angle,)), *operations, Operation(TURN_BACK, (angle,)))
+
+
+def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
+    """Return a value as the plain numbers that kernels take.
+
+    An index of refraction is two numbers (n, k), a Stokes vector four, a matrix
+    sixteen, anything else one.
+
+    Examples
+    --------
+    >>> from optipath.domains import IndexDomain
+    >>> numbers_of(1.5 + 2j, IndexDomain("index"))
+    (1.5, 2.0)
+    """
+    if domain.tail:
+        count = int(np.prod(domain.tail))
+        return tuple(View(value, position, domain.tail) for position in range(count))
+    if isinstance(value, Material):
+        return value.n, value.k
+    if isinstance(domain, IndexDomain) and isinstance(value, Parameter):
+        return View(value, "real"), View(value, "imag")
+    if isinstance(domain, IndexDomain) and np.asarray(value).dtype.kind in "iufc":
+        return frozen(np.real(value)), frozen(np.imag(value))
+    return (value,)

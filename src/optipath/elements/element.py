@@ -1,0 +1,257 @@
+"""Element: what every node of a path is."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING, dataclass, fields
+from functools import cache
+from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
+
+from optipath.domains import REAL, Choice, Domain
+from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.registry import register
+from optipath.errors import PathError, ValueFault, did_you_mean
+from optipath.frames import Frame
+from optipath.frozen import frozen, same
+from optipath.kernels import FULL, Kernel
+from optipath.mueller import Mueller
+from optipath.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from optipath.kernels import Primitives
+
+
+@dataclass_transform(frozen_default=True, eq_default=False)
+class Element:
+    """An optical element: ports, values, and the way light goes through.
+
+    A subclass is a frozen dataclass without further ado. Its fields are values
+    (annotated with a domain: `Angle`, `Fraction`, ...), and it says what it does
+    to light by either of
+
+    - ``mueller_rows(xp, *values)``, a static method that returns the rows of its Mueller
+      matrix, elementwise: `xp` has ``sin``, ``cos``, ``exp``, ``sqrt``, ``where``, ...
+      Each field gives one value, but an `Index` gives two (n and k), a Stokes
+      vector four and a matrix sixteen; or
+    - ``couplings()``, which names a kernel for each way from an in-port to an out-port.
+
+    Attributes
+    ----------
+    kind : str
+        The name in preset files, given as ``class Name(Element, kind="name")``.
+    inputs, outputs : tuple of str
+        The ports where light enters and leaves.
+    natural : str
+        The out-port that ``>>`` continues from; empty where there is none.
+    merges : bool
+        Whether several links may feed one in-port; their light adds incoherently.
+    straight : bool
+        Whether light keeps its direction, so that all ports share one frame.
+
+    Examples
+    --------
+    >>> class HalfWavePlate(Element, kind="example-half-wave-plate"):
+    ...     angle: Angle = 0.0
+    ...
+    ...     @staticmethod
+    ...     def mueller_rows(xp, angle):
+    ...         c, s = xp.cos(4 * angle), xp.sin(4 * angle)
+    ...         return (1, 0, 0, 0), (0, c, s, 0), (0, s, -c, 0), (0, 0, 0, -1)
+    >>> HalfWavePlate(angle=0.5)
+    HalfWavePlate(angle=0.5)
+    """
+
+    kind: ClassVar[str] = ""
+    inputs: ClassVar[tuple[str, ...]] = ("in",)
+    outputs: ClassVar[tuple[str, ...]] = ("out",)
+    natural: ClassVar[str] = "out"
+    merges: ClassVar[bool] = False
+    straight: ClassVar[bool] = True
+    _kernel: ClassVar[Kernel | None] = None
+
+    def __init_subclass__(cls, kind: str = "", **keywords: Any) -> None:
+        """Make the subclass a frozen dataclass and enter its kind in the registry."""
+        super().__init_subclass__(**keywords)
+        dataclass(frozen=True, eq=False)(cls)
+        cls.kind = kind
+        if kind:
+            register(kind, cls)
+        if "mueller_rows" in cls.__dict__:
+            cls._kernel = _rows_kernel(kind or cls.__name__, cls.__dict__["mueller_rows"])
+
+    def __post_init__(self) -> None:
+        """Keep read-only copies of arrays, so that an element never changes."""
+        for f in fields(self):  # type: ignore[arg-type]
+            object.__setattr__(self, f.name, frozen(getattr(self, f.name)))
+
+    @classmethod
+    def domains(cls) -> Mapping[str, Domain]:
+        """Return the domain of each field, in order; a field without one is a real number."""
+        return _domains(cls)
+
+    @classmethod
+    def needs(cls, name: str) -> bool:
+        """Tell whether a field must be given, having no default."""
+        of_name = next(f for f in fields(cls) if f.name == name)  # type: ignore[arg-type]
+        return of_name.default is MISSING and of_name.default_factory is MISSING
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every value that is a number: its name, the value, its domain."""
+        for name, domain in self.domains().items():
+            yield from domain.parts(name, getattr(self, name))
+
+    def parameters(self) -> Iterator[Parameter]:
+        """Yield the parameters among the values."""
+        for _, value, _ in self.quantities():
+            if isinstance(value, Parameter):
+                yield value
+
+    def faults(self, owner: str) -> list[str]:
+        """Return what is wrong with the values that are known already, a sentence each."""
+        found = []
+        for name, value, domain in self.quantities():
+            if isinstance(value, Parameter) and not isinstance(domain, Choice):
+                continue
+            try:
+                domain.check(f"{owner}.{name}", value)
+            except ValueFault as fault:
+                found += fault.faults
+        return found
+
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        """Return what is wrong with the world frames of the ports, a sentence each."""
+        if self.straight and any(frame != first for frame, first in _pairs(frames)):
+            return [f"'{owner}' lets light go straight through; give its ports one frame"]
+        return []
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the ways light goes through; by default from ``in`` to ``out`` by `mueller_rows`.
+
+        Raises
+        ------
+        PathError
+            If the class says neither by `mueller_rows` nor by an own `couplings`.
+        """
+        if self._kernel is None:
+            raise PathError(
+                f"element class {type(self).__name__} does not say what it does to light; "
+                f"give it a static method mueller_rows(xp, ...) or a method couplings()"
+            )
+        domains = self.domains()
+        arguments = [numbers_of(getattr(self, name), domain) for name, domain in domains.items()]
+        operation = Operation(self._kernel, tuple(number for part in arguments for number in part))
+        return (Coupling("in", "out", (operation,)),)
+
+    def mueller(  # noqa: PLR0913 - two ports, a method, two frames
+        self,
+        enters: str = "in",
+        leaves: str = "",
+        *,
+        method: str = "stable",
+        frame_in: Frame | None = None,
+        frame_out: Frame | None = None,
+    ) -> Mueller:
+        """Return what the element does to light, alone, as a `Mueller` matrix.
+
+        Parameters
+        ----------
+        enters, leaves : str, optional
+            The ports; the natural way out by default, where there is one.
+        method : str, optional
+            How Fresnel's equations are computed.
+        frame_in, frame_out : Frame, optional
+            The world frames of the two ports, for an element that stands in space.
+
+        Raises
+        ------
+        PathError
+            If there is no such way through, a value is out of its domain, or a
+            parameter is still open.
+
+        Examples
+        --------
+        >>> from optipath.elements.attenuator import Attenuator
+        >>> Attenuator(0.5).mueller().matrix.diagonal()
+        array([0.5, 0.5, 0.5, 0.5])
+        """
+        owner = self.kind or type(self).__name__
+        leaves = leaves or self.natural
+        open_ones = [f"parameter '{p.name}' of {owner} has no value yet" for p in self.parameters()]
+        if faults := self.faults(owner) + open_ones:
+            raise PathError(*faults)
+        for coupling in self.couplings():
+            if (coupling.enters, coupling.leaves) == (enters, leaves):
+                matrix = coupling.matrix(method)
+                return Mueller(matrix, frame_in or Frame(), frame_out or Frame())
+        ways = [f"{c.enters} -> {c.leaves}" for c in self.couplings() if c.enters]
+        raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
+
+    def check_port(self, owner: str, port: str, ports: tuple[str, ...]) -> None:
+        """Raise unless the port is one of those given.
+
+        Raises
+        ------
+        PathError
+            With a did-you-mean.
+        """
+        if port in ports:
+            return
+        if port in (*self.inputs, *self.outputs):
+            way = "in" if port in self.inputs else "out"
+            raise PathError(
+                f"port '{owner}.{port}' lets light {way}; a link goes from an out-port "
+                f"to an in-port"
+            )
+        cure = did_you_mean(port, ports)
+        if cure.startswith("; did"):
+            close = cure.split("'")[1]
+            cure = f"; did you mean '{owner}.{close}'?"
+        elif not ports:
+            cure = f"; '{owner}' has no such ports at all"
+        raise PathError(f"port '{owner}.{port}' does not exist{cure}")
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        names = (f.name for f in fields(self))  # type: ignore[arg-type]
+        return all(same(getattr(self, name), getattr(other, name)) for name in names)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+@cache
+def _domains(element_class: type[Element]) -> dict[str, Domain]:
+    hints = get_type_hints(element_class, include_extras=True)
+    domains = {}
+    for f in fields(element_class):  # type: ignore[arg-type]
+        domains[f.name] = next(_annotated(hints[f.name]), REAL)
+    return domains
+
+
+def _annotated(hint: Any) -> Iterator[Domain]:
+    for part in get_args(hint):
+        if isinstance(part, Domain):
+            yield part
+        else:
+            yield from _annotated(part)
+
+
+def _rows_kernel(name: str, rows_of: Any) -> Kernel:
+    function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
+
+    def factory(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        def numbers(*values: Any) -> tuple[Any, ...]:
+            rows = function(xp, *values)
+            if len(rows) != 4 or any(len(row) != 4 for row in rows):
+                raise PathError(f"the Mueller matrix of '{name}' must be four rows of four entries")
+            return tuple(entry for row in rows for entry in row)
+
+        return numbers
+
+    return Kernel(name, FULL, factory)
+
+
+def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:
+    each = list(frames.values())
+    return [(frame, each[0]) for frame in each[1:]]

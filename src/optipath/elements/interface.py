@@ -1,0 +1,90 @@
+"""Interface: a smooth boundary between two media, reflecting by Fresnel's equations."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from optipath.domains import Angle, Incidence, Index, OutsideIndex
+from optipath.elements.coupling import Coupling, Operation, View, numbers_of
+from optipath.elements.element import Element
+from optipath.kernels import REFLECTION
+from optipath.materials import Material
+from optipath.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.frames import Frame
+
+
+class Interface(Element, kind="interface"):
+    """A smooth boundary; its frames have x = s, perpendicular to the plane of incidence.
+
+    Light that enters at ``in`` leaves at ``reflected``. The port ``transmitted`` is
+    named already, but gives no light in this version.
+
+    Parameters
+    ----------
+    index : float, complex, array_like, Material or Parameter
+        The index of refraction n + ik of the medium behind the boundary.
+    incidence : float, array_like or Parameter
+        The angle of incidence in radians, 0 to pi/2.
+    outside : float, array_like, Material or Parameter, optional
+        The index of the medium that light comes from, without absorption.
+    azimuth : float, array_like or Parameter, optional
+        The angle by which the frame of ``in`` is turned about the direction of
+        travel against the frame of the port before it.
+
+    Examples
+    --------
+    >>> Interface(index=0.608 + 2.12j, incidence=0.349)
+    Interface(index=(0.608+2.12j), incidence=0.349, outside=1.0, azimuth=0.0)
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
+    natural: ClassVar[str] = "reflected"
+    straight: ClassVar[bool] = False
+
+    index: Index
+    incidence: Incidence
+    outside: OutsideIndex = 1.0
+    azimuth: Angle = 0.0
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the reflection from ``in`` to ``reflected``."""
+        outside = self.outside.n if isinstance(self.outside, Material) else self.outside
+        n, k = numbers_of(self.index, self.domains()["index"])
+        angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
+        operation = Operation(REFLECTION, (outside, n, k, *angle))
+        return (Coupling("in", "reflected", (operation,)),)
+
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        """Check that x = s at both ports and that the directions meet at the incidence."""
+        if not {"in", "reflected"} <= frames.keys():
+            return []
+        arriving, leaving = frames["in"], frames["reflected"]
+        if np.any(np.abs(np.abs(np.sum(arriving.x * leaving.x, axis=-1)) - 1.0) > 1e-8):
+            return [
+                f"the frames of '{owner}.in' and '{owner}.reflected' must share one x, "
+                f"perpendicular to the plane of incidence"
+            ]
+        return self._direction_faults(owner, arriving, leaving)
+
+    def _direction_faults(self, owner: str, arriving: Frame, leaving: Frame) -> list[str]:
+        if isinstance(self.incidence, Parameter) or self.faults(owner):
+            return []
+        incidence: Any = np.asarray(self.incidence, dtype=float)
+        found = 0.5 * np.arccos(np.clip(-np.sum(arriving.z * leaving.z, axis=-1), -1.0, 1.0))
+        try:
+            off = np.abs(np.cos(2 * found) - np.cos(2 * incidence))
+        except ValueError:
+            return []  # Shapes that do not broadcast are named with all others.
+        if np.all(off <= 1e-6):
+            return []
+        return [
+            f"the frames of '{owner}' meet at an incidence of "
+            f"{np.degrees(np.ravel(found)[0]):.6g} deg, but its incidence is "
+            f"{np.degrees(np.ravel(incidence)[0]):.6g} deg; make them agree"
+        ]

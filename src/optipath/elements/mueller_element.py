@@ -1,0 +1,33 @@
+"""MuellerElement: an element given by its Mueller matrix."""
+
+from __future__ import annotations
+
+from optipath.domains import Angle, MuellerMatrix
+from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.element import Element
+from optipath.kernels import MATRIX
+
+
+class MuellerElement(Element, kind="mueller"):
+    """An element whose Mueller matrix is known, measured perhaps.
+
+    Parameters
+    ----------
+    matrix : array_like, shape (..., 4, 4), or Parameter
+        Acts on Stokes vectors in the element's frame.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame against the frame of the port before it.
+
+    Examples
+    --------
+    >>> MuellerElement(matrix=[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]).azimuth
+    0.0
+    """
+
+    matrix: MuellerMatrix
+    azimuth: Angle = 0.0
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the matrix as it is given."""
+        numbers = numbers_of(self.matrix, self.domains()["matrix"])
+        return (Coupling("in", "out", (Operation(MATRIX, numbers),)),)

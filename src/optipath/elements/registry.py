@@ -1,0 +1,50 @@
+"""The registry: which class stands behind each kind of element."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from optipath.errors import PathError, did_you_mean
+
+if TYPE_CHECKING:
+    from optipath.elements.element import Element
+
+_KINDS: dict[str, type[Element]] = {}
+
+
+def register(kind: str, element_class: type[Element]) -> None:
+    """Enter a class under its kind; defining the same class again replaces it.
+
+    Raises
+    ------
+    PathError
+        If another class has the kind already.
+    """
+    known = _KINDS.get(kind)
+    if known is not None and _identity(known) != _identity(element_class):
+        raise PathError(
+            f"element kind '{kind}' is taken by {'.'.join(_identity(known))}; choose another"
+        )
+    _KINDS[kind] = element_class
+
+
+def element_class(kind: str) -> type[Element]:
+    """Return the class of a kind.
+
+    Raises
+    ------
+    PathError
+        If the kind is unknown.
+
+    Examples
+    --------
+    >>> element_class("rotator").__name__
+    'Rotator'
+    """
+    if kind not in _KINDS:
+        raise PathError(f"element kind '{kind}' is unknown{did_you_mean(kind, sorted(_KINDS))}")
+    return _KINDS[kind]
+
+
+def _identity(element_class: type[Element]) -> tuple[str, str]:
+    return element_class.__module__, element_class.__qualname__

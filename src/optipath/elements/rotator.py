@@ -1,0 +1,29 @@
+"""Rotator: turns the plane of polarisation, the frame staying where it is."""
+
+from __future__ import annotations
+
+from optipath.domains import Angle
+from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.element import Element
+from optipath.kernels import TURN_BACK
+
+
+class Rotator(Element, kind="rotator"):
+    """An optical rotator, such as sugar solution or quartz along its axis.
+
+    Parameters
+    ----------
+    angle : float, array_like or Parameter
+        By how many radians the polarisation turns from x towards y.
+
+    Examples
+    --------
+    >>> Rotator(angle=0.1)
+    Rotator(angle=0.1)
+    """
+
+    angle: Angle
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the turn of the light, which is the frame's turn undone."""
+        return (Coupling("in", "out", (Operation(TURN_BACK, (self.angle,)),)),)

@@ -1,0 +1,92 @@
+"""The NumPy engine: runs a program's steps on whole arrays, component by component."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.kernels import IDENTITY_COLUMNS, NUMPY
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.kernels.structures import Numbers, Stokes
+    from optipath.program import Evaluation, Program
+
+def run(
+    program: Program, leaves: Sequence[np.ndarray[Any, Any]], columns_from: str | None = None
+) -> dict[int, Stokes]:
+    """Return the light of every reading, as four components that broadcast together.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    leaves : sequence of ndarray
+        The numbers behind ``program.leaves``, broadcastable.
+    columns_from : str, optional
+        Emit the four columns of a unit matrix from this source, along a new leading
+        axis, and nothing from the others: the readings are then Mueller matrices.
+
+    Returns
+    -------
+    dict of int to tuple
+        The four Stokes components for each light that is read.
+    """
+    kept = {reading.light for reading in program.readings.values()}
+    lights: dict[int, Stokes] = {}
+    lights_left = list(program.light_uses)
+    numbers: dict[int, Numbers] = {}
+    numbers_left = list(program.evaluation_uses)
+    columns = None
+    if columns_from is not None:
+        columns = {step: (0.0,) * 4 for step, _ in program.sources.values()}
+        columns[program.sources[columns_from][0]] = _unit_columns(leaves)
+
+    for light, step in enumerate(program.steps):
+        if columns is not None and light in columns:
+            lights[light] = columns[light]
+            continue
+        stokes = _sum([lights[source] for source in step.inputs])
+        if step.evaluation is not None:
+            index = step.evaluation
+            if index not in numbers:
+                numbers[index] = _evaluate(program.evaluations[index], leaves)
+            structure = program.evaluations[index].kernel.structure
+            if structure is None:
+                stokes = tuple(numbers[index])
+            else:
+                stokes = structure.apply(numbers[index], stokes)
+            numbers_left[index] -= 1
+            if not numbers_left[index]:
+                del numbers[index]
+        lights[light] = stokes
+        for source in step.inputs:
+            lights_left[source] -= 1
+            if not lights_left[source]:
+                del lights[source]
+    return {light: lights[light] for light in kept}
+
+
+def _evaluate(evaluation: Evaluation, leaves: Sequence[np.ndarray[Any, Any]]) -> Numbers:
+    function = evaluation.kernel.made_for(NUMPY)
+    numbers = function(*(leaves[leaf] for leaf in evaluation.arguments))
+    structure = evaluation.kernel.structure
+    if evaluation.presence is None or structure is None:
+        return numbers
+    present = leaves[evaluation.presence]
+    pairs = zip(numbers, structure.identity, strict=True)
+    return tuple(np.where(present, number, nothing) for number, nothing in pairs)
+
+
+def _sum(lights: Sequence[Stokes]) -> Any:
+    if len(lights) == 1:
+        return lights[0]
+    return tuple(sum(parts) for parts in zip(*lights, strict=True))
+
+
+def _unit_columns(leaves: Sequence[np.ndarray[Any, Any]]) -> Any:
+    dimensions = max((leaf.ndim for leaf in leaves), default=0)
+    unit = np.array(IDENTITY_COLUMNS).reshape(4, 4, *[1] * dimensions)
+    return tuple(unit[:, component] for component in range(4))

@@ -1,0 +1,198 @@
+"""Reference frames of polarised light, and the turn that aligns one with another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import FrameError
+from optipath.frozen import frozen
+from optipath.kernels import ALIGN, NUMPY
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+_TOLERANCE = 1e-8
+
+
+class Frame:
+    """A right-handed frame (x, y, z) whose z is the direction in which light travels.
+
+    Parameters
+    ----------
+    x, y, z : array_like, shape (..., 3), optional
+        Unit vectors in world coordinates with ``y = z cross x``; by default the
+        axes of the world itself. They broadcast together over the leading axes.
+
+    Raises
+    ------
+    FrameError
+        If the axes are no right-handed set of orthogonal unit vectors (to 1e-8).
+
+    Examples
+    --------
+    >>> Frame().turned(np.pi / 2).x.round(12)
+    array([0., 1., 0.])
+    """
+
+    __slots__ = ("x", "y", "z")
+
+    x: npt.NDArray[np.float64]
+    y: npt.NDArray[np.float64]
+    z: npt.NDArray[np.float64]
+
+    def __init__(
+        self,
+        x: npt.ArrayLike = (1.0, 0.0, 0.0),
+        y: npt.ArrayLike = (0.0, 1.0, 0.0),
+        z: npt.ArrayLike = (0.0, 0.0, 1.0),
+    ) -> None:
+        axes = {"x": _vectors("x", x), "y": _vectors("y", y), "z": _vectors("z", z)}
+        try:
+            together = np.broadcast_arrays(*axes.values())
+        except ValueError:
+            shapes = ", ".join(f"{name} {axis.shape}" for name, axis in axes.items())
+            raise FrameError(f"the axes of a frame do not broadcast: {shapes}") from None
+        for name, axis in zip(axes, together, strict=True):
+            object.__setattr__(self, name, frozen(axis))
+        self._check()
+
+    @classmethod
+    def from_direction(cls, z: npt.ArrayLike, x: npt.ArrayLike) -> Frame:
+        """Return the frame of light along z whose x lies towards the given x.
+
+        Parameters
+        ----------
+        z, x : array_like, shape (..., 3)
+            The direction of travel, of any length, and any vector not along it;
+            x is made perpendicular to z.
+
+        Raises
+        ------
+        FrameError
+            If z has no length, or x lies along z.
+
+        Examples
+        --------
+        >>> Frame.from_direction(z=(0, 0, 2), x=(3, 0, 5)).x
+        array([1., 0., 0.])
+        """
+        along = _unit("z", _vectors("z", z))
+        towards = _unit("x", _vectors("x", x))
+        across = towards - np.sum(towards * along, axis=-1, keepdims=True) * along
+        across = _unit("the part of x perpendicular to z", across)
+        return cls(across, np.cross(along, across), along)
+
+    def turned(self, angle: npt.ArrayLike) -> Frame:
+        """Return this frame turned about its z by an angle in radians (right-hand rule).
+
+        Examples
+        --------
+        >>> Frame().turned([0.0, np.pi]).x.shape
+        (2, 3)
+        """
+        a = np.asarray(angle, dtype=np.float64)[..., np.newaxis]
+        c, s = np.cos(a), np.sin(a)
+        return Frame(c * self.x + s * self.y, c * self.y - s * self.x, self.z)
+
+    def rotated(self, rotation: npt.ArrayLike) -> Frame:
+        """Return this frame carried along by a rotation of the world.
+
+        Parameters
+        ----------
+        rotation : array_like, shape (..., 3, 3)
+            A proper rotation matrix, applied to each axis.
+
+        Examples
+        --------
+        >>> Frame().rotated([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).x
+        array([0., 1., 0.])
+        """
+        matrix = np.asarray(rotation, dtype=np.float64)
+        axes = (np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z))
+        return Frame(*axes)
+
+    def turn_to(self, other: Frame) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return (cos 2a, sin 2a) of the turn a about z that takes this frame to another.
+
+        Raises
+        ------
+        FrameError
+            If the frames have different directions z.
+
+        Examples
+        --------
+        >>> c, s = Frame().turn_to(Frame().turned(np.pi / 4))
+        >>> float(abs(c)) < 1e-15, float(s)
+        (True, 1.0)
+        """
+        apart = np.linalg.norm(self.z - other.z, axis=-1)
+        if np.any(apart > _TOLERANCE):
+            where = np.unravel_index(np.argmax(apart), apart.shape)
+            first = np.broadcast_to(self.z, (*apart.shape, 3))[where]
+            second = np.broadcast_to(other.z, (*apart.shape, 3))[where]
+            raise FrameError(
+                f"light that travels along {_text(first)} cannot be aligned with a frame that "
+                f"travels along {_text(second)}; only frames with one direction can be aligned"
+            )
+        d = np.sum(self.x * other.x, axis=-1)
+        e = np.sum(self.z * np.cross(self.x, other.x), axis=-1)
+        c, s = ALIGN.made_for(NUMPY)(d, e)
+        return c, s
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Frame):
+            return NotImplemented
+        pairs = ((self.x, other.x), (self.y, other.y), (self.z, other.z))
+        return all(np.array_equal(first, second) for first, second in pairs)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a Frame cannot change; make a new one instead of setting '{name}'")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Frame, (self.x, self.y, self.z)
+
+    def __repr__(self) -> str:
+        if self.z.ndim > 1:
+            return f"<Frame batch of shape {self.z.shape[:-1]}>"
+        return f"Frame(x={_text(self.x)}, y={_text(self.y)}, z={_text(self.z)})"
+
+    def _check(self) -> None:
+        axes = np.stack([self.x, self.y, self.z], axis=-2)
+        off = np.abs(axes @ np.swapaxes(axes, -1, -2) - np.eye(3)).max(axis=(-1, -2), initial=0.0)
+        left = np.linalg.det(axes) < 0.0
+        if np.all(off <= _TOLERANCE) and not np.any(left):
+            return
+        if np.any(~(off <= _TOLERANCE)):
+            raise FrameError(
+                f"the axes of a frame must be orthogonal unit vectors; these are off by "
+                f"{np.max(off):.2g}: use Frame.from_direction(z, x) to make them so"
+            )
+        raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
+
+
+def _vectors(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise FrameError(f"axis {name} of a frame must be numbers, not {value!r}") from None
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise FrameError(f"axis {name} of a frame must have shape (..., 3), not {array.shape}")
+    if not np.all(np.isfinite(array)):
+        raise FrameError(f"axis {name} of a frame must be finite; check for NaN and infinity")
+    return array
+
+
+def _unit(name: str, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    scale = np.max(np.abs(vectors), axis=-1, keepdims=True)
+    if np.any(scale < 1e-12):
+        raise FrameError(f"{name} has no length; give a vector with a direction of its own")
+    scaled = vectors / scale
+    return scaled / np.linalg.norm(scaled, axis=-1, keepdims=True)  # type: ignore[no-any-return]
+
+
+def _text(vector: npt.NDArray[np.float64]) -> str:
+    return "(" + ", ".join(f"{float(component):.6g}" for component in vector) + ")"

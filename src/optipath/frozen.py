@@ -1,0 +1,57 @@
+"""Values that do not change: read-only copies of arrays, and equality that knows arrays."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+def array_of(value: Any) -> np.ndarray[Any, Any]:
+    """Return an array of a value; words and numbers side by side stay what they are.
+
+    Examples
+    --------
+    >>> array_of([0.5, "none"]).tolist()
+    [0.5, 'none']
+    """
+    array = np.asarray(value)
+    if array.dtype.kind == "U" and not isinstance(value, (str, np.ndarray)):
+        return np.asarray(value, dtype=object)
+    return array
+
+
+def frozen(value: Any) -> Any:
+    """Return a value that nobody can change: arrays and lists become read-only copies.
+
+    Examples
+    --------
+    >>> frozen([1.0, 2.0]).flags.writeable
+    False
+    """
+    if isinstance(value, (list, tuple, np.ndarray)):
+        try:
+            array = array_of(value).copy()
+        except ValueError:
+            # Rows of unequal lengths: kept as given, for validation to name.
+            return tuple(value)
+        if array.ndim == 0:
+            return array.item()
+        array.flags.writeable = False
+        return array
+    if isinstance(value, np.generic):
+        return value.item()
+    return value
+
+
+def same(first: Any, second: Any) -> bool:
+    """Tell whether two values are equal, arrays by shape and elements.
+
+    Examples
+    --------
+    >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
+    True
+    """
+    if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
+        return np.array_equal(np.asarray(first), np.asarray(second))
+    return bool(first == second)

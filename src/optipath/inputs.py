@@ -1,0 +1,146 @@
+"""Inputs: what may be given to a plan, and the check of what is given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, did_you_mean
+from optipath.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.domains import Domain
+    from optipath.parameters import Resolved
+
+
+@dataclass(frozen=True)
+class Use:
+    """A value where it stands.
+
+    Attributes
+    ----------
+    owner : str
+        The node and the field, such as ``X1.incidence``.
+    value : Any
+        A number, an array, or a `Parameter`.
+    domain : Domain
+        Which values are allowed there.
+    """
+
+    owner: str
+    value: Any
+    domain: Domain
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the value is a parameter that is given when the plan runs."""
+        return isinstance(self.value, Parameter) and not self.value.bound
+
+    def batch_shape(self, numbers: Any) -> tuple[int, ...]:
+        """Return the shape of numbers for this place, the axes of one value left out."""
+        shape = np.shape(numbers)
+        return shape[: len(shape) - len(self.domain.tail)]
+
+    def check_given(self, numbers: np.ndarray[Any, Any]) -> None:
+        """Check numbers given for the parameter that stands here.
+
+        Raises
+        ------
+        ValueFault
+            Naming the parameter, the place and the value.
+        """
+        signed = -numbers if self.value.negative else numbers
+        self.domain.check(f"parameter '{self.value.name}' (at {self.owner})", signed)
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """The open parameters of a path, where they are used, and the shapes already known.
+
+    Attributes
+    ----------
+    open : mapping of str to Parameter
+        What can be given.
+    bound : mapping of str to Parameter
+        What has been given for good.
+    uses : tuple of Use
+        Where the open parameters stand.
+    shapes : mapping of str to tuple of int
+        The batch shapes of arrays that are known, by owner.
+    """
+
+    open: Mapping[str, Parameter]
+    bound: Mapping[str, Parameter]
+    uses: tuple[Use, ...]
+    shapes: Mapping[str, tuple[int, ...]]
+
+    def resolve(self, given: Mapping[str, Any]) -> tuple[dict[str, Resolved], tuple[int, ...]]:
+        """Return the numbers of every open parameter, and the shape of the batch.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given.
+        """
+        faults = [self._unknown(name) for name in given if name not in self.open]
+        resolved: dict[str, Resolved] = {}
+        for name, parameter in self.open.items():
+            value = given.get(name, parameter.default)
+            if value is None:
+                faults.append(f"parameter '{name}' has no value; give one, {name}=...")
+                continue
+            try:
+                resolved[name] = parameter.resolve(value)
+            except OptipathError as fault:
+                faults += fault.faults
+        shapes = dict(self.shapes)
+        for use in self.uses:
+            name = use.value.name
+            if name not in resolved:
+                continue
+            numbers = resolved[name].value
+            shapes[name] = use.batch_shape(numbers)
+            try:
+                use.check_given(numbers)
+            except OptipathError as fault:
+                faults += fault.faults
+        faults = faults or broadcast_fault(shapes)
+        if faults:
+            raise ParameterError(*faults)
+        return resolved, np.broadcast_shapes(*shapes.values())
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Inputs):
+            return NotImplemented
+        return dict(self.open) == dict(other.open) and dict(self.shapes) == dict(other.shapes)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _unknown(self, name: str) -> str:
+        if name in self.bound:
+            value = self.bound[name]
+            return (
+                f"parameter '{name}' is bound to {value.text(value.default)}; "
+                f"leave it open when loading or building the path to vary it"
+            )
+        return f"parameter '{name}' is unknown{did_you_mean(name, self.open)}"
+
+
+def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
+    """Return the sentence that names shapes which do not broadcast, or nothing.
+
+    Examples
+    --------
+    >>> broadcast_fault({"delta": (3,), "rho": (4,)})
+    ['arrays do not broadcast together: delta (3,), rho (4,); make their axes equal or 1']
+    """
+    try:
+        np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
+        return [f"arrays do not broadcast together: {named}; make their axes equal or 1"]
+    return []

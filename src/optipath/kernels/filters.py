@@ -1,0 +1,60 @@
+"""Filters: polarisers, retarders, attenuators, ideal mirrors, and given matrices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.primitives import Primitives
+
+
+def polarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(k1, k2) -> (A, B, C, S)`` from the principal transmittances.
+
+    Chipman, Lam & Young, Polarized Light and Optical Systems (2018).
+    """
+    sqrt = xp.sqrt
+
+    def polarize(k1: Any, k2: Any) -> tuple[Any, Any, Any, Any]:
+        return 0.5 * (k1 + k2), 0.5 * (k1 - k2), sqrt(k1) * sqrt(k2), 0.0
+
+    return polarize
+
+
+def retarder(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(retardance,) -> (A, B, C, S)``, the fast axis along x.
+
+    The slow component gains the phase exp(+i retardance), the field being exp(-i w t).
+    """
+    sin, cos = xp.sin, xp.cos
+
+    def retard(retardance: Any) -> tuple[Any, Any, Any, Any]:
+        return 1.0, 0.0, cos(retardance), -sin(retardance)
+
+    return retard
+
+
+def attenuator(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(transmittance,) -> (t,)``."""
+    del xp
+    return lambda transmittance: (transmittance,)
+
+
+def complement(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(reflectance,) -> (1 - reflectance,)``: what a lossless splitter lets through."""
+    del xp
+    return lambda reflectance: (1.0 - reflectance,)
+
+
+def mirror(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(reflectance,) -> (A, B, C, S)`` of an ideal mirror, r_p = -r_s."""
+    del xp
+    return lambda reflectance: (reflectance, 0.0, -reflectance, 0.0)
+
+
+def given(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the function that returns the numbers it is given."""
+    del xp
+    return lambda *numbers: numbers

@@ -1,0 +1,93 @@
+"""Mueller: a 4x4 matrix between two reference frames."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+
+from optipath.errors import ShapeError
+from optipath.frames import Frame
+from optipath.frozen import same
+from optipath.kernels import ROTATION
+from optipath.light import Light
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+
+@dataclass(frozen=True, eq=False)
+class Mueller:
+    """What an optical system does to light: a matrix, or a batch, between two frames.
+
+    ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the
+    numbers from the frame that light leaves in to the frame it is expected in, and
+    refuse frames whose directions differ.
+
+    Parameters
+    ----------
+    matrix : array_like, shape (..., 4, 4)
+        Acts on the Stokes vectors of `Light`.
+    frame_in, frame_out : Frame, optional
+        The frames of the light that comes in and that goes out; unit frames by default.
+
+    Raises
+    ------
+    ShapeError
+        If the last two axes have not four elements each.
+
+    Examples
+    --------
+    >>> half = Mueller(np.diag([0.5, 0.5, 0.5, 0.5]))
+    >>> (half @ half @ Light([1.0, 0.0, 0.0, 0.0])).stokes
+    array([0.25, 0.  , 0.  , 0.  ])
+    """
+
+    matrix: Any
+    frame_in: Frame = field(default_factory=Frame)
+    frame_out: Frame = field(default_factory=Frame)
+
+    def __post_init__(self) -> None:
+        matrix = np.asarray(self.matrix)
+        if matrix.dtype.kind in "iub":
+            matrix = matrix.astype(np.float64)
+        if matrix.dtype.kind != "f" or matrix.shape[-2:] != (4, 4):
+            raise ShapeError(
+                f"a Mueller matrix is real and of shape (..., 4, 4), "
+                f"not {matrix.dtype} {matrix.shape}"
+            )
+        object.__setattr__(self, "matrix", matrix)
+
+    @overload
+    def __matmul__(self, other: Mueller) -> Mueller: ...
+    @overload
+    def __matmul__(self, other: Light) -> Light: ...
+    def __matmul__(self, other: Mueller | Light) -> Mueller | Light:
+        if isinstance(other, Light):
+            stokes = other.in_frame(self.frame_in).stokes
+            return Light((self.matrix @ stokes[..., np.newaxis])[..., 0], self.frame_out)
+        if isinstance(other, Mueller):
+            turn = _turn_matrix(other.frame_out, self.frame_in)
+            return Mueller(self.matrix @ turn @ other.matrix, other.frame_in, self.frame_out)
+        return NotImplemented
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Mueller):
+            return NotImplemented
+        frames = self.frame_in == other.frame_in and self.frame_out == other.frame_out
+        return frames and same(self.matrix, other.matrix)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _turn_matrix(leaves: Frame, enters: Frame) -> npt.NDArray[np.float64]:
+    rows = ROTATION.matrix(leaves.turn_to(enters))
+    return stacked(rows)
+
+
+def stacked(rows: Any) -> npt.NDArray[np.float64]:
+    """Return rows of elementwise entries as one array of shape (..., 4, 4)."""
+    entries = np.broadcast_arrays(*(entry for row in rows for entry in row))
+    flat = np.stack(entries, axis=-1)
+    return flat.reshape(*flat.shape[:-1], 4, 4)

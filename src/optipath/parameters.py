@@ -1,0 +1,198 @@
+"""Parameter: a value that is given when a plan runs, not when a path is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import ParameterError, did_you_mean
+from optipath.frozen import array_of, frozen, same
+from optipath.units import dimension_of, format_quantity, parse_quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+ABSENT = "none"
+"""The word that takes the element of an optional parameter out of the path."""
+
+
+class Resolved(NamedTuple):
+    """Numbers for a parameter, and where an optional one is there at all."""
+
+    value: npt.NDArray[Any]
+    present: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Parameter:
+    """A named value of a path that is given when it is traced.
+
+    Used in place of a value of any element; ``-parameter`` stands for its negative.
+
+    Parameters
+    ----------
+    name : str
+        The keyword that gives it, so a Python identifier.
+    default : float or array_like, optional
+        Used when none is given; without one, the parameter must be given.
+    unit : str, optional
+        The unit in which files and the command line give it. In Python every
+        value is in radians or metres, the default and the limits here too.
+    minimum, maximum : float, optional
+        The range, both ends included.
+    help : str, optional
+        One line for the command line.
+    words : mapping of str to float, optional
+        Values that have a name, such as ``{"horizontal": 0.0}``.
+    optional : bool, optional
+        Whether the word ``"none"`` takes the element out of the path.
+    bound : bool, optional
+        Whether the default is the value for good.
+
+    Raises
+    ------
+    ParameterError
+        If the name is no identifier, a bound parameter has no value, or the
+        default lies outside the range.
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    >>> Parameter("filter", words={"diagonal": 0.785}).resolve("diagonal").value
+    array(0.785)
+    """
+
+    name: str
+    default: Any = None
+    unit: str = ""
+    minimum: float = -np.inf
+    maximum: float = np.inf
+    help: str = ""
+    words: Mapping[str, float] = field(default_factory=dict)
+    optional: bool = False
+    bound: bool = False
+    negative: bool = False
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name.isidentifier():
+            raise ParameterError(
+                f"parameter name {self.name!r} must be letters, digits and underscores, "
+                f"not starting with a digit"
+            )
+        dimension_of(self.unit)
+        object.__setattr__(self, "default", frozen(self.default))
+        object.__setattr__(self, "words", dict(self.words))
+        if self.default is not None:
+            self.resolve(self.default)
+        elif self.bound:
+            raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
+
+    def __neg__(self) -> Parameter:
+        return replace(self, negative=not self.negative)
+
+    def same_specification(self, other: Parameter) -> bool:
+        """Tell whether another parameter says the same, its sign aside."""
+        names = (f.name for f in fields(self) if f.name != "negative")
+        return all(same(getattr(self, name), getattr(other, name)) for name in names)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Parameter):
+            return NotImplemented
+        return self.negative == other.negative and self.same_specification(other)
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def resolve(self, raw: Any) -> Resolved:
+        """Return the numbers that a given value stands for, sign aside.
+
+        Parameters
+        ----------
+        raw : float, complex, str or array_like
+            Numbers in radians or metres, words of this parameter, texts with a
+            unit (``"30 deg"``), or an array or list of any of these.
+
+        Returns
+        -------
+        Resolved
+            ``value`` and ``present``, both of the shape of `raw`.
+
+        Raises
+        ------
+        ParameterError
+            If it is no number or word, not finite, or outside the range.
+        """
+        try:
+            array = array_of(raw)
+        except ValueError:
+            raise ParameterError(
+                f"parameter '{self.name}' has rows of unequal lengths; make it one shape"
+            ) from None
+        present = np.ones(array.shape, dtype=bool)
+        if array.dtype.kind in "USO":
+            entries = [self._entry(entry) for entry in array.ravel().tolist()]
+            present = np.array([entry is not None for entry in entries], bool).reshape(array.shape)
+            numbers = [0.0 if entry is None else entry for entry in entries]
+            array = np.array(numbers).reshape(array.shape)
+        elif array.dtype.kind not in "iufc":
+            raise ParameterError(f"parameter '{self.name}' must be a number, not {raw!r}")
+        if array.dtype.kind in "iu":
+            array = array.astype(np.float64)
+        self._check_range(array)
+        return Resolved(array, present)
+
+    def parse(self, text: str) -> Any:
+        """Return what a text on the command line or in a file stands for: a word or a number.
+
+        Raises
+        ------
+        UnitError
+            If it is neither; a bare number is in the parameter's unit.
+        """
+        if text in self.words or (self.optional and text == ABSENT):
+            return text
+        return parse_quantity(text, dimension_of(self.unit), self.unit)
+
+    def text(self, value: Any) -> str:
+        """Write a value as files and the command line give it."""
+        if isinstance(value, str):
+            return value
+        if isinstance(value, np.ndarray):
+            return f"array of shape {value.shape}"
+        if isinstance(value, complex):
+            return str(value)
+        return format_quantity(value, self.unit)
+
+    def _entry(self, entry: Any) -> Any:
+        if not isinstance(entry, str):
+            if isinstance(entry, (int, float, complex)) and not isinstance(entry, bool):
+                return entry
+            raise ParameterError(f"parameter '{self.name}' must be a number, not {entry!r}")
+        if self.optional and entry == ABSENT:
+            return None
+        if entry in self.words:
+            return self.words[entry]
+        words = [*self.words, *([ABSENT] if self.optional else [])]
+        if entry[:1].isalpha():
+            cure = did_you_mean(entry, words) if words else "; give a number"
+            raise ParameterError(f"parameter '{self.name}' knows no word '{entry}'{cure}")
+        return parse_quantity(entry, dimension_of(self.unit))
+
+    def _check_range(self, array: npt.NDArray[Any]) -> None:
+        bad = ~np.isfinite(array)
+        if array.dtype.kind != "c":
+            bad |= (array < self.minimum) | (array > self.maximum)
+        if not np.any(bad):
+            return
+        value = array[bad].ravel()[0]
+        if not np.isfinite(value):
+            raise ParameterError(f"parameter '{self.name}' is {value}; give a finite number")
+        low, high = self.text(self.minimum), self.text(self.maximum)
+        raise ParameterError(
+            f"parameter '{self.name}' is {self.text(float(value))}, outside {low} .. {high}"
+        )

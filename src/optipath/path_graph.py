@@ -1,0 +1,275 @@
+"""PathGraph: named elements and links, the face that users touch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import networkx as nx
+
+from optipath.binding import bind
+from optipath.composer import Composer, parameters_of, validate
+from optipath.elements import Element
+from optipath.errors import PathError, did_you_mean
+from optipath.frozen import frozen, same
+from optipath.preset_format import to_toml
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.cases import Case
+    from optipath.frames import Frame
+    from optipath.light import Light
+    from optipath.mueller import Mueller
+    from optipath.parameters import Parameter
+    from optipath.plan import Plan
+
+
+@dataclass(frozen=True)
+class Node:
+    """A named element in its path; ``a >> b`` links the natural way out of a to b."""
+
+    path: PathGraph
+    name: str
+
+    def __rshift__(self, other: object) -> Node:
+        if not isinstance(other, Node):
+            return NotImplemented
+        if other.path is not self.path:
+            raise PathError(f"'{self.name}' and '{other.name}' stand in different paths; use one")
+        start, end = self.path.element(self.name), self.path.element(other.name)
+        if not start.natural:
+            ports = ", ".join(f"'{self.name}.{port}'" for port in start.outputs) or "none"
+            raise PathError(
+                f"'{self.name}' has no one natural way out; connect one of its out-ports: {ports}"
+            )
+        if len(end.inputs) != 1:
+            ports = ", ".join(f"'{other.name}.{port}'" for port in end.inputs) or "none"
+            raise PathError(
+                f"'{other.name}' has no one way in; connect one of its in-ports: {ports}"
+            )
+        self.path.connect(f"{self.name}.{start.natural}", f"{other.name}.{end.inputs[0]}")
+        return other
+
+    def __repr__(self) -> str:
+        return f"Node '{self.name}'"
+
+
+class PathGraph:
+    """An optical path: named elements, linked from out-port to in-port.
+
+    Parameters
+    ----------
+    description : str, optional
+        One line about the path.
+    cases : mapping of str to Case, optional
+        Named sets of parameter values.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> path = op.PathGraph()
+    >>> lamp = path.add("lamp", op.Source(100.0))
+    >>> glass = path.add("glass", op.Interface(index=1.5, incidence=op.Parameter("theta")))
+    >>> eye = path.add("eye", op.Detector())
+    >>> lamp >> glass >> eye
+    Node 'eye'
+    >>> path.trace(theta=0.0).stokes.round(12)
+    array([4., 0., 0., 0.])
+    """
+
+    def __init__(self, description: str = "", cases: Mapping[str, Case] | None = None) -> None:
+        self.description = description
+        self.cases = dict(cases or {})
+        self._graph = nx.MultiDiGraph()
+        self._plan: Plan | None = None
+
+    @property
+    def graph(self) -> nx.MultiDiGraph:
+        """The networkx graph, to query and not to change.
+
+        Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
+        and carry ``azimuth``.
+        """
+        return self._graph.copy(as_view=True)
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        """The parameters of all elements and links, by name, bound ones included."""
+        return parameters_of(self._graph)
+
+    def add(self, name: str, element: Element, frames: Mapping[str, Frame] | None = None) -> Node:
+        """Add a named element.
+
+        Parameters
+        ----------
+        name : str
+            Not empty, without a dot, and new to the path.
+        element : Element
+            The same element may stand in several places.
+        frames : mapping of str to Frame, optional
+            The world frame of each port, for an element that stands in space rather
+            than relative to the one before it. One frame will do for an element that
+            light goes straight through.
+
+        Returns
+        -------
+        Node
+            For ``>>``.
+
+        Raises
+        ------
+        PathError
+            If the name is taken or not allowed, the element is no Element, or a port
+            does not exist.
+        """
+        if not isinstance(name, str) or not name or "." in name:
+            raise PathError(f"node name {name!r} must be a text without a dot; choose another")
+        if name in self._graph:
+            raise PathError(f"node '{name}' is there already; choose another name")
+        if not isinstance(element, Element):
+            raise PathError(f"node '{name}' must be an element such as Polarizer(), not {element!r}")
+        frames = dict(frames or {})
+        for port in frames:
+            element.check_port(name, port, (*element.inputs, *element.outputs))
+        self._graph.add_node(name, element=element, frames=frames)
+        self._plan = None
+        return Node(self, name)
+
+    def connect(self, leaves: str, enters: str, azimuth: Any = None) -> None:
+        """Link an out-port to an in-port.
+
+        Parameters
+        ----------
+        leaves, enters : str
+            The ports, as ``"node.port"``.
+        azimuth : float, array_like or Parameter, optional
+            The turn of the in-port's frame against the out-port's about the direction
+            of travel, in radians; by default the azimuth of the element.
+
+        Raises
+        ------
+        PathError
+            If a node or port does not exist, runs the other way, or the link is there
+            already.
+        """
+        faults = []
+        ends = []
+        for text, out in ((leaves, True), (enters, False)):
+            try:
+                ends.append(self._port(text, out=out))
+            except PathError as fault:
+                faults += fault.faults
+        if faults:
+            raise PathError(*faults)
+        (start, out_port), (end, in_port) = ends
+        if self._graph.has_edge(start, end, key=(out_port, in_port)):
+            raise PathError(f"link '{leaves} -> {enters}' is there already; remove the second one")
+        self._graph.add_edge(start, end, key=(out_port, in_port), azimuth=frozen(azimuth))
+        self._plan = None
+
+    def element(self, name: str) -> Element:
+        """Return the element of a node.
+
+        Raises
+        ------
+        PathError
+            If there is no such node.
+        """
+        if name not in self._graph:
+            raise PathError(f"node '{name}' does not exist{did_you_mean(name, self._graph)}")
+        return self._graph.nodes[name]["element"]  # type: ignore[no-any-return]
+
+    def __getitem__(self, name: str) -> Node:
+        self.element(name)
+        return Node(self, name)
+
+    def check(self) -> None:
+        """Raise with every fault of the path, if it has any.
+
+        Raises
+        ------
+        PathError
+            A sentence for each fault.
+        """
+        validate(self._graph)
+
+    def compose(self) -> Plan:
+        """Return the plan of a default `Composer`, composed once and kept."""
+        if self._plan is None:
+            self._plan = Composer().compose(self._graph)
+        return self._plan
+
+    def trace(self, /, **parameters: Any) -> Light:
+        """Return the light at the only detector; see `Plan.run`."""
+        return self.compose().run(**parameters)
+
+    def trace_all(self, /, **parameters: Any) -> dict[str, Light]:
+        """Return the light at every detector and dump by name; see `Plan.run_all`."""
+        return self.compose().run_all(**parameters)
+
+    def mueller(
+        self, source: str | None = None, detector: str | None = None, /, **parameters: Any
+    ) -> Mueller:
+        """Return the Mueller matrix from a source to a detector; see `Plan.mueller`."""
+        return self.compose().mueller(source, detector, **parameters)
+
+    def bind(self, /, **values: Any) -> PathGraph:
+        """Return a copy of the path in which parameters have these values for good.
+
+        Raises
+        ------
+        ParameterError
+            With every unknown parameter and every value that is not allowed.
+        """
+        return PathGraph.from_graph(bind(self._graph, values), self.description, self.cases)
+
+    @classmethod
+    def from_graph(
+        cls, graph: nx.MultiDiGraph, description: str = "", cases: Mapping[str, Case] | None = None
+    ) -> PathGraph:
+        """Return a path over a networkx graph of elements, made as `graph` describes."""
+        path = cls(description, cases)
+        path._graph = graph
+        return path
+
+    def to_toml(self) -> str:
+        """Return the path as the text of a preset file; loading it gives the path back.
+
+        Raises
+        ------
+        PathError
+            If an element has no kind, or a value has no form in TOML.
+        """
+        return to_toml(self._graph, self.description, self.cases)
+
+    def _port(self, text: str, *, out: bool) -> tuple[str, str]:
+        way, example = ("out", "node.out") if out else ("in", "node.in")
+        if not isinstance(text, str) or text.count(".") != 1:
+            raise PathError(f"{text!r} is no {way}-port; write it as '{example}'")
+        name, _, port = text.partition(".")
+        element = self.element(name)
+        element.check_port(name, port, element.outputs if out else element.inputs)
+        return name, port
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, PathGraph):
+            return NotImplemented
+        mine, theirs = self._graph, other._graph
+        return (
+            self.description == other.description
+            and self.cases == other.cases
+            and dict(mine.nodes(data=True)) == dict(theirs.nodes(data=True))
+            and _links(mine).keys() == _links(theirs).keys()
+            and all(same(turn, _links(theirs)[link]) for link, turn in _links(mine).items())
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
+        return f"<PathGraph with {nodes} nodes and {links} links>"
+
+
+def _links(graph: nx.MultiDiGraph) -> dict[Any, Any]:
+    return {(start, end, key): turn for start, end, key, turn in graph.edges(keys=True, data="azimuth")}

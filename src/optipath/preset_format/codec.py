@@ -1,0 +1,134 @@
+"""Values as preset files write them: ``"30 deg"``, ``1.5``, ``"$name"``, ``{n = 1, k = 2}``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.domains import Choice, Domain, IndexDomain
+from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
+from optipath.materials import Material
+from optipath.parameters import ABSENT, Parameter
+from optipath.units import dimension_of, format_quantity, parse_quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_WRITTEN_UNIT = {"angle": "deg", "length": "nm", "": ""}
+
+
+def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+    """Return the value of an element's field.
+
+    Parameters
+    ----------
+    raw : Any
+        What stands in the file.
+    domain : Domain
+        What the field may be.
+    parameters : mapping of str to Parameter
+        What ``"$name"`` can refer to.
+
+    Raises
+    ------
+    OptipathError
+        If it is none of these, or its unit does not fit.
+
+    Examples
+    --------
+    >>> from optipath.domains import REAL
+    >>> decode([1, 2.5], REAL, {})
+    [1.0, 2.5]
+    """
+    if isinstance(domain, Choice):
+        return domain.check("it", raw)
+    if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
+        return _reference(raw, parameters)
+    if isinstance(raw, dict) and isinstance(domain, IndexDomain):
+        return _material(raw, domain, parameters)
+    return _number(raw, domain.dimension)
+
+
+def decode_given(raw: Any, parameter: Parameter) -> Any:
+    """Return a value given for a parameter: a default, or one of a case.
+
+    Raises
+    ------
+    OptipathError
+        If it is no word of the parameter and no quantity of its dimension.
+    """
+    if isinstance(raw, str) and (raw in parameter.words or raw == ABSENT):
+        return raw
+    if isinstance(raw, list):
+        return [decode_given(entry, parameter) for entry in raw]
+    if isinstance(raw, dict):
+        return complex(_number(raw.get("n"), ""), _number(raw.get("k"), ""))
+    if isinstance(raw, str) and parameter.words and raw[:1].isalpha():
+        raise PresetError(f"'{raw}' is no word{did_you_mean(raw, parameter.words)}")
+    return _number(raw, dimension_of(parameter.unit))
+
+
+def encode(value: Any, dimension: str) -> Any:
+    """Write a value so that decoding gives it back.
+
+    Raises
+    ------
+    PresetError
+        If it has no form in TOML.
+    """
+    if isinstance(value, Parameter):
+        return f"{'-' * value.negative}${value.name}"
+    if isinstance(value, Material):
+        return {"n": encode(value.n, dimension), "k": encode(value.k, dimension)}
+    if isinstance(value, str):
+        return value
+    if isinstance(value, np.ndarray) and value.dtype.kind != "c":
+        return [encode(entry, dimension) for entry in value.tolist()]
+    if isinstance(value, list):
+        return [encode(entry, dimension) for entry in value]
+    if isinstance(value, np.ndarray):
+        return {"n": value.real.tolist(), "k": value.imag.tolist()}
+    if isinstance(value, complex):
+        return {"n": value.real, "k": value.imag}
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        if not dimension or np.isinf(value):
+            return float(value)
+        return format_quantity(value, _WRITTEN_UNIT[dimension])
+    raise PresetError(f"{value!r} has no form in a preset file; use numbers or parameters")
+
+
+def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
+    sign, _, name = raw.partition("$")
+    if sign not in ("", "-") or name not in parameters:
+        known = [f"${parameter}" for parameter in parameters]
+        raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
+    return -parameters[name] if sign else parameters[name]
+
+
+def _material(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Material:
+    faults = [f"key '{key}' is unknown{did_you_mean(key, 'nk')}" for key in raw.keys() - {"n", "k"}]
+    if "n" not in raw:
+        faults.append("an index written as a table needs 'n'")
+    parts = {}
+    for key in raw.keys() & {"n", "k"}:
+        try:
+            parts[key] = decode(raw[key], Domain(domain.name), parameters)
+        except OptipathError as fault:
+            faults += [f"{key}: {sentence}" for sentence in fault.faults]
+    if faults:
+        raise PresetError(*faults)
+    return Material(**parts)
+
+
+def _number(raw: Any, dimension: str) -> Any:
+    if isinstance(raw, list):
+        return [_number(entry, dimension) for entry in raw]
+    if isinstance(raw, str):
+        return parse_quantity(raw, dimension)
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        raise UnitError(f"{raw!r} is not a number")
+    if dimension and np.isfinite(raw):
+        unit = _WRITTEN_UNIT[dimension]
+        raise UnitError(f"{raw!r} has no unit, but an {dimension} is asked for; write '{raw} {unit}'")
+    return float(raw)

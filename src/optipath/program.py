@@ -1,0 +1,120 @@
+"""Program: a path as an ordered list of steps, ready for an engine.
+
+Nothing here knows a graph or an element. Lights are numbered by the step that
+makes them, evaluations and leaves by their place in their lists.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.frames import Frame
+    from optipath.kernels import Kernel
+    from optipath.views import View
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """A kernel called on leaves.
+
+    Attributes
+    ----------
+    kernel : Kernel
+        What is computed.
+    arguments : tuple of int
+        The leaves it is given.
+    presence : int or None
+        The leaf that says where the element is there at all; None where it always is.
+    """
+
+    kernel: Kernel
+    arguments: tuple[int, ...]
+    presence: int | None = None
+
+
+@dataclass(frozen=True)
+class Step:
+    """Makes one light: the sum of its inputs, changed by an evaluation.
+
+    Attributes
+    ----------
+    label : str
+        The node and the port where this happens.
+    inputs : tuple of int
+        The lights that are added up; empty where light is emitted.
+    evaluation : int or None
+        What is done to the sum; None leaves it as it is.
+    """
+
+    label: str
+    inputs: tuple[int, ...]
+    evaluation: int | None = None
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A light that a detector or a dump takes.
+
+    Attributes
+    ----------
+    light : int
+        The step that makes it.
+    frame : Frame
+        The frame of the port where it arrives.
+    components : int
+        How many of the four Stokes components are read.
+    """
+
+    light: int
+    frame: Frame
+    components: int = 4
+
+
+@dataclass(frozen=True)
+class Program:
+    """Everything an engine needs.
+
+    Attributes
+    ----------
+    leaves : tuple of View
+        The numbers that kernels are given, constants and parameters alike.
+    evaluations : tuple of Evaluation
+        What is computed from the leaves.
+    steps : tuple of Step
+        In the order of travel.
+    sources : mapping of str to (int, Frame)
+        The emitting step and the frame of each source.
+    detectors, dumps : mapping of str to Reading
+        Where light ends.
+    """
+
+    leaves: tuple[View, ...]
+    evaluations: tuple[Evaluation, ...]
+    steps: tuple[Step, ...]
+    sources: Mapping[str, tuple[int, Frame]]
+    detectors: Mapping[str, Reading]
+    dumps: Mapping[str, Reading]
+
+    @cached_property
+    def light_uses(self) -> tuple[int, ...]:
+        """How often each light is read, by a later step or by a detector."""
+        uses = Counter(light for step in self.steps for light in step.inputs)
+        uses.update(reading.light for reading in self.readings.values())
+        return tuple(uses[light] for light in range(len(self.steps)))
+
+    @cached_property
+    def evaluation_uses(self) -> tuple[int, ...]:
+        """How often each evaluation is needed."""
+        uses = Counter(step.evaluation for step in self.steps)
+        return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
+
+    @property
+    def readings(self) -> Mapping[str, Reading]:
+        """Where light ends, detectors and dumps together."""
+        return {**self.detectors, **self.dumps}

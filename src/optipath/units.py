@@ -1,0 +1,120 @@
+"""Quantities with units, as they stand in files and on the command line.
+
+Inside the library an angle is in radians and a length in metres.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+from optipath.errors import UnitError, did_you_mean
+
+_ANGLES = {
+    "deg": math.pi / 180.0,
+    "rad": 1.0,
+    "mrad": 1e-3,
+    "arcmin": math.pi / 10800.0,
+    "arcsec": math.pi / 648000.0,
+}
+_LENGTHS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+
+UNITS: dict[str, tuple[str, float]] = {
+    **{unit: ("angle", size) for unit, size in _ANGLES.items()},
+    **{unit: ("length", size) for unit, size in _LENGTHS.items()},
+}
+
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", re.ASCII)
+
+
+def dimension_of(unit: str) -> str:
+    """Return the dimension of a unit: ``"angle"``, ``"length"``, or ``""`` for no unit.
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    >>> dimension_of("deg"), dimension_of("")
+    ('angle', '')
+    """
+    if unit == "":
+        return ""
+    if unit not in UNITS:
+        raise UnitError(f"unit '{unit}' is unknown{did_you_mean(unit, UNITS)}")
+    return UNITS[unit][0]
+
+
+def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
+    """Return the number that a text such as ``"30 deg"`` stands for.
+
+    Parameters
+    ----------
+    text : str
+        A number and its unit.
+    dimension : str
+        The dimension asked for: ``"angle"``, ``"length"``, or ``""``.
+    default_unit : str, optional
+        The unit of a bare number; without one, a bare number is accepted only
+        where there is no dimension.
+
+    Returns
+    -------
+    float
+        Radians, metres, or a pure number.
+
+    Raises
+    ------
+    UnitError
+        If the text is no number, or its unit is missing, unknown or of another dimension.
+
+    Examples
+    --------
+    >>> parse_quantity("180 deg", "angle")
+    3.141592653589793
+    """
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        example = f"30 {_example_unit(dimension)}".strip()
+        raise UnitError(f"'{text}' is not a quantity; write a number such as '{example}'")
+    number, unit = float(match[1]), match[2] or default_unit
+    found = dimension_of(unit)
+    if found != dimension:
+        raise UnitError(_mismatch(text, unit, dimension))
+    return number * UNITS[unit][1] if unit else number
+
+
+def format_quantity(value: float, unit: str) -> str:
+    """Write a number with a unit so that reading it gives the very same number back.
+
+    Examples
+    --------
+    >>> format_quantity(0.8377580409572782, "deg"), format_quantity(1.33, "")
+    ('48 deg', '1.33')
+    """
+    if unit == "":
+        return repr(float(value))
+    dimension, size = UNITS[unit]
+    rounded = float(f"{value / size:.13g}")
+    if rounded * size == value:
+        return f"{rounded:.13g} {unit}"
+    exact = value / size
+    if exact * size == value:
+        return f"{exact!r} {unit}"
+    base = {"angle": "rad", "length": "m"}[dimension]
+    return f"{float(value)!r} {base}"
+
+
+def _example_unit(dimension: str) -> str:
+    return {"angle": "deg", "length": "nm"}.get(dimension, "")
+
+
+def _mismatch(text: str, unit: str, dimension: str) -> str:
+    units = ", ".join(name for name, (found, _) in UNITS.items() if found == dimension)
+    if not dimension:
+        return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
+    if not unit:
+        return f"'{text}' has no unit, but an {dimension} is asked for; add one of {units}"
+    return f"'{text}' is no {dimension}; use one of {units}"
