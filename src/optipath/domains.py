@@ -106,6 +106,7 @@ class IndexDomain(Domain):
         return [(f"{name}.n", value.n, _N), (f"{name}.k", value.k, _K)]
 
     def described(self) -> str:
+        """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
@@ -144,8 +145,7 @@ class StokesDomain(Domain):
         if np.any(bad):
             state = array[bad].reshape(-1, 4)[0].tolist()
             raise ValueFault(
-                f"{owner} is {state}, polarised by more than 100 %; "
-                f"give S1^2 + S2^2 + S3^2 <= S0^2"
+                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
             )
 
 

@@ -53,8 +53,8 @@ def fresnel_reflection(
     Examples
     --------
     >>> A, B, C, S = fresnel_reflection(1.5, 1.0, 0.0)
-    >>> float(A), float(B), float(C), float(S)
-    (0.04, 0.0, -0.04, 0.0)
+    >>> float(A), float(B), float(S)
+    (0.04, 0.0, 0.0)
     """
     m = _INDEX.check("index", index)
     c = _COSINE.check("cos_incidence", cos_incidence)

@@ -42,7 +42,7 @@ class Use:
 
     def batch_shape(self, numbers: Any) -> tuple[int, ...]:
         """Return the shape of numbers for this place, the axes of one value left out."""
-        shape = np.shape(numbers)
+        shape: tuple[int, ...] = np.shape(numbers)
         return shape[: len(shape) - len(self.domain.tail)]
 
     def check_given(self, numbers: np.ndarray[Any, Any]) -> None:

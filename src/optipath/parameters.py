@@ -168,6 +168,17 @@ class Parameter:
             return str(value)
         return format_quantity(value, self.unit)
 
+    def range_text(self) -> str:
+        """Write the range, or nothing where there is none."""
+        low, high = self.minimum, self.maximum
+        if np.isinf(low) and np.isinf(high):
+            return ""
+        if np.isinf(high):
+            return f"{self.text(low)} or more"
+        if np.isinf(low):
+            return f"{self.text(high)} or less"
+        return f"{self.text(low)} .. {self.text(high)}"
+
     def _entry(self, entry: Any) -> Any:
         if not isinstance(entry, str):
             if isinstance(entry, (int, float, complex)) and not isinstance(entry, bool):
@@ -192,7 +203,7 @@ class Parameter:
         value = array[bad].ravel()[0]
         if not np.isfinite(value):
             raise ParameterError(f"parameter '{self.name}' is {value}; give a finite number")
-        low, high = self.text(self.minimum), self.text(self.maximum)
+        given = self.text(float(value))
         raise ParameterError(
-            f"parameter '{self.name}' is {self.text(float(value))}, outside {low} .. {high}"
+            f"parameter '{self.name}' is {given}, outside its range; give {self.range_text()}"
         )

@@ -15,7 +15,7 @@ from optipath.frozen import frozen, same
 from optipath.preset_format import to_toml
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from optipath.cases import Case
     from optipath.frames import Frame
@@ -64,6 +64,8 @@ class PathGraph:
         One line about the path.
     cases : mapping of str to Case, optional
         Named sets of parameter values.
+    declared : sequence of str, optional
+        The order in which parameters are listed; others follow as they are met.
 
     Examples
     --------
@@ -74,14 +76,19 @@ class PathGraph:
     >>> eye = path.add("eye", op.Detector())
     >>> lamp >> glass >> eye
     Node 'eye'
-    >>> path.trace(theta=0.0).stokes.round(12)
-    array([4., 0., 0., 0.])
+    >>> path.trace(theta=0.0).intensity.round(12)
+    array(4.)
     """
 
-    def __init__(self, description: str = "", cases: Mapping[str, Case] | None = None) -> None:
+    def __init__(
+        self,
+        description: str = "",
+        cases: Mapping[str, Case] | None = None,
+        declared: Sequence[str] = (),
+    ) -> None:
         self.description = description
         self.cases = dict(cases or {})
-        self._graph = nx.MultiDiGraph()
+        self._graph = nx.MultiDiGraph(declared=tuple(declared))
         self._plan: Plan | None = None
 
     @property
@@ -128,7 +135,9 @@ class PathGraph:
         if name in self._graph:
             raise PathError(f"node '{name}' is there already; choose another name")
         if not isinstance(element, Element):
-            raise PathError(f"node '{name}' must be an element such as Polarizer(), not {element!r}")
+            raise PathError(
+                f"node '{name}' must be an element such as Polarizer(), not {element!r}"
+            )
         frames = dict(frames or {})
         for port in frames:
             element.check_port(name, port, (*element.inputs, *element.outputs))
@@ -153,7 +162,7 @@ class PathGraph:
             If a node or port does not exist, runs the other way, or the link is there
             already.
         """
-        faults = []
+        faults: list[str] = []
         ends = []
         for text, out in ((leaves, True), (enters, False)):
             try:
@@ -222,15 +231,8 @@ class PathGraph:
         ParameterError
             With every unknown parameter and every value that is not allowed.
         """
-        return PathGraph.from_graph(bind(self._graph, values), self.description, self.cases)
-
-    @classmethod
-    def from_graph(
-        cls, graph: nx.MultiDiGraph, description: str = "", cases: Mapping[str, Case] | None = None
-    ) -> PathGraph:
-        """Return a path over a networkx graph of elements, made as `graph` describes."""
-        path = cls(description, cases)
-        path._graph = graph
+        path = PathGraph(self.description, self.cases)
+        path._graph = bind(self._graph, values)
         return path
 
     def to_toml(self) -> str:
@@ -272,4 +274,6 @@ class PathGraph:
 
 
 def _links(graph: nx.MultiDiGraph) -> dict[Any, Any]:
-    return {(start, end, key): turn for start, end, key, turn in graph.edges(keys=True, data="azimuth")}
+    return {
+        (start, end, key): turn for start, end, key, turn in graph.edges(keys=True, data="azimuth")
+    }

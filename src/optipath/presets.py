@@ -80,9 +80,7 @@ def locate(preset: str | PathLike[str]) -> Path:
     """
     if isinstance(preset, str) and _NAME.fullmatch(preset):
         if preset not in preset_names():
-            raise PresetError(
-                f"preset '{preset}' is unknown{did_you_mean(preset, preset_names())}"
-            )
+            raise PresetError(f"preset '{preset}' is unknown{did_you_mean(preset, preset_names())}")
         return _folder() / f"{preset}.toml"
     try:
         path = Path(preset)

@@ -86,6 +86,21 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
     return number * UNITS[unit][1] if unit else number
 
 
+def in_unit(value: float, unit: str) -> float:
+    """Return a number of radians or metres in another unit, without the noise of conversion.
+
+    Examples
+    --------
+    >>> in_unit(0.8377580409572782, "deg")
+    48.0
+    """
+    if unit == "":
+        return float(value)
+    size = UNITS[unit][1]
+    rounded = float(f"{value / size:.13g}")
+    return rounded if rounded * size == value else value / size
+
+
 def format_quantity(value: float, unit: str) -> str:
     """Write a number with a unit so that reading it gives the very same number back.
 
@@ -97,12 +112,9 @@ def format_quantity(value: float, unit: str) -> str:
     if unit == "":
         return repr(float(value))
     dimension, size = UNITS[unit]
-    rounded = float(f"{value / size:.13g}")
-    if rounded * size == value:
-        return f"{rounded:.13g} {unit}"
-    exact = value / size
-    if exact * size == value:
-        return f"{exact!r} {unit}"
+    number = in_unit(value, unit)
+    if number * size == value:
+        return f"{repr(number).removesuffix('.0')} {unit}"
     base = {"angle": "rad", "length": "m"}[dimension]
     return f"{float(value)!r} {base}"
 

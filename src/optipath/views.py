@@ -66,16 +66,17 @@ class View:
     def _part_of(self, numbers: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         match self.part:
             case "real":
-                return numbers.real
+                return np.real(numbers)
             case "imag":
                 # Adding 0 turns -0 into 0: an index without absorption has one sign only.
-                return numbers.imag + 0.0
+                return np.asarray(np.imag(numbers) + 0.0)
             case "cos":
-                return np.cos(numbers)
+                return np.asarray(np.cos(numbers))
             case "sin":
-                return np.sin(numbers)
+                return np.asarray(np.sin(numbers))
             case int(position):
-                return numbers[(..., *np.unravel_index(position, self.tail))]
+                flat = numbers.reshape(*numbers.shape[: -len(self.tail)], -1)
+                return np.asarray(flat[..., position])
             case _:
                 return numbers
 

@@ -54,7 +54,8 @@ class _Builder:
 
     def program(self) -> Program:
         """Return what has been collected."""
-        detectors, dumps = {}, {}
+        detectors: dict[str, Reading] = {}
+        dumps: dict[str, Reading] = {}
         for name, port in ending(self.graph):
             if (name, port) not in self.lights:
                 continue
@@ -79,10 +80,11 @@ class _Builder:
         if way in element.inputs:
             self._add_arrivals(port)
             return
-        lights = []
-        for coupling in element.couplings():
-            if coupling.leaves == way and self._is_lit(name, coupling):
-                lights.append(self._pass(name, coupling))
+        lights = [
+            self._pass(name, coupling)
+            for coupling in element.couplings()
+            if coupling.leaves == way and self._is_lit(name, coupling)
+        ]
         self.lights[port] = self._sum(f"{name}.{way}", lights)
 
     def _add_arrivals(self, port: Port) -> None:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from optipath.frames import Frame
 
+
 def frame_at(graph: nx.MultiDiGraph, name: str, port: str) -> Frame | None:
     """Return the world frame of a port; None for a port placed relatively."""
     frames = graph.nodes[name]["frames"]
@@ -101,7 +102,9 @@ def _meeting_faults(graph: nx.MultiDiGraph, name: str, element: Any) -> list[str
     links = list(graph.in_edges(name, keys=True))
     placed = [link for link in links if frame_at(graph, link[0], link[2][0]) is not None]
     if len(links) > 1 and placed:
-        return [f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"]
+        return [
+            f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"
+        ]
     return []
 
 

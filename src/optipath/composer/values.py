@@ -31,12 +31,13 @@ def uses_of(graph: nx.MultiDiGraph) -> Iterator[Use]:
 
 
 def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:
-    """Return the parameters of a path by name, in the order in which they are met."""
+    """Return the parameters of a path by name: in declared order, then as they are met."""
     found: dict[str, Parameter] = {}
     for use in uses_of(graph):
         if isinstance(use.value, Parameter) and use.value.name not in found:
             found[use.value.name] = -use.value if use.value.negative else use.value
-    return found
+    declared = [name for name in graph.graph.get("declared", ()) if name in found]
+    return {name: found[name] for name in dict.fromkeys([*declared, *found])}
 
 
 def inputs_of(graph: nx.MultiDiGraph) -> Inputs:

@@ -88,7 +88,7 @@ class Element:
     @classmethod
     def domains(cls) -> Mapping[str, Domain]:
         """Return the domain of each field, in order; a field without one is a real number."""
-        return _domains(cls)
+        return _domains(cls)  # type: ignore[arg-type]
 
     @classmethod
     def needs(cls, name: str) -> bool:
@@ -109,7 +109,7 @@ class Element:
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""
-        found = []
+        found: list[str] = []
         for name, value, domain in self.quantities():
             if isinstance(value, Parameter) and not isinstance(domain, Choice):
                 continue
@@ -143,7 +143,7 @@ class Element:
         operation = Operation(self._kernel, tuple(number for part in arguments for number in part))
         return (Coupling("in", "out", (operation,)),)
 
-    def mueller(  # noqa: PLR0913 - two ports, a method, two frames
+    def mueller(
         self,
         enters: str = "in",
         leaves: str = "",

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from optipath.domains import Angle, Incidence, Index, OutsideIndex
-from optipath.elements.coupling import Coupling, Operation, View, numbers_of
+from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.kernels import REFLECTION
 from optipath.materials import Material
 from optipath.parameters import Parameter
+from optipath.views import View
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -66,10 +67,8 @@ class Interface(Element, kind="interface"):
             return []
         arriving, leaving = frames["in"], frames["reflected"]
         if np.any(np.abs(np.abs(np.sum(arriving.x * leaving.x, axis=-1)) - 1.0) > 1e-8):
-            return [
-                f"the frames of '{owner}.in' and '{owner}.reflected' must share one x, "
-                f"perpendicular to the plane of incidence"
-            ]
+            problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"
+            return [f"{problem}, perpendicular to the plane of incidence"]
         return self._direction_faults(owner, arriving, leaving)
 
     def _direction_faults(self, owner: str, arriving: Frame, leaving: Frame) -> list[str]:
@@ -83,8 +82,6 @@ class Interface(Element, kind="interface"):
             return []  # Shapes that do not broadcast are named with all others.
         if np.all(off <= 1e-6):
             return []
-        return [
-            f"the frames of '{owner}' meet at an incidence of "
-            f"{np.degrees(np.ravel(found)[0]):.6g} deg, but its incidence is "
-            f"{np.degrees(np.ravel(incidence)[0]):.6g} deg; make them agree"
-        ]
+        meeting, given = np.degrees(np.ravel(found)[0]), np.degrees(np.ravel(incidence)[0])
+        problem = f"the frames of '{owner}' meet at an incidence of {meeting:.6g} deg"
+        return [f"{problem}, but its incidence is {given:.6g} deg; make them agree"]

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from optipath.domains import Reads
-from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
+
+if TYPE_CHECKING:
+    from optipath.elements.coupling import Coupling
 
 
 class Terminal(Element):

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from optipath.kernels.structures import Numbers, Stokes
     from optipath.program import Evaluation, Program
 
+
 def run(
     program: Program, leaves: Sequence[np.ndarray[Any, Any]], columns_from: str | None = None
 ) -> dict[int, Stokes]:
@@ -88,5 +89,5 @@ def _sum(lights: Sequence[Stokes]) -> Any:
 
 def _unit_columns(leaves: Sequence[np.ndarray[Any, Any]]) -> Any:
     dimensions = max((leaf.ndim for leaf in leaves), default=0)
-    unit = np.array(IDENTITY_COLUMNS).reshape(4, 4, *[1] * dimensions)
+    unit: np.ndarray[Any, Any] = np.array(IDENTITY_COLUMNS).reshape(4, 4, *[1] * dimensions)
     return tuple(unit[:, component] for component in range(4))

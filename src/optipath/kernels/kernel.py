@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels.primitives import Primitives
-from optipath.kernels.structures import Structure
+
+if TYPE_CHECKING:
+    from optipath.kernels.structures import Structure
 
 Factory: TypeAlias = Callable[[Primitives], Callable[..., tuple[Any, ...]]]
 

@@ -130,5 +130,7 @@ def _number(raw: Any, dimension: str) -> Any:
         raise UnitError(f"{raw!r} is not a number")
     if dimension and np.isfinite(raw):
         unit = _WRITTEN_UNIT[dimension]
-        raise UnitError(f"{raw!r} has no unit, but an {dimension} is asked for; write '{raw} {unit}'")
+        raise UnitError(
+            f"{raw!r} has no unit, but an {dimension} is asked for; write '{raw} {unit}'"
+        )
     return float(raw)

@@ -18,7 +18,13 @@ PARAMETER |= {"optional": bool, "bound": bool}
 LINK = {"from": str, "to": str, "azimuth": object}
 CASE = {"values": dict, "published": dict, "note": str}
 
-_WORDS = {int: "a whole number", str: "a text", dict: "a table", list: "a list", bool: "true or false"}
+_WORDS = {
+    int: "a whole number",
+    str: "a text",
+    dict: "a table",
+    list: "a list",
+    bool: "true or false",
+}
 
 
 def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> list[str]:

@@ -41,7 +41,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         tables.append(_lines(f"[parameters.{_key(name)}]", _parameter(parameter)))
     for name, element in graph.nodes(data="element"):
         try:
-            row = _element(name, element, graph.nodes[name]["frames"])
+            row = _element(element, graph.nodes[name]["frames"])
         except OptipathError as fault:
             faults += [f"{name}: {sentence}" for sentence in fault.faults]
         else:
@@ -79,7 +79,7 @@ def _parameter(parameter: Parameter) -> dict[str, Any]:
     return row
 
 
-def _element(name: str, element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
+def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
     if not element.kind:
         raise PathError(
             f"class {type(element).__name__} has no kind; define it as "

@@ -1,0 +1,67 @@
+"""The command ``optipath``: its subcommands, and how errors end it."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+import click
+
+from optipath.cli.explain import explain
+from optipath.cli.presets import presets
+from optipath.cli.run import run
+from optipath.cli.show import show
+from optipath.errors import OptipathError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+@click.group(invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(version("optipath"), prog_name="optipath")
+@click.pass_context
+def cli(context: click.Context) -> None:
+    """Trace polarised light along optical paths; angles are in degrees."""
+    if context.invoked_subcommand is None:
+        click.echo(context.get_help())
+
+
+cli.add_command(presets)
+cli.add_command(show)
+cli.add_command(run)
+cli.add_command(explain)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; return the exit status.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        What stands behind ``optipath``; that of the process by default.
+
+    Returns
+    -------
+    int
+        0, or 2 with one line on standard error for bad input.
+    """
+    try:
+        cli.main(args=arguments, prog_name="optipath", standalone_mode=False)
+    except click.ClickException as error:
+        return _refuse(error.format_message())
+    except OptipathError as error:
+        return _refuse("; ".join(error.faults))
+    except (click.Abort, KeyboardInterrupt):
+        return 130
+    except BrokenPipeError:
+        # Whoever read the output has seen enough; keep Python from saying so at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+def _refuse(message: str) -> int:
+    line = " ".join(message.split())
+    click.echo(f"optipath: {line}", err=True)
+    return 2

@@ -1,0 +1,96 @@
+"""Subcommands that take a preset, with an option for each of its parameters."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from optipath.errors import OptipathError, PresetError
+from optipath.kernels import METHODS
+from optipath.parameters import ABSENT, Parameter
+from optipath.presets import load_preset, preset_names
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+RESERVED = ("case", "json", "method", "help", "h")
+
+
+class Value(click.ParamType):  # type: ignore[type-arg]
+    """A value for a parameter: a number in its unit, a number with a unit, or a word."""
+
+    def __init__(self, parameter: Parameter) -> None:
+        self.parameter = parameter
+        self.name = parameter.unit or "number"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> Any:
+        """Return the number or word, or fail with one sentence."""
+        try:
+            given = self.parameter.parse(value)
+            self.parameter.resolve(given)
+        except OptipathError as error:
+            self.fail("; ".join(error.faults), param, ctx)
+        return given
+
+
+class PresetGroup(click.Group):
+    """A group whose subcommands are the presets, and files of the user's own.
+
+    Parameters
+    ----------
+    action : callable
+        ``action(preset, case, values, method, as_json)``.
+    """
+
+    def __init__(self, name: str, action: Callable[..., None], **keywords: Any) -> None:
+        keywords.setdefault("subcommand_metavar", "PRESET [OPTIONS]")
+        super().__init__(name, **keywords)
+        self.action = action
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names of the presets."""
+        del ctx
+        return preset_names()
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
+        """Return the command of a preset, with its parameters as options."""
+        del ctx
+        path = load_preset(cmd_name)
+        taken = sorted(set(path.parameters) & set(RESERVED))
+        if taken:
+            raise PresetError(
+                f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
+                f"command line; rename it in the file"
+            )
+
+        def callback(*, case: str | None, method: str, as_json: bool, **values: Any) -> None:
+            given = {name: value for name, value in values.items() if value is not None}
+            self.action(cmd_name, case, given, method, as_json)
+
+        options: list[click.Parameter] = [
+            _option(parameter) for parameter in path.parameters.values() if not parameter.bound
+        ]
+        names = ", ".join(path.cases) or "none in this preset"
+        options += [
+            click.Option(["--case"], metavar="NAME", help=f"Named set of values: {names}."),
+            click.Option(
+                ["--method"],
+                type=click.Choice(METHODS),
+                default=METHODS[0],
+                show_default=True,
+                help="How Fresnel's equations are computed.",
+            ),
+            click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object."),
+        ]
+        return click.Command(cmd_name, callback=callback, params=options, help=path.description)
+
+
+def _option(parameter: Parameter) -> click.Option:
+    words = [*parameter.words, *([ABSENT] if parameter.optional else [])]
+    default = "must be given" if parameter.default is None else parameter.text(parameter.default)
+    hints = [parameter.help, f"words: {', '.join(words)}" if words else "", f"[{default}]"]
+    flag = "--" + parameter.name.replace("_", "-")
+    return click.Option(
+        [flag, parameter.name], type=Value(parameter), help="; ".join(h for h in hints if h)
+    )

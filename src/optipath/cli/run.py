@@ -1,0 +1,141 @@
+"""``optipath run``: the light at the detectors."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from types import NoneType
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from optipath.cli.preset_command import PresetGroup
+from optipath.composer import Composer
+from optipath.presets import load_preset
+from optipath.units import in_unit
+
+if TYPE_CHECKING:
+    from optipath.light import Light
+    from optipath.parameters import Parameter
+    from optipath.path_graph import PathGraph
+    from optipath.plan import Plan
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run has found, and what it was given."""
+
+    preset: str
+    case: str | None
+    path: PathGraph
+    plan: Plan
+    lights: dict[str, Light]
+    is_published_case: bool
+
+    @property
+    def note(self) -> str:
+        """What a reader should know about the case."""
+        return self.path.cases[self.case].note if self.case else ""
+
+    def published(self, detector: str) -> tuple[float, ...] | None:
+        """Return the published Stokes vector, if these are the values it belongs to."""
+        if self.case is None or not self.is_published_case:
+            return None
+        return self.path.cases[self.case].published.get(detector)
+
+
+def _run(
+    preset: str, case: str | None, values: dict[str, Any], method: str, *, as_json: bool
+) -> None:
+    path = load_preset(preset, case=case, **values)
+    plan = Composer(method=method).compose(path)
+    result = Result(preset, case, path, plan, plan.run_all(), is_published_case=not values)
+    if as_json:
+        click.echo(json.dumps(_as_json(result)))
+    else:
+        _print(result)
+
+
+run = PresetGroup("run", action=_run, help="Trace the light of a preset, or of a TOML file.")
+
+
+def _as_json(result: Result) -> dict[str, Any]:
+    plan = result.plan
+    found: dict[str, Any] = {
+        "preset": result.preset,
+        "parameters": {name: _plain(p) for name, p in result.path.parameters.items()},
+        "units": {name: p.unit for name, p in result.path.parameters.items() if p.unit},
+        "model": plan.model,
+        "method": plan.method,
+        "engine": plan.engine,
+    }
+    if result.case:
+        found["case"] = result.case
+    if result.note:
+        found["note"] = result.note
+    for section, readings in (
+        ("detectors", plan.program.detectors),
+        ("dumps", plan.program.dumps),
+    ):
+        if readings or section == "detectors":
+            found[section] = {name: _reading(result, name) for name in readings}
+    return found
+
+
+def _reading(result: Result, name: str) -> dict[str, Any]:
+    stokes = [_number(component) for component in result.lights[name].stokes.tolist()]
+    published = result.published(name)
+    return {"stokes": stokes} | ({"published": list(published)} if published else {})
+
+
+def _number(component: float) -> float | None:
+    # JSON has no NaN: what is not read is null. Adding 0 turns -0 into 0.
+    return None if math.isnan(component) else component + 0.0
+
+
+def _plain(parameter: Parameter) -> Any:
+    value = parameter.default
+    if isinstance(value, (str, NoneType)):
+        return value
+    if isinstance(value, complex):
+        return {"n": value.real, "k": value.imag}
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return in_unit(value, parameter.unit)
+
+
+def _print(result: Result) -> None:
+    console = Console()
+    title = result.preset + (f", case {result.case}" if result.case else "")
+    console.print(Text(title, style="bold"), Text(result.path.description))
+    console.print(_parameter_table(result))
+    for name in result.lights:
+        console.print(_light_table(result, name))
+    if result.note:
+        console.print(Text(f"note: {result.note}"))
+    plan = result.plan
+    console.print(Text(f"method {plan.method}, model {plan.model}, engine {plan.engine}"))
+
+
+def _parameter_table(result: Result) -> Table:
+    table = Table(box=None, show_header=False)
+    for name, parameter in result.path.parameters.items():
+        table.add_row(Text(name), Text(parameter.text(parameter.default)), Text(parameter.help))
+    return table
+
+
+def _light_table(result: Result, name: str) -> Table:
+    published = result.published(name)
+    table = Table(f"light at {name}", "computed", header_style="bold")
+    if published:
+        table.add_column("published")
+    for position, component in enumerate(result.lights[name].stokes.tolist()):
+        computed = "not read" if math.isnan(component) else f"{component + 0.0:.12g}"
+        row = [f"S{position}", computed, *([f"{published[position]:g}"] if published else [])]
+        table.add_row(*map(Text, row))
+    return table

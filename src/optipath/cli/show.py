@@ -1,0 +1,50 @@
+"""``optipath show``: what a preset is made of."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from optipath.drawing import draw
+from optipath.parameters import ABSENT, Parameter
+from optipath.presets import load_preset
+
+
+@click.command()
+@click.argument("preset")
+@click.option("--case", metavar="NAME", help="Named set of values.")
+@click.option("--svg", type=click.Path(dir_okay=False), help="Draw into this file as well.")
+def show(preset: str, case: str | None, svg: str | None) -> None:
+    """Show the parameters, elements and links of a preset, or of a TOML file."""
+    path = load_preset(preset, case=case)
+    # A picture has a width of its own; on the terminal, the terminal's.
+    console = Console(record=bool(svg), width=100 if svg else None, highlight=False)
+    console.print(Text(path.description, style="bold"), end="\n\n")
+    if path.parameters:
+        table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")
+        for parameter in path.parameters.values():
+            table.add_row(*map(Text, _row(parameter)))
+        console.print(table, end="\n\n")
+    console.print(Text(draw(path)), soft_wrap=True)
+    if path.cases:
+        console.print(Text(f"\ncases: {', '.join(path.cases)}"))
+    for name, found in path.cases.items():
+        if found.note:
+            console.print(Text(f"  {name}: {found.note}"))
+    if svg:
+        try:
+            Path(svg).write_text(console.export_svg(title=f"optipath show {preset}"), "utf-8")
+        except OSError as error:
+            raise click.ClickException(f"'{svg}' cannot be written: {error.strerror}") from None
+
+
+def _row(parameter: Parameter) -> tuple[str, str, str, str]:
+    default = "must be given" if parameter.default is None else parameter.text(parameter.default)
+    words = [*parameter.words, *([ABSENT] if parameter.optional else [])]
+    described = "; ".join(part for part in (parameter.help, ", ".join(words)) if part)
+    state = "bound to " if parameter.bound else ""
+    return parameter.name, state + default, parameter.range_text(), described

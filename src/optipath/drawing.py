@@ -1,0 +1,73 @@
+"""A path drawn in characters: nodes in the order of travel, links between them."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import networkx as nx
+import numpy as np
+
+from optipath.composer import outlets
+from optipath.materials import Material
+from optipath.parameters import Parameter
+from optipath.units import format_quantity
+
+if TYPE_CHECKING:
+    from optipath.elements import Element
+    from optipath.path_graph import PathGraph
+
+
+def draw(path: PathGraph) -> str:
+    """Return the drawing.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> print(draw(op.load_preset("malus")).splitlines()[0])
+    lamp       source     intensity=$intensity
+    """
+    graph = path.graph
+    order = list(nx.lexicographical_topological_sort(nx.DiGraph(graph)))
+    name_width = max(map(len, order))
+    kind_width = max(len(path.element(name).kind) for name in order)
+    leaving = set(outlets(graph))
+    lines = []
+    for name in order:
+        element = path.element(name)
+        described = f"{name.ljust(name_width)}  {element.kind.ljust(kind_width)}  "
+        lines.append((described + _values(element)).rstrip())
+        links = sorted(graph.out_edges(name, keys=True, data="azimuth"))
+        for _, end, (leaves, enters), azimuth in links:
+            turn = "" if azimuth is None else f"  turned by {_text(azimuth, 'deg')}"
+            lines.append(f"  │ {leaves} ──> {end}.{enters}{turn}")
+        lines += [
+            f"  │ {port} ──> leaves the path"
+            for port in element.outputs
+            if f"{name}.{port}" in leaving
+        ]
+    return "\n".join(lines)
+
+
+def _values(element: Element) -> str:
+    domains = element.domains()
+    shown = []
+    for f in fields(element):  # type: ignore[arg-type]
+        value = getattr(element, f.name)
+        if value is None or (isinstance(value, (int, float, str)) and value == f.default):
+            continue
+        unit = {"angle": "deg", "length": "nm"}.get(domains[f.name].dimension, "")
+        shown.append(f"{f.name}={_text(value, unit)}")
+    return "  ".join(shown)
+
+
+def _text(value: Any, unit: str) -> str:
+    if isinstance(value, Parameter):
+        return f"{'-' * value.negative}${value.name}"
+    if isinstance(value, Material):
+        return f"{_text(value.n, '')} + {_text(value.k, '')} i"
+    if isinstance(value, np.ndarray):
+        return f"array{value.shape}"
+    if isinstance(value, (int, float)):
+        return format_quantity(value, unit)
+    return str(value)
