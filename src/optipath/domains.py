@@ -113,8 +113,8 @@ class IndexDomain(Domain):
         bad = (array.real < 0.0) | (array.imag < 0.0) | (array == 0.0)
         if np.any(bad):
             value = array[bad].ravel()[0]
-            sign = " (the field is exp(-iwt): a medium with k > 0 absorbs)" * (value.imag < 0.0)
-            raise ValueFault(f"{owner} is {value}; give {self.described()}{sign}")
+            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
+            raise ValueFault(f"{owner} is {value}; give {self.described()}{cure}")
 
 
 class OutsideDomain(Domain):

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.domains import Domain, IndexDomain
-from optipath.errors import ValueFault
-from optipath.kernels import NUMPY, REFLECTION
+from optipath.errors import ShapeError, ValueFault
+from optipath.inputs import broadcast_fault
+from optipath.kernels import BLOCK, NUMPY, REFLECTION
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -47,6 +48,8 @@ def fresnel_reflection(
     ------
     ValueFault
         If a value is not allowed.
+    ShapeError
+        If the values do not broadcast.
     ComposerError
         If there is no such method.
 
@@ -59,9 +62,13 @@ def fresnel_reflection(
     m = _INDEX.check("index", index)
     c = _COSINE.check("cos_incidence", cos_incidence)
     s = _COSINE.check("sin_incidence", sin_incidence)
+    shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
+    if faults := broadcast_fault(shapes):
+        raise ShapeError(*faults)
+    shape = np.broadcast_shapes(*shapes.values())
     if np.any(np.abs(np.hypot(c, s) - 1.0) > 1e-6):
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
     reflect = REFLECTION.by_method(method).made_for(NUMPY)
     numbers = reflect(1.0, m.real, m.imag + 0.0, c, s)
-    shape = np.broadcast_shapes(m.shape, c.shape, s.shape)
-    return tuple(np.broadcast_to(number, shape).copy() for number in numbers)
+    (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(numbers)
+    return tuple(np.broadcast_to(number, shape).copy() for number in (A, B, C, S))

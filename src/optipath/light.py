@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import ShapeError
 from optipath.frames import Frame
 from optipath.frozen import same
-from optipath.kernels import ROTATION
+from optipath.kernels import turn_linear
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -74,10 +74,8 @@ class Light:
         FrameError
             If the other frame has another direction.
         """
-        s = self.stokes
-        parts = ROTATION.apply(
-            self.frame.turn_to(frame), (s[..., 0], s[..., 1], s[..., 2], s[..., 3])
-        )
+        s0, s1, s2, s3 = np.moveaxis(self.stokes, -1, 0)
+        parts = (s0, *turn_linear(self.frame.turn_to(frame), s1, s2), s3)
         return Light(np.stack(np.broadcast_arrays(*parts), axis=-1), frame)
 
     def __add__(self, other: object) -> Light:

@@ -82,8 +82,7 @@ class Mueller:
 
 
 def _turn_matrix(leaves: Frame, enters: Frame) -> npt.NDArray[np.float64]:
-    rows = ROTATION.matrix(leaves.turn_to(enters))
-    return stacked(rows)
+    return stacked(ROTATION.rows(leaves.turn_to(enters)))
 
 
 def stacked(rows: Any) -> npt.NDArray[np.float64]:

@@ -76,8 +76,8 @@ class PathGraph:
     >>> eye = path.add("eye", op.Detector())
     >>> lamp >> glass >> eye
     Node 'eye'
-    >>> path.trace(theta=0.0).intensity.round(12)
-    array(4.)
+    >>> print(path.trace(theta=0.0).intensity.round(12))
+    4.0
     """
 
     def __init__(

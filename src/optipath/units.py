@@ -110,7 +110,7 @@ def format_quantity(value: float, unit: str) -> str:
     ('48 deg', '1.33')
     """
     if unit == "":
-        return repr(float(value))
+        return repr(float(value)).removesuffix(".0")
     dimension, size = UNITS[unit]
     number = in_unit(value, unit)
     if number * size == value:

@@ -8,10 +8,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.frozen import same
+from optipath.kernels import NUMPY, cosine, sine
 from optipath.parameters import Parameter, Resolved
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping
+
+
+_COS, _SIN = cosine(NUMPY), sine(NUMPY)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,9 +75,9 @@ class View:
                 # Adding 0 turns -0 into 0: an index without absorption has one sign only.
                 return np.asarray(np.imag(numbers) + 0.0)
             case "cos":
-                return np.asarray(np.cos(numbers))
+                return np.asarray(_COS(numbers))
             case "sin":
-                return np.asarray(np.sin(numbers))
+                return np.asarray(_SIN(numbers))
             case int(position):
                 flat = numbers.reshape(*numbers.shape[: -len(self.tail)], -1)
                 return np.asarray(flat[..., position])

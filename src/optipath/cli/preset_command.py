@@ -40,7 +40,7 @@ class PresetGroup(click.Group):
     Parameters
     ----------
     action : callable
-        ``action(preset, case, values, method, as_json)``.
+        ``action(preset, case, values, method, as_json=...)``.
     """
 
     def __init__(self, name: str, action: Callable[..., None], **keywords: Any) -> None:
@@ -66,7 +66,7 @@ class PresetGroup(click.Group):
 
         def callback(*, case: str | None, method: str, as_json: bool, **values: Any) -> None:
             given = {name: value for name, value in values.items() if value is not None}
-            self.action(cmd_name, case, given, method, as_json)
+            self.action(cmd_name, case, given, method, as_json=as_json)
 
         options: list[click.Parameter] = [
             _option(parameter) for parameter in path.parameters.values() if not parameter.bound

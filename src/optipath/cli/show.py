@@ -28,7 +28,8 @@ def show(preset: str, case: str | None, svg: str | None) -> None:
         table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")
         for parameter in path.parameters.values():
             table.add_row(*map(Text, _row(parameter)))
-        console.print(table, end="\n\n")
+        console.print(table)
+        console.print()
     console.print(Text(draw(path)), soft_wrap=True)
     if path.cases:
         console.print(Text(f"\ncases: {', '.join(path.cases)}"))

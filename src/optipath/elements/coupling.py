@@ -9,7 +9,7 @@ import numpy as np
 
 from optipath.domains import IndexDomain
 from optipath.frozen import frozen
-from optipath.kernels import IDENTITY_COLUMNS, NUMPY, TURN, TURN_BACK
+from optipath.kernels import NUMPY, TURN, TURN_BACK
 from optipath.materials import Material
 from optipath.mueller import stacked
 from optipath.parameters import Parameter
@@ -41,14 +41,14 @@ class Coupling:
 
     def matrix(self, method: str) -> np.ndarray[Any, Any]:
         """Return the Mueller matrix of shape (..., 4, 4); every value must be a number."""
-        columns = list(IDENTITY_COLUMNS)
+        matrix = np.eye(4)
         for operation in self.operations:
             kernel = operation.kernel.by_method(method)
             values = [view_of(argument) for argument in operation.arguments]
             numbers = kernel.made_for(NUMPY)(*(view.numbers({}) for view in values))
             assert kernel.structure is not None  # noqa: S101 - only sources have none
-            columns = [kernel.structure.apply(numbers, column) for column in columns]
-        return stacked(list(zip(*columns, strict=True)))
+            matrix = stacked(kernel.structure.rows(numbers)) @ matrix
+        return matrix
 
 
 def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:

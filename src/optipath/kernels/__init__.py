@@ -5,10 +5,12 @@ to the structure of what they return.
 """
 
 from optipath.kernels import emission, filters, rotation
+from optipath.kernels.carried import Carried, add, carry, stokes_of
+from optipath.kernels.circular import cosine, sine
 from optipath.kernels.kernel import Kernel, KernelFamily
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
 from optipath.kernels.stable import stable_reflection
-from optipath.kernels.structures import BLOCK, FULL, IDENTITY_COLUMNS, ROTATION, SCALE, Structure
+from optipath.kernels.structures import BLOCK, FULL, ROTATION, SCALE, Structure, turn_linear
 from optipath.kernels.textbook import textbook_reflection
 
 REFLECTION = KernelFamily(
@@ -43,7 +45,6 @@ __all__ = [
     "FLOAT",
     "FULL",
     "GIVEN_TURN",
-    "IDENTITY_COLUMNS",
     "MATRIX",
     "METHODS",
     "MIRROR",
@@ -57,8 +58,15 @@ __all__ = [
     "TURN",
     "TURN_BACK",
     "UNPOLARIZED",
+    "Carried",
     "Kernel",
     "KernelFamily",
     "Primitives",
     "Structure",
+    "add",
+    "carry",
+    "cosine",
+    "sine",
+    "stokes_of",
+    "turn_linear",
 ]

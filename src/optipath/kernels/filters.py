@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.kernels.circular import cosine, sine
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -11,27 +13,27 @@ if TYPE_CHECKING:
 
 
 def polarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(k1, k2) -> (A, B, C, S)`` from the principal transmittances.
+    """Make ``(k1, k2) -> (Fs, Fp, B, C, S)`` from the principal transmittances.
 
     Chipman, Lam & Young, Polarized Light and Optical Systems (2018).
     """
     sqrt = xp.sqrt
 
-    def polarize(k1: Any, k2: Any) -> tuple[Any, Any, Any, Any]:
-        return 0.5 * (k1 + k2), 0.5 * (k1 - k2), sqrt(k1) * sqrt(k2), 0.0
+    def polarize(k1: Any, k2: Any) -> tuple[Any, ...]:
+        return k1, k2, 0.5 * (k1 - k2), sqrt(k1) * sqrt(k2), 0.0
 
     return polarize
 
 
 def retarder(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(retardance,) -> (A, B, C, S)``, the fast axis along x.
+    """Make ``(retardance,) -> (Fs, Fp, B, C, S)``, the fast axis along x.
 
     The slow component gains the phase exp(+i retardance), the field being exp(-i w t).
     """
-    sin, cos = xp.sin, xp.cos
+    sin, cos = sine(xp), cosine(xp)
 
-    def retard(retardance: Any) -> tuple[Any, Any, Any, Any]:
-        return 1.0, 0.0, cos(retardance), -sin(retardance)
+    def retard(retardance: Any) -> tuple[Any, ...]:
+        return 1.0, 1.0, 0.0, cos(retardance), -sin(retardance)
 
     return retard
 
@@ -49,9 +51,9 @@ def complement(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def mirror(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(reflectance,) -> (A, B, C, S)`` of an ideal mirror, r_p = -r_s."""
+    """Make ``(reflectance,) -> (Fs, Fp, B, C, S)`` of an ideal mirror, r_p = -r_s."""
     del xp
-    return lambda reflectance: (reflectance, 0.0, -reflectance, 0.0)
+    return lambda reflectance: (reflectance, reflectance, 0.0, -reflectance, 0.0)
 
 
 def given(xp: Primitives) -> Callable[..., tuple[Any, ...]]:

@@ -21,7 +21,8 @@ class Primitives:
     """The functions a kernel may call; all are elementwise and none raises.
 
     ``where`` may evaluate both of its branches, so kernels keep both free of
-    division by zero and of roots of negative numbers.
+    division by zero and of roots of negative numbers. ``fixed`` is a value without its
+    slope, where an engine takes gradients, and the value itself elsewhere.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -33,6 +34,11 @@ class Primitives:
     cos: Callable[[Any], Any]
     exp: Callable[[Any], Any]
     atan2: Callable[[Any, Any], Any]
+    fixed: Callable[[Any], Any]
+
+
+def _itself(value: Any) -> Any:
+    return value
 
 
 NUMPY = Primitives(
@@ -45,6 +51,7 @@ NUMPY = Primitives(
     cos=np.cos,
     exp=np.exp,
     atan2=np.arctan2,
+    fixed=_itself,
 )
 
 FLOAT = Primitives(
@@ -57,4 +64,5 @@ FLOAT = Primitives(
     cos=math.cos,
     exp=math.exp,
     atan2=math.atan2,
+    fixed=_itself,
 )

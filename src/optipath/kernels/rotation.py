@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.kernels.circular import cosine, sine
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -12,7 +14,7 @@ if TYPE_CHECKING:
 
 def turn(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make ``(angle,) -> (cos 2a, sin 2a)``."""
-    sin, cos = xp.sin, xp.cos
+    sin, cos = sine(xp), cosine(xp)
     return lambda angle: (cos(2.0 * angle), sin(2.0 * angle))
 
 

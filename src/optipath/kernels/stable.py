@@ -11,17 +11,17 @@ if TYPE_CHECKING:
 
 
 def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, k, cos, sin) -> (A, B, C, S)``.
+    """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
 
     With p = n1 cos, z = (n1 sin)^2, D = m2^2 - n1^2 and g = a + ib = sqrt(m2^2 - z):
     r_s = -D / (p + g)^2 and r_p / r_s = (z - p g) / (z + p g), which are the
     Fresnel equations (Born & Wolf, Principles of Optics, sec. 1.5 and 14.2) freed
-    of differences between nearly equal numbers. Total reflection gives A = 1 and
-    B = 0 exactly.
+    of differences between nearly equal numbers. Total reflection gives
+    Fs = Fp = 1 and B = 0 exactly.
     """
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
-    def reflect(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any, Any]:
+    def reflect(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         p = n1 * c
         y = n1 * s
         z = y * y
@@ -44,12 +44,14 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         dr = contrast - k * k
         Fs = where(Ts < 0.5, 1.0 - Ts, (dr * dr + v * v) / (P * P))
 
-        q = (z + pa) * (z + pa) + pb * pb
+        b2 = pb * pb
+        q = (z + pa) * (z + pa) + b2
         f = Fs / where(q > 0.0, q, 1.0)
+        Fp = f * ((z - pa) * (z - pa) + b2)
         root = p * sqrt(g2)
         B = 2.0 * f * z * pa
         C = f * (z - root) * (z + root)
         S = 2.0 * f * z * pb
-        return Fs - B, B, C, S
+        return Fs, Fp, B, C, S
 
     return reflect

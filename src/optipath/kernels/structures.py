@@ -1,28 +1,24 @@
-"""The shapes a Mueller matrix can have, and how each acts on Stokes components.
+"""The shapes a Mueller matrix can have, and how each acts on the light that is carried.
 
-A structure knows how many numbers describe it, how they act on the four
-components of a light (kept apart, never stacked), which numbers do nothing,
-and how they look as a full matrix. Only arithmetic: every engine can use it.
+A structure knows how many numbers describe it, which of them do nothing, how they act
+on light (its components kept apart, never stacked), and how they look as a matrix.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-Number: TypeAlias = Any
-Numbers: TypeAlias = Sequence[Number]
-Stokes: TypeAlias = tuple[Number, Number, Number, Number]
+from optipath.kernels.carried import Carried, along_axes, carry, stokes_of
 
+if TYPE_CHECKING:
+    from optipath.kernels.primitives import Primitives
 
-IDENTITY_COLUMNS: tuple[Stokes, ...] = (
-    (1.0, 0.0, 0.0, 0.0),
-    (0.0, 1.0, 0.0, 0.0),
-    (0.0, 0.0, 1.0, 0.0),
-    (0.0, 0.0, 0.0, 1.0),
-)
-"""The lights whose images are the columns of a Mueller matrix."""
+Numbers: TypeAlias = Sequence[Any]
+Action: TypeAlias = Callable[[Numbers, Carried], Carried]
+Row: TypeAlias = tuple[Any, Any, Any, Any]
 
 
 @dataclass(frozen=True)
@@ -35,56 +31,114 @@ class Structure:
         What explanations call it.
     identity : tuple of float
         The numbers that leave every light as it is.
-    apply : callable
-        ``apply(numbers, stokes) -> stokes``.
+    action : callable
+        ``action(primitives)`` makes ``act(numbers, carried) -> carried``.
+    rows : callable
+        ``rows(numbers)`` gives the four rows of the matrix.
     """
 
     name: str
     identity: tuple[float, ...]
-    apply: Callable[[Numbers, Stokes], Stokes]
+    action: Callable[[Primitives], Action]
+    rows: Callable[[Numbers], tuple[Row, Row, Row, Row]]
 
-    def matrix(self, numbers: Numbers) -> list[Stokes]:
-        """Return the rows of the 4x4 matrix that the numbers describe."""
-        return list(zip(*(self.apply(numbers, c) for c in IDENTITY_COLUMNS), strict=True))
-
-
-def _apply_scale(numbers: Numbers, stokes: Stokes) -> Stokes:
-    (t,) = numbers
-    s0, s1, s2, s3 = stokes
-    return t * s0, t * s1, t * s2, t * s3
+    def made_for(self, primitives: Primitives) -> Action:
+        """Return the action in terms of these primitives, made once and kept."""
+        return _made(self.action, primitives)
 
 
-def _apply_rotation(numbers: Numbers, stokes: Stokes) -> Stokes:
+@cache
+def _made(action: Callable[[Primitives], Action], primitives: Primitives) -> Action:
+    return action(primitives)
+
+
+def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
+    """Return (S1, S2) in a frame turned by a, from (cos 2a, sin 2a)."""
     c, s = numbers
-    s0, s1, s2, s3 = stokes
-    return s0, c * s1 + s * s2, c * s2 - s * s1, s3
+    return c * s1 + s * s2, c * s2 - s * s1
 
 
-def _apply_block(numbers: Numbers, stokes: Stokes) -> Stokes:
-    A, B, C, S = numbers
-    s0, s1, s2, s3 = stokes
-    return A * s0 + B * s1, B * s0 + A * s1, C * s2 + S * s3, C * s3 - S * s2
+def _scale(xp: Primitives) -> Action:
+    del xp
+
+    def act(numbers: Numbers, carried: Carried) -> Carried:
+        (t,) = numbers
+        weak, s1, s2, s3 = carried
+        return t * weak, t * s1, t * s2, t * s3
+
+    return act
 
 
-def _apply_full(numbers: Numbers, stokes: Stokes) -> Stokes:
-    s0, s1, s2, s3 = stokes
-    m = numbers
-    return (
-        m[0] * s0 + m[1] * s1 + m[2] * s2 + m[3] * s3,
-        m[4] * s0 + m[5] * s1 + m[6] * s2 + m[7] * s3,
-        m[8] * s0 + m[9] * s1 + m[10] * s2 + m[11] * s3,
-        m[12] * s0 + m[13] * s1 + m[14] * s2 + m[15] * s3,
-    )
+def _rotation(xp: Primitives) -> Action:
+    absolute = xp.absolute
+
+    def act(numbers: Numbers, carried: Carried) -> Carried:
+        weak, s1, s2, s3 = carried
+        t1, t2 = turn_linear(numbers, s1, s2)
+        return weak + 0.5 * (absolute(s1) - absolute(t1)), t1, t2, s3
+
+    return act
 
 
-SCALE = Structure("scale", (1.0,), _apply_scale)
+def _block(xp: Primitives) -> Action:
+    where, minimum = xp.where, xp.minimum
+
+    def act(numbers: Numbers, carried: Carried) -> Carried:
+        Fs, Fp, B, C, S = numbers
+        weak, s1, s2, s3 = carried
+        x, y = along_axes(xp, carried)
+        return (
+            minimum(Fs * x, Fp * y),
+            2.0 * B * weak + where(s1 > 0.0, Fs, Fp) * s1,
+            C * s2 + S * s3,
+            C * s3 - S * s2,
+        )
+
+    return act
+
+
+def _full(xp: Primitives) -> Action:
+    def act(m: Numbers, carried: Carried) -> Carried:
+        s0, s1, s2, s3 = stokes_of(xp, carried)
+        rows = (m[i] * s0 + m[i + 1] * s1 + m[i + 2] * s2 + m[i + 3] * s3 for i in (0, 4, 8, 12))
+        return carry(xp, tuple(rows))
+
+    return act
+
+
+def _scale_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    (t,) = numbers
+    return (t, 0.0, 0.0, 0.0), (0.0, t, 0.0, 0.0), (0.0, 0.0, t, 0.0), (0.0, 0.0, 0.0, t)
+
+
+def _rotation_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    c, s = numbers
+    return (1.0, 0.0, 0.0, 0.0), (0.0, c, s, 0.0), (0.0, -s, c, 0.0), (0.0, 0.0, 0.0, 1.0)
+
+
+def _block_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    Fs, Fp, B, C, S = numbers
+    A = 0.5 * (Fs + Fp)
+    return (A, B, 0.0, 0.0), (B, A, 0.0, 0.0), (0.0, 0.0, C, S), (0.0, 0.0, -S, C)
+
+
+def _full_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    m = tuple(numbers)
+    return m[0:4], m[4:8], m[8:12], m[12:16]  # type: ignore[return-value]
+
+
+SCALE = Structure("scale", (1.0,), _scale, _scale_rows)
 """One number t: t times the unit matrix."""
 
-ROTATION = Structure("rotation", (1.0, 0.0), _apply_rotation)
+ROTATION = Structure("rotation", (1.0, 0.0), _rotation, _rotation_rows)
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
-BLOCK = Structure("retarding diattenuator", (1.0, 0.0, 1.0, 0.0), _apply_block)
-"""(A, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame."""
+BLOCK = Structure("retarding diattenuator", (1.0, 1.0, 0.0, 1.0, 0.0), _block, _block_rows)
+"""(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
 
-FULL = Structure("full", tuple(float(i % 5 == 0) for i in range(16)), _apply_full)
+Fs = A + B and Fp = A - B act along x and y; each of the three keeps digits that the
+other two have lost.
+"""
+
+FULL = Structure("full", tuple(float(i % 5 == 0) for i in range(16)), _full, _full_rows)
 """Sixteen numbers, row by row."""

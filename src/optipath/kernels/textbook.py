@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def textbook_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, k, cos, sin) -> (A, B, C, S)``.
+    """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
 
     The formulas as Wilkie & Weidlich, "Polarised light in computer graphics"
     (SIGGRAPH Asia courses, 2012), print them, with the relative index. They lose
@@ -20,7 +20,7 @@ def textbook_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """
     sqrt, maximum, atan2, sin, cos = xp.sqrt, xp.maximum, xp.atan2, xp.sin, xp.cos
 
-    def reflect(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any, Any]:
+    def reflect(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         n = n / n1
         k = k / n1
         nk = n * k
@@ -33,7 +33,7 @@ def textbook_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         # The printed form divides by cos; the floor keeps tan finite at 90 degrees.
         st = s * (s / maximum(c, 1e-18))
 
-        # On an equal medium at 90 degrees both fractions are 0/0; the floor makes them 0.
+        # On an equal medium at 90 degrees both fractions are 0/0; the floors make them 0.
         Fs = maximum(ab - 2.0 * a * c + c * c, 0.0) / maximum(ab + 2.0 * a * c + c * c, 1e-37)
         ratio = maximum(ab - 2.0 * a * st + st * st, 0.0) / maximum(
             ab + 2.0 * a * st + st * st, 1e-37
@@ -45,7 +45,8 @@ def textbook_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         dp = atan2(2.0 * c * (e2 * b - 2.0 * nk * a), n2k2 * n2k2 * c * c - ab)
         magnitude = sqrt(Fs * Fp)
         return (
-            0.5 * (Fs + Fp),
+            Fs,
+            Fp,
             0.5 * (Fs - Fp),
             cos(ds - dp) * magnitude,
             sin(dp - ds) * magnitude,

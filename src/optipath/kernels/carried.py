@@ -1,0 +1,63 @@
+"""Light as the steps carry it along: (weak, S1, S2, S3).
+
+``weak`` is the smaller of the intensities along x and along y. Behind a crossed filter
+or near Brewster's angle one of the two is tiny, and in S0 its digits would be lost;
+near the normal S1 is tiny, and in the two intensities its digits would be lost. The
+pair (weak, S1) keeps both: S0 = 2 weak + |S1| is a sum of non-negative terms.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from optipath.kernels.primitives import Primitives
+
+Carried: TypeAlias = tuple[Any, Any, Any, Any]
+
+
+def carry(xp: Primitives, stokes: tuple[Any, ...]) -> Carried:
+    """Return Stokes components as they are carried.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> carry(FLOAT, (1.0, -0.5, 0.0, 0.0))
+    (0.25, -0.5, 0.0, 0.0)
+    """
+    s0, s1, s2, s3 = stokes
+    return 0.5 * (s0 - xp.absolute(s1)), s1, s2, s3
+
+
+def stokes_of(xp: Primitives, carried: Carried) -> tuple[Any, Any, Any, Any]:
+    """Return the Stokes components of carried light.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> stokes_of(FLOAT, (0.25, -0.5, 0.0, 0.0))
+    (1.0, -0.5, 0.0, 0.0)
+    """
+    weak, s1, s2, s3 = carried
+    return 2.0 * weak + xp.absolute(s1), s1, s2, s3
+
+
+def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
+    """Return the intensities along x and along y."""
+    weak, s1, _, _ = carried
+    return weak + xp.maximum(s1, 0.0), weak + xp.maximum(-s1, 0.0)
+
+
+def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
+    """Return two lights together, incoherently.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> add(FLOAT, (0.0, 1.0, 0.0, 0.0), (0.0, -1.0, 0.0, 0.5))
+    (1.0, 0.0, 0.0, 0.5)
+    """
+    x1, y1 = along_axes(xp, first)
+    x2, y2 = along_axes(xp, second)
+    rest = (one + other for one, other in zip(first[1:], second[1:], strict=True))
+    return xp.minimum(x1 + x2, y1 + y2), *rest  # type: ignore[return-value]

@@ -1,0 +1,132 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+
+class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        c, s = xp.cos(4 * angle), xp.sin(4 * angle)
+        return (1, 0, 0, 0), (0, c, s, 0), (0, s, -c, 0), (0, 0, 0, -1)
+
+
+class Coating(op.Element, kind="test-coating"):
+    """Takes an index, and reflects as the library's kernel does, dimmed."""
+
+    index: op.Index
+    dimming: op.Fraction = 0.5
+
+    def couplings(self):
+        through = op.Interface(self.index, 0.3).couplings()[0].operations
+        dimmed = op.Attenuator(self.dimming).couplings()[0].operations
+        return (op.Coupling("in", "out", through + dimmed),)
+
+
+def traced(element, stokes, **values):
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=stokes))
+    lamp >> path.add("element", element) >> path.add("eye", op.Detector())
+    return path.trace(**values).stokes
+
+
+def test_an_element_of_ones_own_equals_the_librarys_half_wave_plate():
+    angle, stokes = np.linspace(0, 1, 7), [1.0, 0.6, 0.3, 0.2]
+    own = traced(HalfWavePlate(angle=op.Parameter("a")), stokes, a=angle)
+    library = traced(op.Retarder(np.pi, angle=op.Parameter("a")), stokes, a=angle)
+    np.testing.assert_allclose(own, library, atol=1e-15)
+
+
+def test_an_element_of_ones_own_is_checked_like_any_other():
+    with pytest.raises(op.PathError, match=r"element\.angle is nan"):
+        traced(HalfWavePlate(np.nan), [1.0, 0, 0, 0])
+
+
+def test_an_element_of_ones_own_goes_to_toml_and_back(tmp_path):
+    path = op.PathGraph("own")
+    (
+        path.add("lamp", op.Source())
+        >> path.add("plate", HalfWavePlate(0.25))
+        >> path.add("eye", op.Detector())
+    )
+    file = tmp_path / "own.toml"
+    file.write_text(path.to_toml(), "utf-8")
+    assert op.load_preset(file) == path
+
+
+def test_couplings_can_put_kernels_of_the_library_in_a_row():
+    dim = traced(Coating(1.5, dimming=0.25), [1.0, 0, 0, 0])
+    bright = traced(Coating(1.5, dimming=1.0), [1.0, 0, 0, 0])
+    np.testing.assert_allclose(dim, 0.25 * bright)
+
+
+def test_a_class_that_does_not_say_what_it_does_is_refused():
+    class Nothing(op.Element):
+        pass
+
+    with pytest.raises(op.PathError, match="mueller_rows"):
+        Nothing().mueller()
+
+
+def test_rows_that_are_no_matrix_are_refused():
+    class Short(op.Element):
+        @staticmethod
+        def mueller_rows(xp):
+            del xp
+            return ((1, 0, 0, 0),)
+
+    with pytest.raises(op.PathError, match="four rows"):
+        Short().mueller()
+
+
+def test_two_classes_cannot_share_a_kind():
+    with pytest.raises(op.PathError, match="'polarizer' is taken"):
+
+        class Other(op.Element, kind="polarizer"):
+            pass
+
+
+def test_an_element_does_not_change_when_its_array_does():
+    angles = np.zeros(3)
+    polarizer = op.Polarizer(angles)
+    angles[:] = 1.0
+    assert np.array_equal(polarizer.angle, np.zeros(3))
+    with pytest.raises(ValueError, match="read-only"):
+        polarizer.angle[0] = 1.0
+
+
+def test_elements_are_equal_by_their_values():
+    assert op.Polarizer([0.0, 1.0]) == op.Polarizer(np.array([0.0, 1.0]))
+    assert op.Polarizer(0.1) != op.Polarizer(0.2)
+    assert op.Polarizer(0.1) != op.Rotator(0.1)
+
+
+def test_a_matrix_with_open_parameters_is_refused_by_name():
+    with pytest.raises(op.PathError, match="parameter 'a' of polarizer"):
+        op.Polarizer(op.Parameter("a")).mueller()
+
+
+def test_a_way_that_does_not_exist_is_refused_with_those_that_do():
+    with pytest.raises(op.PathError, match="there are: in -> reflected"):
+        op.Interface(1.5, 0.1).mueller(leaves="transmitted")
+
+
+def test_a_mueller_element_does_what_its_matrix_says():
+    matrix = np.arange(16.0).reshape(4, 4)
+    np.testing.assert_array_equal(
+        traced(op.MuellerElement(matrix), [1.0, 0.5, 0.25, 0.0]), matrix @ [1.0, 0.5, 0.25, 0.0]
+    )
+
+
+def test_a_batch_of_matrices_gives_a_batch_of_lights():
+    batch = np.random.default_rng(1).normal(size=(5, 4, 4))
+    path_light = traced(op.MuellerElement(op.Parameter("M")), [1.0, 0.5, 0.25, 0.0], M=batch)
+    np.testing.assert_allclose(path_light, batch @ [1.0, 0.5, 0.25, 0.0], atol=1e-15)
+
+
+def test_a_batch_of_stokes_states_gives_a_batch_of_lights():
+    states = np.array([[1.0, 1.0, 0, 0], [2.0, 0, 0, 1.0], [0, 0, 0, 0]])
+    lights = traced(op.Attenuator(0.5), op.Parameter("state"), state=states)
+    np.testing.assert_allclose(lights, 0.5 * states)

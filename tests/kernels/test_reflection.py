@@ -1,0 +1,144 @@
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from optipath.kernels import FLOAT, METHODS, NUMPY, REFLECTION
+
+INDICES = st.floats(0.1, 5.0)
+EXTINCTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 8.0))
+ANGLES = st.floats(0.0, np.pi / 2)
+
+
+def by_amplitudes(n, k, c, s):
+    """(A, B, C, S) from r_s and r_p in 50 digits, as docs/conventions.md defines them."""
+    with mpmath.workdps(50):
+        m = mpmath.mpc(n, k)
+        norm = mpmath.sqrt(mpmath.mpf(c) ** 2 + mpmath.mpf(s) ** 2)
+        c, s = mpmath.mpf(c) / norm, mpmath.mpf(s) / norm
+        g = mpmath.sqrt(m * m - s * s)
+        g = -g if g.imag < 0 or (g.imag == 0 and g.real < 0) else g
+        rs = (c - g) / (c + g)
+        rp = (m * m * c - g) / (m * m * c + g)
+        fs, fp, cross = abs(rs) ** 2, abs(rp) ** 2, rs * mpmath.conj(rp)
+        numbers = ((fs + fp) / 2, (fs - fp) / 2, cross.real, cross.imag)
+        return np.array([float(number) for number in numbers])
+
+
+@given(n=INDICES, k=EXTINCTIONS, angle=ANGLES)
+def test_stable_reflection_agrees_with_50_digit_amplitudes(n, k, angle):
+    c, s = np.cos(angle), np.sin(angle)
+    numbers = np.array(op.fresnel_reflection(complex(n, k), c, s))
+    # The rounding of cos and sin is amplified near a critical angle, by the root.
+    slack = 1e-7 if k < 1e-3 and abs(s - n) < 1e-6 else 1e-13
+    np.testing.assert_allclose(numbers, by_amplitudes(n, k, c, s), rtol=0, atol=slack)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_metal_agrees_with_50_digit_amplitudes_by_every_method(method):
+    numbers = op.fresnel_reflection(0.608 + 2.12j, 0.8, 0.6, method=method)
+    np.testing.assert_allclose(numbers, by_amplitudes(0.608, 2.12, 0.8, 0.6), rtol=1e-13)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@given(n=INDICES, k=EXTINCTIONS, angle=ANGLES)
+def test_reflection_never_gives_more_than_it_gets(method, n, k, angle):
+    A, B, C, S = op.fresnel_reflection(complex(n, k), np.cos(angle), np.sin(angle), method)
+    assert 0.0 <= A <= 1.0 + 1e-14
+    assert abs(B) <= A
+    # A reflection does not depolarise: A^2 = B^2 + C^2 + S^2.
+    assert abs(A * A - B * B - C * C - S * S) <= 1e-14
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_normal_incidence_gives_the_closed_form_and_turns_y(method):
+    A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0, method)
+    assert A == pytest.approx(0.04, abs=1e-16)
+    assert B == pytest.approx(0.0, abs=1e-16)
+    assert C == pytest.approx(-0.04, abs=1e-16)
+    assert S == pytest.approx(0.0, abs=1e-16)
+
+
+def test_brewsters_angle_leaves_no_light_along_p():
+    norm = np.hypot(1.0, 1.5)
+    A, B, C, _ = op.fresnel_reflection(1.5, 1.0 / norm, 1.5 / norm)
+    # tan(theta) = n: r_s = (1 - n^2) / (1 + n^2), r_p = 0.
+    assert pytest.approx(0.5 * (1.25 / 3.25) ** 2, rel=1e-15) == A
+    assert B == A
+    assert abs(C) <= 1e-16
+
+
+@given(n=st.floats(0.1, 0.9), angle=st.floats(0.0, 1.0))
+def test_total_reflection_is_total_to_the_last_bit(n, angle):
+    incidence = np.arcsin(n) * (1 - angle) + np.pi / 2 * angle
+    if np.sin(incidence) <= n:
+        return
+    A, B, C, S = op.fresnel_reflection(n, np.cos(incidence), np.sin(incidence))
+    assert A == 1.0
+    assert B == 0.0
+    assert C * C + S * S == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("index", [1.5, 0.5, 0.608 + 2.12j, 1e6, 1.0 + 1e-9j])
+def test_exactly_grazing_light_is_reflected_whole(index):
+    assert [float(x) for x in op.fresnel_reflection(index, 0.0, 1.0)] == [1.0, 0.0, 1.0, 0.0]
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.7, 1.570796, np.pi / 2])
+def test_an_equal_medium_reflects_nothing(angle):
+    A, B, C, S = op.fresnel_reflection(1.0, np.cos(angle), np.sin(angle))
+    assert max(abs(A), abs(B), abs(C), abs(S)) <= 1e-15
+
+
+def test_total_reflection_retards_as_fresnels_rhomb_needs():
+    # Born & Wolf, sec. 1.5.4: tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2.
+    angle, n = np.radians(54.6), 1 / 1.5105
+    c, s = np.cos(angle), np.sin(angle)
+    half = np.arctan(c * np.sqrt(s * s - n * n) / (s * s))
+    _, _, C, S = op.fresnel_reflection(n, c, s)
+    # y turns over on reflection, so r_s conj(r_p) = -exp(i (d_s - d_p)), d_p - d_s = 2 half.
+    assert abs(np.arctan2(abs(S), -C)) == pytest.approx(np.pi - 2 * half, abs=1e-14) or abs(
+        np.arctan2(abs(S), C)
+    ) == pytest.approx(2 * half, abs=1e-14)
+
+
+@given(n=INDICES, k=EXTINCTIONS, angle=st.floats(0.0, 1.57))
+def test_plain_floats_give_the_bits_that_numpy_gives(n, k, angle):
+    arguments = (1.2, n, k, float(np.cos(angle)), float(np.sin(angle)))
+    plain = REFLECTION.by_method("stable").made_for(FLOAT)(*arguments)
+    assert all(type(number) is float for number in plain)
+    block = REFLECTION.by_method("stable").made_for(NUMPY)(*map(np.float64, arguments))
+    assert list(plain) == [float(number) for number in block]
+
+
+@given(n=INDICES, k=EXTINCTIONS, outside=st.floats(0.5, 3.0), angle=st.floats(0.0, 1.57))
+def test_only_the_ratio_of_the_indices_matters(n, k, outside, angle):
+    given_outside = op.Interface(outside * complex(n, k), angle, outside=outside).mueller()
+    relative = op.Interface(complex(n, k), angle).mueller()
+    slack = 1e-6 if k < 1e-3 and abs(np.sin(angle) - n) < 1e-6 else 1e-12
+    np.testing.assert_allclose(given_outside.matrix, relative.matrix, rtol=0, atol=slack)
+
+
+def test_an_unknown_method_is_refused_with_a_suggestion():
+    with pytest.raises(op.ComposerError, match="did you mean 'stable'"):
+        op.fresnel_reflection(1.5, 1.0, 0.0, method="stabel")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((-1.5, 1.0, 0.0), "index is"),
+        ((1.5 - 0.1j, 1.0, 0.0), "absorbs"),
+        ((0.0, 1.0, 0.0), "index is"),
+        ((np.nan, 1.0, 0.0), "finite"),
+        ((1.5, 0.5, 0.5), "no angle"),
+        ((1.5, -1.0, 0.0), "cos_incidence is -1"),
+        (("glass", 1.0, 0.0), "index must be"),
+        ((np.ones(2), np.ones(3), np.zeros(3)), r"\(2,\).*\(3,\)"),
+    ],
+)
+def test_values_that_make_no_reflection_are_refused(arguments, message):
+    with pytest.raises(op.OptipathError, match=message):
+        op.fresnel_reflection(*arguments)

@@ -1,0 +1,111 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as hnp
+
+import optipath as op
+
+ANGLES = st.floats(-10.0, 10.0)
+VECTORS = hnp.arrays(float, 3, elements=st.floats(-1.0, 1.0)).filter(
+    lambda v: np.linalg.norm(v) > 0.1
+)
+
+
+@st.composite
+def rotations(draw):
+    """A proper rotation matrix, from a quaternion."""
+    quaternion = draw(hnp.arrays(float, 4, elements=st.floats(-1.0, 1.0)))
+    if np.linalg.norm(quaternion) < 0.1:
+        quaternion = np.array([1.0, 0.0, 0.0, 0.0])
+    w, x, y, z = quaternion / np.linalg.norm(quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
+def test_the_default_frame_is_the_world():
+    frame = op.Frame()
+    assert np.array_equal([frame.x, frame.y, frame.z], np.eye(3))
+
+
+def test_a_quarter_turn_takes_x_to_y():
+    turned = op.Frame().turned(np.pi / 2)
+    np.testing.assert_allclose(turned.x, [0, 1, 0], atol=1e-16)
+    np.testing.assert_allclose(turned.y, [-1, 0, 0], atol=1e-16)
+
+
+@given(angle=ANGLES, rotation=rotations())
+def test_turning_a_frame_by_a_gives_cos_2a_and_sin_2a(angle, rotation):
+    frame = op.Frame().rotated(rotation)
+    c, s = frame.turn_to(frame.turned(angle))
+    assert abs(c - np.cos(2 * angle)) <= 1e-14
+    assert abs(s - np.sin(2 * angle)) <= 1e-14
+
+
+@given(rotation=rotations(), common=rotations(), angle=ANGLES)
+def test_the_turn_between_frames_does_not_depend_on_the_world(rotation, common, angle):
+    first = op.Frame().rotated(rotation)
+    second = first.turned(angle)
+    before = first.turn_to(second)
+    after = first.rotated(common).turn_to(second.rotated(common))
+    np.testing.assert_allclose(after, before, atol=1e-14)
+
+
+def test_frames_of_other_directions_are_refused_with_both_named():
+    tilted = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+    with pytest.raises(op.FrameError, match=r"\(0, 0, 1\).*\(0, 1, 0\)"):
+        op.Frame().turn_to(tilted)
+
+
+def test_opposite_directions_are_refused():
+    back = op.Frame.from_direction(z=(0, 0, -1), x=(1, 0, 0))
+    with pytest.raises(op.FrameError, match="one direction"):
+        op.Frame().turn_to(back)
+
+
+@pytest.mark.parametrize(
+    ("axes", "message"),
+    [
+        ({"x": (2, 0, 0)}, "unit vectors"),
+        ({"y": (0, -1, 0)}, "right-handed"),
+        ({"x": (np.nan, 0, 0)}, "finite"),
+        ({"x": (1, 0)}, r"shape \(\.\.\., 3\)"),
+        ({"x": "abc"}, "numbers"),
+        ({"x": np.ones((2, 3)), "z": np.ones((4, 3))}, r"x \(2, 3\).*z \(4, 3\)"),
+    ],
+)
+def test_axes_that_are_no_frame_are_refused(axes, message):
+    with pytest.raises(op.FrameError, match=message):
+        op.Frame(**axes)
+
+
+@given(z=VECTORS, x=VECTORS)
+def test_from_direction_keeps_z_and_puts_x_on_the_side_asked_for(z, x):
+    if np.linalg.norm(np.cross(z, x)) < 1e-3:
+        return
+    frame = op.Frame.from_direction(z, x)
+    np.testing.assert_allclose(frame.z, z / np.linalg.norm(z), atol=1e-15)
+    assert frame.x @ x > 0
+
+
+def test_a_direction_along_x_is_refused():
+    with pytest.raises(op.FrameError, match="perpendicular"):
+        op.Frame.from_direction(z=(1, 0, 0), x=(2, 0, 0))
+
+
+def test_frames_broadcast_over_batches():
+    frame = op.Frame().turned(np.linspace(0, 1, 5))
+    c, s = op.Frame().turn_to(frame)
+    assert c.shape == s.shape == (5,)
+
+
+def test_a_frame_does_not_change():
+    with pytest.raises(AttributeError, match="new one"):
+        op.Frame().x = np.zeros(3)
+    with pytest.raises(ValueError, match="read-only"):
+        op.Frame().x[0] = 2.0

@@ -1,0 +1,37 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+
+def test_horizontal_light_seen_from_a_diagonal_frame_is_antidiagonal():
+    light = op.Light([1.0, 1.0, 0.0, 0.0]).in_frame(op.Frame().turned(np.pi / 4))
+    np.testing.assert_allclose(light.stokes, [1, 0, -1, 0], atol=2e-16)
+
+
+def test_a_turn_of_the_frame_leaves_s0_and_s3():
+    light = op.Light([2.0, 0.3, 0.4, 0.5]).in_frame(op.Frame().turned(1.2))
+    assert light.stokes[0] == 2.0
+    assert light.stokes[3] == 0.5
+    assert light.dop == pytest.approx(np.sqrt(0.5) / 2, abs=1e-15)
+
+
+def test_light_adds_up_in_the_frame_of_the_first():
+    vertical = op.Light([1.0, 1.0, 0.0, 0.0], op.Frame().turned(np.pi / 2))
+    total = op.Light([1.0, 1.0, 0.0, 0.0]) + vertical
+    np.testing.assert_allclose(total.stokes, [2, 0, 0, 0], atol=1e-15)
+
+
+def test_no_light_has_no_polarisation():
+    assert op.Light([0.0, 0.0, 0.0, 0.0]).dop == 0.0
+
+
+def test_batches_of_lights_and_frames_broadcast():
+    light = op.Light(np.ones((3, 1, 4))).in_frame(op.Frame().turned(np.zeros(2)))
+    assert light.stokes.shape == (3, 2, 4)
+
+
+@pytest.mark.parametrize("stokes", [[1.0, 0.0, 0.0], 1.0, [1j, 0, 0, 0], "abcd"])
+def test_what_is_no_stokes_vector_is_refused(stokes):
+    with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4\)"):
+        op.Light(stokes)
