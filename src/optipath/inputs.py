@@ -116,9 +116,12 @@ class Inputs:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Inputs):
             return NotImplemented
-        return dict(self.open) == dict(other.open) and dict(self.shapes) == dict(other.shapes)
+        return dict(self.open) == dict(other.open) and self._batch() == other._batch()
 
     __hash__ = None  # type: ignore[assignment]
+
+    def _batch(self) -> tuple[int, ...]:
+        return np.broadcast_shapes(*self.shapes.values())
 
     def _unknown(self, name: str) -> str:
         if name in self.bound:

@@ -146,17 +146,30 @@ class Parameter:
         self._check_range(array)
         return Resolved(array, present)
 
-    def parse(self, text: str) -> Any:
-        """Return what a text on the command line or in a file stands for: a word or a number.
+    def parse(self, text: str, default_unit: str = "") -> Any:
+        """Return what a text stands for: a word, as it is, or a number.
+
+        Parameters
+        ----------
+        text : str
+            A word of the parameter, or a number with its unit.
+        default_unit : str, optional
+            The unit of a number without one.
 
         Raises
         ------
+        ParameterError
+            If it is another word.
         UnitError
-            If it is neither; a bare number is in the parameter's unit.
+            If it is no quantity of the parameter's dimension.
         """
-        if text in self.words or (self.optional and text == ABSENT):
+        words = [*self.words, *([ABSENT] if self.optional else [])]
+        if text in words:
             return text
-        return parse_quantity(text, dimension_of(self.unit), self.unit)
+        if text[:1].isalpha():
+            cure = did_you_mean(text, words) if words else "; give a number"
+            raise ParameterError(f"parameter '{self.name}' knows no word '{text}'{cure}")
+        return parse_quantity(text, dimension_of(self.unit), default_unit)
 
     def text(self, value: Any) -> str:
         """Write a value as files and the command line give it."""
@@ -184,15 +197,8 @@ class Parameter:
             if isinstance(entry, (int, float, complex)) and not isinstance(entry, bool):
                 return entry
             raise ParameterError(f"parameter '{self.name}' must be a number, not {entry!r}")
-        if self.optional and entry == ABSENT:
-            return None
-        if entry in self.words:
-            return self.words[entry]
-        words = [*self.words, *([ABSENT] if self.optional else [])]
-        if entry[:1].isalpha():
-            cure = did_you_mean(entry, words) if words else "; give a number"
-            raise ParameterError(f"parameter '{self.name}' knows no word '{entry}'{cure}")
-        return parse_quantity(entry, dimension_of(self.unit))
+        value = self.parse(entry)
+        return {**self.words, ABSENT: None}[value] if isinstance(value, str) else value
 
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         bad = ~np.isfinite(array)

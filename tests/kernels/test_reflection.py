@@ -55,10 +55,10 @@ def test_reflection_never_gives_more_than_it_gets(method, n, k, angle):
 @pytest.mark.parametrize("method", METHODS)
 def test_normal_incidence_gives_the_closed_form_and_turns_y(method):
     A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0, method)
-    assert A == pytest.approx(0.04, abs=1e-16)
-    assert B == pytest.approx(0.0, abs=1e-16)
-    assert C == pytest.approx(-0.04, abs=1e-16)
-    assert S == pytest.approx(0.0, abs=1e-16)
+    assert pytest.approx(0.04, abs=1e-16) == A
+    assert pytest.approx(0.0, abs=1e-16) == B
+    assert pytest.approx(-0.04, abs=1e-16) == C
+    assert pytest.approx(0.0, abs=1e-16) == S
 
 
 def test_brewsters_angle_leaves_no_light_along_p():
@@ -78,7 +78,7 @@ def test_total_reflection_is_total_to_the_last_bit(n, angle):
     A, B, C, S = op.fresnel_reflection(n, np.cos(incidence), np.sin(incidence))
     assert A == 1.0
     assert B == 0.0
-    assert C * C + S * S == pytest.approx(1.0, abs=1e-14)
+    assert pytest.approx(1.0, abs=1e-14) == C * C + S * S
 
 
 @pytest.mark.parametrize("index", [1.5, 0.5, 0.608 + 2.12j, 1e6, 1.0 + 1e-9j])

@@ -27,7 +27,7 @@ class Value(click.ParamType):  # type: ignore[type-arg]
     def convert(self, value: Any, param: Any, ctx: Any) -> Any:
         """Return the number or word, or fail with one sentence."""
         try:
-            given = self.parameter.parse(value)
+            given = self.parameter.parse(value, self.parameter.unit)
             self.parameter.resolve(given)
         except OptipathError as error:
             self.fail("; ".join(error.faults), param, ctx)

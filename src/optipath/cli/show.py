@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from io import StringIO
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from rich.console import Console
@@ -13,6 +15,9 @@ from optipath.drawing import draw
 from optipath.parameters import ABSENT, Parameter
 from optipath.presets import load_preset
 
+if TYPE_CHECKING:
+    from optipath.path_graph import PathGraph
+
 
 @click.command()
 @click.argument("preset")
@@ -21,8 +26,18 @@ from optipath.presets import load_preset
 def show(preset: str, case: str | None, svg: str | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
     path = load_preset(preset, case=case)
-    # A picture has a width of its own; on the terminal, the terminal's.
-    console = Console(record=bool(svg), width=100 if svg else None, highlight=False)
+    if svg:
+        # A picture has a width of its own; what is printed has the terminal's.
+        recorder = Console(record=True, width=100, file=StringIO(), highlight=False)
+        _print(recorder, path)
+        try:
+            Path(svg).write_text(recorder.export_svg(title=f"optipath show {preset}"), "utf-8")
+        except OSError as error:
+            raise click.ClickException(f"'{svg}' cannot be written: {error.strerror}") from None
+    _print(Console(highlight=False), path)
+
+
+def _print(console: Console, path: PathGraph) -> None:
     console.print(Text(path.description, style="bold"), end="\n\n")
     if path.parameters:
         table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")
@@ -36,11 +51,6 @@ def show(preset: str, case: str | None, svg: str | None) -> None:
     for name, found in path.cases.items():
         if found.note:
             console.print(Text(f"  {name}: {found.note}"))
-    if svg:
-        try:
-            Path(svg).write_text(console.export_svg(title=f"optipath show {preset}"), "utf-8")
-        except OSError as error:
-            raise click.ClickException(f"'{svg}' cannot be written: {error.strerror}") from None
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:

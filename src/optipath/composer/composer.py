@@ -97,7 +97,7 @@ class Composer:
         return Plan(
             program=lower(graph, self.method),
             inputs=inputs_of(graph),
-            outlets=tuple(outlets(graph)),
+            outlets=tuple(sorted(outlets(graph))),
             copied=_copied(graph),
             method=self.method,
             model="full",
@@ -108,4 +108,4 @@ class Composer:
 
 def _copied(graph: nx.MultiDiGraph) -> tuple[str, ...]:
     counts = Counter(f"{start}.{leaves}" for start, _, (leaves, _) in graph.edges(keys=True))
-    return tuple(port for port, count in counts.items() if count > 1)
+    return tuple(sorted(port for port, count in counts.items() if count > 1))

@@ -12,7 +12,6 @@ from optipath.frozen import frozen
 from optipath.kernels import NUMPY, TURN, TURN_BACK
 from optipath.materials import Material
 from optipath.mueller import stacked
-from optipath.parameters import Parameter
 from optipath.views import View, view_of
 
 if TYPE_CHECKING:
@@ -83,8 +82,8 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
         return tuple(View(value, position, domain.tail) for position in range(count))
     if isinstance(value, Material):
         return value.n, value.k
-    if isinstance(domain, IndexDomain) and isinstance(value, Parameter):
-        return View(value, "real"), View(value, "imag")
-    if isinstance(domain, IndexDomain) and np.asarray(value).dtype.kind in "iufc":
+    if not isinstance(domain, IndexDomain):
+        return (value,)
+    if isinstance(value, (int, float, complex, np.ndarray)):
         return frozen(np.real(value)), frozen(np.imag(value))
-    return (value,)
+    return View(value, "real"), View(value, "imag")

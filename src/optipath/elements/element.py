@@ -6,7 +6,7 @@ from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
 
-from optipath.domains import REAL, Choice, Domain
+from optipath.domains import REAL, Choice, Domain, IndexDomain
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.registry import register
 from optipath.errors import PathError, ValueFault, did_you_mean
@@ -214,8 +214,10 @@ class Element:
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        names = (f.name for f in fields(self))  # type: ignore[arg-type]
-        return all(same(getattr(self, name), getattr(other, name)) for name in names)
+        return all(
+            _same_value(getattr(self, name), getattr(other, name), domain)
+            for name, domain in self.domains().items()
+        )
 
     __hash__ = None  # type: ignore[assignment]
 
@@ -235,6 +237,14 @@ def _annotated(hint: Any) -> Iterator[Domain]:
             yield part
         else:
             yield from _annotated(part)
+
+
+def _same_value(first: Any, second: Any, domain: Domain) -> bool:
+    if same(first, second) or not isinstance(domain, IndexDomain):
+        return same(first, second)
+    # An index may be written as a complex number or as a Material.
+    pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)
+    return all(same(one, other) for one, other in pairs)
 
 
 def _rows_kernel(name: str, rows_of: Any) -> Kernel:

@@ -9,7 +9,7 @@ import numpy as np
 from optipath.domains import Choice, Domain, IndexDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
-from optipath.parameters import ABSENT, Parameter
+from optipath.parameters import Parameter
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -58,14 +58,12 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
     OptipathError
         If it is no word of the parameter and no quantity of its dimension.
     """
-    if isinstance(raw, str) and (raw in parameter.words or raw == ABSENT):
-        return raw
+    if isinstance(raw, str):
+        return parameter.parse(raw)
     if isinstance(raw, list):
         return [decode_given(entry, parameter) for entry in raw]
     if isinstance(raw, dict):
         return complex(_number(raw.get("n"), ""), _number(raw.get("k"), ""))
-    if isinstance(raw, str) and parameter.words and raw[:1].isalpha():
-        raise PresetError(f"'{raw}' is no word{did_you_mean(raw, parameter.words)}")
     return _number(raw, dimension_of(parameter.unit))
 
 

@@ -32,6 +32,7 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         for word, raw in table.get("words", {}).items()
     }
     if len(faults) > before:
+        _hint(where, unit, faults)
         return bare
     keys: dict[str, Any] = {
         key: table[key] for key in ("help", "optional", "bound") if key in table
@@ -43,6 +44,7 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         at = f"{where}.default"
         default = faults.attempt(at, decode_given, table["default"], open_one)
     if len(faults) > before:
+        _hint(where, unit, faults)
         return bare
     return faults.attempt(where, Parameter, name, default, **keys) or bare
 
@@ -56,3 +58,8 @@ def _range(where: str, table: dict[str, Any], domain: Domain, faults: Faults) ->
     if isinstance(low, float) and isinstance(high, float) and not low <= high:
         faults.append(f"{where}: 'range' must begin with its lower end")
     return low, high
+
+
+def _hint(where: str, unit: str, faults: Faults) -> None:
+    if not unit:
+        faults.append(f'{where} declares no unit; if its values have one, add unit = "..."')

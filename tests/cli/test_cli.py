@@ -1,0 +1,194 @@
+import json
+import subprocess
+import sys
+
+import pytest
+
+import optipath as op
+from optipath.cli import main
+
+
+def run(capsys, *arguments):
+    status = main(list(arguments))
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+def test_presets_lists_every_preset(capsys):
+    status, out, err = run(capsys, "presets")
+    assert (status, err) == (0, "")
+    assert all(name in out for name in op.preset_names())
+
+
+def test_presets_as_json(capsys):
+    _, out, _ = run(capsys, "presets", "--json")
+    assert list(json.loads(out)) == op.preset_names()
+
+
+def test_run_as_json_has_the_keys_that_others_read(capsys):
+    status, out, err = run(capsys, "run", "npgr026", "--delta", "48", "--filter", "30", "--json")
+    found = json.loads(out)
+    assert (status, err) == (0, "")
+    assert list(found) == [
+        "preset",
+        "parameters",
+        "units",
+        "model",
+        "method",
+        "engine",
+        "detectors",
+    ]
+    assert found["preset"] == "npgr026"
+    assert found["method"] == "stable"
+    assert found["model"] == "full"
+    assert found["parameters"]["delta"] == 48.0
+    assert found["parameters"]["filter"] == 30.0
+    assert found["units"]["delta"] == "deg"
+    assert len(found["detectors"]["E"]["stokes"]) == 4
+
+
+def test_run_takes_units_and_negative_numbers(capsys):
+    _, plain, _ = run(capsys, "run", "npgr026", "--rho", "-34", "--json")
+    _, with_unit, _ = run(capsys, "run", "npgr026", "--rho", "-34 deg", "--json")
+    assert plain == with_unit
+    assert json.loads(plain)["parameters"]["rho"] == -34.0
+
+
+def test_run_prints_the_published_value_beside_the_computed_one(capsys):
+    status, out, _ = run(capsys, "run", "npgr026", "--case", "3")
+    assert status == 0
+    for part in ("published", "1.2e-10", "-1.21724580425e-10", "note: The published S1"):
+        assert part in out
+
+
+def test_a_case_with_other_values_has_no_published_value(capsys):
+    _, out, _ = run(capsys, "run", "npgr026", "--case", "3", "--delta", "20", "--json")
+    assert "published" not in json.loads(out)["detectors"]["E"]
+
+
+def test_run_by_another_method_says_so(capsys):
+    _, out, _ = run(capsys, "run", "npgr026", "--method", "textbook", "--json")
+    assert json.loads(out)["method"] == "textbook"
+
+
+def test_help_lists_every_parameter_with_its_help(capsys):
+    status, out, _ = run(capsys, "run", "npgr026", "--help")
+    assert status == 0
+    for name, parameter in op.load_preset("npgr026").parameters.items():
+        assert f"--{name}" in out
+        assert parameter.help.split()[0] in out
+
+
+def test_show_tells_parameters_elements_links_and_notes(capsys):
+    status, out, _ = run(capsys, "show", "npgr026")
+    assert status == 0
+    for part in (
+        "delta",
+        "53 deg",
+        "0 deg .. 90 deg",
+        "X2.in",
+        "azimuth=-$rho",
+        "misprint",
+        "0.666",
+    ):
+        assert part in out or part == "misprint"
+
+
+def test_show_draws_into_a_file(capsys, tmp_path):
+    file = tmp_path / "picture.svg"
+    status, _, _ = run(capsys, "show", "malus", "--svg", str(file))
+    assert status == 0
+    assert file.read_text("utf-8").startswith("<svg")
+
+
+def test_explain_tells_the_steps(capsys):
+    status, out, _ = run(capsys, "explain", "npgr026", "--case", "1")
+    assert status == 0
+    assert "4 steps" in out.splitlines()[0]
+    assert "X2.reflected" in out
+
+
+def test_a_file_of_ones_own_works_wherever_a_name_does(capsys, tmp_path):
+    file = tmp_path / "my own.toml"
+    file.write_text(op.load_preset("malus").to_toml(), "utf-8")
+    for command in ("show", "run", "explain"):
+        assert run(capsys, command, str(file))[0] == 0
+    _, out, _ = run(capsys, "run", str(file), "--angle", "60", "--json")
+    assert json.loads(out)["detectors"]["eye"]["stokes"][0] == pytest.approx(0.125)
+
+
+def test_unread_components_are_null(capsys, tmp_path):
+    file = tmp_path / "intensity.toml"
+    text = op.load_preset("malus").to_toml().replace('reads = "stokes"', 'reads = "intensity"')
+    file.write_text(text, "utf-8")
+    _, out, _ = run(capsys, "run", str(file), "--json")
+    assert json.loads(out)["detectors"]["eye"]["stokes"] == [pytest.approx(0.375), None, None, None]
+    _, out, _ = run(capsys, "run", str(file))
+    assert "not read" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "messages"),
+    [
+        (["run", "npgr62"], ["'npgr62'", "did you mean 'npgr026'"]),
+        (["run", "../x"], ["../x"]),
+        (["run", "npgr026", "--detla", "3"], ["--detla", "--delta"]),
+        (["run", "npgr026", "--delta", "95"], ["delta", "95 deg", "0 deg .. 90 deg"]),
+        (["run", "npgr026", "--delta", "abc"], ["delta", "abc"]),
+        (["run", "npgr026", "--delta", "3 dge"], ["did you mean 'deg'"]),
+        (["run", "npgr026", "--k1", "-1"], ["k1", "-1"]),
+        (["run", "npgr026", "--n1", "nan"], ["n1", "nan"]),
+        (["run", "npgr026", "--n1", "inf"], ["n1", "inf"]),
+        (["run", "npgr026", "--filter", "horizontl"], ["did you mean 'horizontal'"]),
+        (["run", "npgr026", "--case", "10"], ["case '10' is unknown"]),
+        (["run", "npgr026", "--delta"], ["--delta"]),
+        (["run", "npgr026", "--method", "exact"], ["exact"]),
+        (["run", "npgr026", "more"], ["more"]),
+        (["run"], ["PRESET"]),
+        (["show"], ["PRESET"]),
+        (["show", "npgr026", "--svg", "/no/such/folder/x.svg"], ["cannot be written"]),
+        (["explain", "no-such.toml"], ["no-such.toml"]),
+        (["rnu"], ["rnu"]),
+        (["--what"], ["--what"]),
+    ],
+)
+def test_bad_input_ends_with_status_2_and_one_line(arguments, messages, capsys):
+    status, out, err = run(capsys, *arguments)
+    assert status == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    for message in messages:
+        assert message in err
+
+
+def test_all_faults_of_a_file_stand_in_the_one_line(capsys, tmp_path):
+    file = tmp_path / "bad.toml"
+    text = op.load_preset("malus").to_toml()
+    file.write_text(text.replace("source", "sorce").replace("analyzer.in", "analyzer.inn"), "utf-8")
+    status, _, err = run(capsys, "run", str(file))
+    assert status == 2
+    assert err.count("\n") == 1
+    assert "did you mean 'source'" in err
+    assert "analyzer.inn" in err
+
+
+def test_a_parameter_named_like_an_option_is_refused(capsys, tmp_path):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(op.Parameter("json", 1.0))) >> path.add("eye", op.Detector())
+    file = tmp_path / "reserved.toml"
+    file.write_text(path.to_toml(), "utf-8")
+    status, _, err = run(capsys, "run", str(file))
+    assert status == 2
+    assert "'json'" in err
+
+
+@pytest.mark.parametrize("command", [["optipath"], [sys.executable, "-m", "optipath"]])
+def test_the_command_is_installed(command):
+    done = subprocess.run([*command, "--version"], capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("optipath")
+
+
+def test_without_arguments_it_says_what_it_can_do(capsys):
+    status, out, _ = run(capsys)
+    assert status == 0
+    assert "presets" in out

@@ -1,0 +1,205 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+
+def chain(*elements):
+    """A path with a lamp in front of the elements and an eye behind them."""
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for number, element in enumerate(elements):
+        node = node >> path.add(f"e{number}", element)
+    node >> path.add("eye", op.Detector())
+    return path
+
+
+def faults_of(path):
+    with pytest.raises(op.PathError) as error:
+        path.check()
+    return error.value.faults
+
+
+@pytest.mark.parametrize(
+    ("element", "message"),
+    [
+        (op.Interface(1.5, -0.1), "e0.incidence is -5.72"),
+        (op.Interface(1.5, 1.6), "within 0 deg .. 90 deg"),
+        (op.Interface(-1.5, 0.1), "e0.index is"),
+        (op.Interface(1.5 - 1j, 0.1), "k > 0 absorbs"),
+        (op.Interface(np.nan, 0.1), "e0.index is nan"),
+        (op.Interface(complex(1.5, np.inf), 0.1), "finite"),
+        (op.Interface(op.Material(-1.0, 0.0), 0.1), "e0.index.n is -1"),
+        (op.Interface(op.Material(1.0, -2.0), 0.1), "e0.index.k is -2"),
+        (op.Interface(0.0, 0.1), "e0.index is 0"),
+        (op.Interface(1.5, 0.1, outside=0.0), "e0.outside is 0"),
+        (op.Interface(1.5, 0.1, outside=1.5 + 1j), "e0.outside is complex"),
+        (op.Interface(1.5, 0.1, outside=op.Material(1.5, 0.1)), "e0.outside.k is 0.1"),
+        (op.Interface("glass", 0.1), "e0.index must be"),
+        (op.Interface(1.5, None), "e0.incidence must be"),
+        (op.Interface(1.5, [0.1, [0.2]]), "unequal"),
+        (op.Polarizer(np.inf), "e0.angle is inf"),
+        (op.Polarizer(transmittance=1.5), "e0.transmittance is 1.5"),
+        (op.Polarizer(1j), "e0.angle is complex"),
+        (op.Attenuator(-0.1), "e0.transmittance is -0.1"),
+        (op.Retarder("quarter"), "e0.retardance must be"),
+        (op.MuellerElement(np.eye(3)), "shape (..., 4, 4), not (3, 3)"),
+    ],
+)
+def test_a_value_out_of_its_domain_is_named_with_its_node(element, message):
+    (fault,) = faults_of(chain(element))
+    assert message in fault
+
+
+@pytest.mark.parametrize(
+    ("source", "message"),
+    [
+        (op.Source(-1.0), "lamp.intensity is -1"),
+        (op.Source(stokes=[1.0, 1.0, 0.1, 0.0]), "more than 100 %"),
+        (op.Source(stokes=[-1.0, 0.0, 0.0, 0.0]), "negative intensity -1"),
+        (op.Source(stokes=[1.0, 0.0, 0.0]), "shape (..., 4), not (3,)"),
+        (op.Source(stokes=[np.nan, 0.0, 0.0, 0.0]), "nan"),
+    ],
+)
+def test_light_that_cannot_be_is_refused(source, message):
+    path = op.PathGraph()
+    path.add("lamp", source) >> path.add("eye", op.Detector())
+    (fault,) = faults_of(path)
+    assert message in fault
+
+
+def test_fully_polarised_light_is_allowed_whatever_its_rounding():
+    state = [1.0, *(np.array([0.6, 0.48, 0.64]) * (1 + 1e-15))]
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=state)) >> path.add("eye", op.Detector())
+    assert path.trace().dop == pytest.approx(1.0)
+
+
+def test_all_faults_are_told_at_once():
+    path = op.PathGraph()
+    path.add("lamp", op.Source(-1.0))
+    path.add("glass", op.Interface(np.nan, 2.0))
+    path.add("alone", op.Polarizer())
+    path.connect("lamp.out", "glass.in")
+    faults = faults_of(path)
+    for part in ("lamp.intensity", "glass.index", "glass.incidence", "no detector"):
+        assert sum(part in fault for fault in faults) == 1
+
+
+def test_a_node_that_no_source_reaches_is_named():
+    path = chain()
+    path.add("alone", op.Polarizer()) >> path["eye"]
+    assert faults_of(path) == ("node 'alone' is reached by no source; link one to 'alone.in'",)
+
+
+def test_a_node_that_reaches_no_detector_is_named():
+    path = chain()
+    path["lamp"] >> path.add("lost", op.Polarizer())
+    (fault,) = faults_of(path)
+    assert "'lost' reaches no detector" in fault
+    assert "'lost.out'" in fault
+
+
+def test_a_dump_ends_light_as_well_as_a_detector():
+    path = op.PathGraph()
+    split = path.add("split", op.BeamSplitter())
+    path.add("lamp", op.Source()) >> split
+    path.add("eye", op.Detector())
+    path.add("dump", op.Dump())
+    path.connect("split.reflected", "eye.in")
+    path.connect("split.transmitted", "dump.in")
+    path.check()
+    assert path.trace().intensity == 0.5
+
+
+def test_a_path_needs_a_source_and_a_detector():
+    assert len(faults_of(op.PathGraph())) == 2
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("dump", op.Dump())
+    (fault,) = faults_of(path)
+    assert "no detector" in fault
+
+
+def test_an_in_port_fed_twice_is_named_with_both_feeders():
+    path = chain(op.Polarizer())
+    path.add("lamp2", op.Source()) >> path["e0"]
+    (fault,) = faults_of(path)
+    for part in ("'e0.in'", "'lamp.out' and 'lamp2.out'", "Combiner"):
+        assert part in fault
+
+
+def test_a_cycle_is_printed_in_order():
+    path = chain(op.Combiner(), op.Polarizer())
+    split = path.add("split", op.BeamSplitter())
+    path["e1"] >> split
+    path.connect("split.reflected", "e0.in")
+    path.add("dump", op.Dump())
+    path.connect("split.transmitted", "dump.in")
+    faults = faults_of(path)
+    assert faults == (
+        "light goes round in a cycle: e0 -> e1 -> split -> e0; open it by removing a link",
+    )
+
+
+def test_light_into_a_port_that_gives_none_is_explained():
+    path = chain(op.Interface(1.5, 0.1))
+    path.add("screen", op.Detector())
+    path.connect("e0.transmitted", "screen.in")
+    (fault,) = faults_of(path)
+    assert "'screen' gets no light" in fault
+    assert "in this version" in fault
+
+
+def test_arrays_that_do_not_broadcast_are_named_with_shapes_and_owners():
+    path = chain(op.Polarizer(np.zeros(3)), op.Polarizer(np.zeros(4)), op.Polarizer(0.0))
+    (fault,) = faults_of(path)
+    assert "e0.angle (3,), e1.angle (4,)" in fault
+
+
+def test_given_arrays_are_checked_against_those_of_the_path():
+    path = chain(op.Polarizer(np.zeros(3)), op.Rotator(op.Parameter("turn")))
+    assert path.trace(turn=np.zeros((2, 1))).stokes.shape == (2, 3, 4)
+    with pytest.raises(op.ParameterError, match=r"e0\.angle \(3,\), turn \(2,\)"):
+        path.trace(turn=np.zeros(2))
+
+
+def test_two_parameters_of_one_name_must_agree():
+    one = op.Parameter("a", default=0.1)
+    other = op.Parameter("a", default=0.2)
+    (fault,) = faults_of(chain(op.Rotator(one), op.Rotator(other)))
+    assert "'a' at e1.angle differs" in fault
+
+
+def test_one_parameter_and_its_negative_cancel():
+    turn = op.Parameter("turn", default=0.3)
+    path = chain(op.Polarizer(), op.Rotator(turn), op.Rotator(-turn))
+    np.testing.assert_allclose(path.trace(turn=1.1).stokes, [0.5, 0.5, 0, 0], atol=1e-16)
+
+
+def test_a_parameter_of_another_dimension_is_refused():
+    (fault,) = faults_of(chain(op.Attenuator(op.Parameter("t", unit="deg"))))
+    assert "'t' is in deg, but e0.transmittance takes" in fault
+
+
+def test_an_optional_parameter_may_only_take_out_what_light_goes_straight_through():
+    optional = op.Parameter("a", default=0.1, optional=True)
+    (fault,) = faults_of(chain(op.Interface(1.5, optional)))
+    assert "cannot be left out" in fault
+    chain(op.Rotator(optional)).check()
+
+
+@pytest.mark.parametrize("reads", ["stoke", 3, None, op.Parameter("reads")])
+def test_a_reading_that_does_not_exist_is_refused(reads):
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("eye", op.Detector(reads=reads))
+    (fault,) = faults_of(path)
+    assert "eye.reads" in fault
+
+
+def test_an_azimuth_is_given_in_one_place():
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    path.add("filter", op.Polarizer(azimuth=0.1)) >> path.add("eye", op.Detector())
+    path.connect("lamp.out", "filter.in", azimuth=0.2)
+    (fault,) = faults_of(path)
+    assert "give it in one place" in fault

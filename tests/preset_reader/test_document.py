@@ -1,0 +1,166 @@
+import tomllib
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.preset_reader import read
+
+GOOD = """
+format = 1
+description = "a lamp, a mirror, an eye"
+
+[parameters.theta]
+default = "30 deg"
+unit = "deg"
+range = ["0 deg", "90 deg"]
+
+[elements.lamp]
+kind = "source"
+
+[elements.mirror]
+kind = "interface"
+index = { n = 1.2, k = 7.0 }
+incidence = "$theta"
+
+[elements.eye]
+kind = "detector"
+
+[[links]]
+from = "lamp.out"
+to = "mirror.in"
+
+[[links]]
+from = "mirror.reflected"
+to = "eye.in"
+azimuth = "10 deg"
+
+[cases.steep]
+values = { theta = "80 deg" }
+"""
+
+
+def faults_of(text):
+    with pytest.raises(op.OptipathError) as error:
+        read(tomllib.loads(text))
+    return error.value.faults
+
+
+def test_a_path_built_in_python_equals_the_one_read():
+    path = op.PathGraph("a lamp, a mirror, an eye", {"steep": op.Case({"theta": np.radians(80.0)})})
+    theta = op.Parameter("theta", np.radians(30.0), unit="deg", minimum=0.0, maximum=np.pi / 2)
+    lamp = path.add("lamp", op.Source())
+    lamp >> path.add("mirror", op.Interface(op.Material(1.2, 7.0), theta))
+    path.add("eye", op.Detector())
+    path.connect("mirror.reflected", "eye.in", azimuth=np.radians(10.0))
+    assert read(tomllib.loads(GOOD)) == path
+    assert read(tomllib.loads(GOOD)).compose() == path.compose()
+
+
+def test_a_complex_index_and_a_material_give_equal_plans():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source())
+    mirror = path.add("mirror", op.Interface(1.2 + 7.0j, np.radians(30.0)))
+    lamp >> mirror
+    path.add("eye", op.Detector())
+    path.connect("mirror.reflected", "eye.in", azimuth=np.radians(10.0))
+    fixed = GOOD.replace('"$theta"', '"30 deg"').split("[cases")[0]
+    fixed = fixed.split("[parameters")[0] + "[elements" + fixed.split("[elements", 1)[1]
+    assert read(tomllib.loads(fixed)).compose() == path.compose()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "messages"),
+    [
+        ("description =", "desciption =", ["key 'desciption'", "did you mean 'description'"]),
+        ("format = 1", "format = true", ["'format' must be a whole number"]),
+        ('kind = "source"', 'kind = "sorce"', ["'sorce' is unknown", "did you mean 'source'"]),
+        ('kind = "source"', "", ["elements.lamp: kind is missing"]),
+        ('kind = "source"', "kind = 3", ["elements.lamp: kind is missing"]),
+        ("index =", "indx =", ["key 'indx'", "did you mean 'index'", "'index' is missing"]),
+        ("k = 7.0", "kk = 7.0", ["key 'kk' is unknown"]),
+        ("k = 7.0", "k = -7.0", ["mirror.index.k is -7"]),
+        ("k = 7.0", "k = nan", ["mirror.index.k is nan"]),
+        ("n = 1.2", "n = '1.2 nm'", ["pure number"]),
+        ('"$theta"', '"$thta"', ["'$thta' is not declared", "did you mean '$theta'"]),
+        ('"$theta"', '"30 dge"', ["'dge' is unknown", "did you mean 'deg'", "no element takes"]),
+        ('"$theta"', "30", ["30 has no unit", "'30 deg'"]),
+        ('"$theta"', "true", ["True is not a number"]),
+        ('"$theta"', '"100 deg"', ["mirror.incidence is 100 deg"]),
+        ('unit = "deg"', 'unit = "dge"', ["'dge' is unknown"]),
+        ('unit = "deg"', "", ["parameters.theta", "declares no unit"]),
+        ('["0 deg", "90 deg"]', '["0 deg"]', ["two ends, not 1"]),
+        ('["0 deg", "90 deg"]', '["90 deg", "0 deg"]', ["lower end"]),
+        ('["0 deg", "90 deg"]', '["40 deg", "90 deg"]', ["outside its range"]),
+        ("[parameters.theta]", "[parameters.the-ta]", ["parameter name 'the-ta'"]),
+        ("mirror.reflected", "mirror.reflectd", ["did you mean 'mirror.reflected'"]),
+        ("mirror.in", "miror.in", ["'miror' does not exist", "did you mean 'mirror'"]),
+        ('from = "lamp.out"', 'form = "lamp.out"', ["key 'form'", "'from' is missing"]),
+        ('to = "mirror.in"', "to = 3", ["'to' must be a text"]),
+        ("[elements.eye]", "[elements.'e.y']", ["node name 'e.y'"]),
+        ('"10 deg"', '"10 nm"', ["links[1]", "no angle"]),
+        ('theta = "80 deg"', 'thta = "80 deg"', ["cases.steep", "did you mean 'theta'"]),
+        ('theta = "80 deg"', 'theta = "100 deg"', ["cases.steep.theta", "outside its range"]),
+        ("values = {", "valus = {", ["key 'valus'"]),
+        ("[cases.steep]", "[cases.steep]\npublished = {ey = [1, 2, 3, 4]}", ["mean 'eye'"]),
+        ("[cases.steep]", "[cases.steep]\npublished = {eye = [1, 2]}", ["four numbers"]),
+        ("[elements.eye]", "[elements.extra]\nkind='dump'\n[elements.eye]", ["'extra' is reached"]),
+    ],
+)
+def test_each_fault_is_named_with_its_place_and_cure(old, new, messages):
+    assert old in GOOD
+    faults = " | ".join(faults_of(GOOD.replace(old, new, 1)))
+    for message in messages:
+        assert message in faults
+
+
+def test_all_faults_of_a_file_are_told_at_once():
+    text = GOOD.replace('kind = "source"', 'kind = "sorce"').replace("k = 7.0", "k = -7.0")
+    text = text.replace("mirror.reflected", "mirror.reflectd").replace("range", "rnge")
+    text = text.replace("10 deg", "10 dge").replace('theta = "80 deg"', 'thta = "80 deg"')
+    faults = faults_of(text)
+    for part in ("sorce", "mirror.index.k", "reflectd", "rnge", "dge", "thta"):
+        assert sum(part in fault for fault in faults) == 1, part
+
+
+def test_frames_are_written_and_read_back():
+    turned = op.Frame().turned(0.3)
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(), {"out": op.Frame()})
+    lamp >> path.add("filter", op.Polarizer(), {"in": turned}) >> path.add("eye", op.Detector())
+    copy = read(tomllib.loads(path.to_toml()))
+    assert copy == path
+    assert copy.trace().intensity == path.trace().intensity
+
+
+@pytest.mark.parametrize(
+    ("frames", "message"),
+    [
+        ("3", "must be tables"),
+        ("{ in = { x = [1, 0, 0] } }", "axis 'y' is missing"),
+        ("{ in = { x = [1, 0, 0], y = [0, 1, 0], z = [0, 0, 2] } }", "unit vectors"),
+        ("{ inn = { x = [1, 0, 0], y = [0, 1, 0], z = [0, 0, 1] } }", "'eye.inn' does not exist"),
+    ],
+)
+def test_faulty_frames_are_named(frames, message):
+    text = GOOD.replace('kind = "detector"', f'kind = "detector"\nframes = {frames}')
+    assert any(message in fault for fault in faults_of(text))
+
+
+def test_arrays_parameters_and_words_are_written_and_read_back():
+    path = op.PathGraph("all sorts", {"one": op.Case({"a": "up"}, note='a "note"\n')})
+    word = op.Parameter("a", [0.1, "up"], unit="rad", words={"up": 0.5}, help="é")
+    index = op.Parameter("m", 1.5 + 0.2j)
+    lamp = path.add("lamp", op.Source(stokes=[[1.0, 0, 0, 1.0], [1.0, 0, 0, 0]]))
+    node = lamp >> path.add("turn", op.Rotator(-word))
+    node >> path.add("glass", op.Interface(index, [0.1, 0.2], outside=1.1))
+    path["glass"] >> path.add("metal", op.Interface([1 + 1j, 2 + 1j], 0.3, azimuth=word))
+    (
+        path["metal"]
+        >> path.add("any", op.MuellerElement(np.eye(4)))
+        >> path.add("eye", op.Detector(reads="linear"))
+    )
+    copy = read(tomllib.loads(path.to_toml()))
+    assert copy == path
+    assert copy.compose() == path.compose()
+    np.testing.assert_array_equal(copy.trace().stokes, path.trace().stokes)

@@ -1,0 +1,36 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+
+def test_a_text_with_a_unit_is_a_value():
+    assert op.Parameter("a", unit="deg").resolve("180 deg").value == np.pi
+
+
+def test_words_stand_for_values_and_none_for_absence():
+    parameter = op.Parameter("a", words={"up": 1.0}, optional=True)
+    resolved = parameter.resolve(["up", "none", 0.5])
+    np.testing.assert_array_equal(resolved.value, [1.0, 0.0, 0.5])
+    np.testing.assert_array_equal(resolved.present, [True, False, True])
+
+
+@pytest.mark.parametrize(
+    ("keywords", "message"),
+    [
+        ({"name": "not a name"}, "letters, digits"),
+        ({"name": "a", "unit": "dge"}, "did you mean 'deg'"),
+        ({"name": "a", "default": 2.0, "maximum": 1.0}, "outside its range"),
+        ({"name": "a", "default": "up"}, "no word 'up'"),
+        ({"name": "a", "bound": True}, "bound but has no value"),
+    ],
+)
+def test_a_parameter_that_cannot_be_is_refused(keywords, message):
+    with pytest.raises(op.OptipathError, match=message):
+        op.Parameter(**keywords)
+
+
+def test_twice_negative_is_the_parameter_itself():
+    parameter = op.Parameter("a", default=1.0)
+    assert -(-parameter) == parameter
+    assert -parameter != parameter

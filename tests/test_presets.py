@@ -1,0 +1,148 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+def test_every_preset_runs_with_its_defaults_and_all_its_cases(name):
+    path = op.load_preset(name)
+    assert np.all(np.isfinite(path.trace().stokes))
+    for case in path.cases:
+        assert np.all(np.isfinite(op.load_preset(name, case=case).trace().stokes))
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+def test_every_preset_and_case_is_written_and_read_back_the_same(name, tmp_path):
+    whole = op.load_preset(name)
+    for path in (whole, *(op.load_preset(name, case=case) for case in whole.cases)):
+        file = tmp_path / "copy.toml"
+        file.write_text(path.to_toml(), "utf-8")
+        copy = op.load_preset(file)
+        assert copy == path
+        assert copy.compose() == path.compose()
+        assert list(copy.parameters) == list(path.parameters)
+
+
+def test_the_presets_that_were_promised_are_there():
+    promised = {"npgr026", "fresnel-rhomb", "two-panes", "three-polarizers", "malus", "senarmont"}
+    assert promised <= set(op.preset_names())
+    assert op.preset_names() == sorted(op.preset_names())
+
+
+def test_malus_law():
+    angles = np.linspace(-np.pi, np.pi, 101)
+    light = op.load_preset("malus").trace(angle=angles)
+    np.testing.assert_allclose(light.intensity, 0.5 * np.cos(angles) ** 2, atol=1e-16)
+
+
+def test_a_third_polarizer_between_crossed_ones_lets_light_through():
+    path = op.load_preset("three-polarizers")
+    assert path.trace(middle="none").intensity == 0.0
+    angles = np.linspace(0, np.pi, 51)
+    np.testing.assert_allclose(
+        path.trace(middle=angles).intensity, np.sin(2 * angles) ** 2 / 8, atol=1e-16
+    )
+
+
+def test_fresnels_rhomb_makes_circular_light():
+    # Born & Wolf, sec. 1.5.4: at 54 deg 37' or 48 deg 37' in glass of n = 1.51 each
+    # total reflection retards by 45 degrees.
+    path = op.load_preset("fresnel-rhomb")
+    for incidence in ("54.616666666666667 deg", "48.616666666666667 deg"):
+        stokes = path.trace(incidence=incidence).stokes
+        np.testing.assert_allclose(stokes, [0.5, 0, 0, -0.5], atol=1e-3)
+
+
+def test_two_panes_at_brewsters_angle_follow_malus_law():
+    turns = np.linspace(0, np.pi, 51)
+    light = op.load_preset("two-panes").trace(turn=turns).intensity
+    # tan(theta) = n leaves F_s = ((n^2 - 1) / (n^2 + 1))^2 of s and nothing of p.
+    reflectance = (1.25 / 3.25) ** 2
+    np.testing.assert_allclose(light, 0.5 * reflectance**2 * np.cos(turns) ** 2, atol=1e-17)
+
+
+def test_senarmonts_compensator_is_dark_at_half_the_retardance():
+    retardance = np.linspace(-np.pi, np.pi, 41)
+    path = op.load_preset("senarmont")
+    dark = path.trace(retardance=retardance, analyzer=np.pi / 2 + retardance / 2).intensity
+    bright = path.trace(retardance=retardance, analyzer=retardance / 2).intensity
+    np.testing.assert_allclose(dark, 0.0, atol=1e-15)
+    np.testing.assert_allclose(bright, 0.5, atol=1e-15)
+
+
+def test_values_given_take_precedence_over_the_case_and_others_stay_open():
+    path = op.load_preset("npgr026", case="7", filter="horizontal")
+    expected = op.load_preset("npgr026", case="8").trace().stokes
+    np.testing.assert_array_equal(path.trace().stokes, expected)
+    np.testing.assert_allclose(path.trace(intensity=200.0).stokes, 2 * expected)
+
+
+def test_a_case_may_be_given_as_a_number():
+    assert op.load_preset("npgr026", case=7) == op.load_preset("npgr026", case="7")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "messages"),
+    [
+        (("npgr62",), ["'npgr62' is unknown", "did you mean 'npgr026'"]),
+        (("../npgr026",), ["neither the name of a preset"]),
+        (("../x",), ["neither the name of a preset"]),
+        (("",), ["neither the name of a preset"]),
+        (("NPGR026",), ["neither the name of a preset"]),
+        (("no-such.toml",), ["cannot be read", "No such file"]),
+        (("a\0b.toml",), ["cannot be read"]),
+        ((3,), ["not 3"]),
+        ((None,), ["not None"]),
+    ],
+)
+def test_presets_that_do_not_exist_are_refused(arguments, messages):
+    with pytest.raises(op.PresetError) as error:
+        op.load_preset(*arguments)
+    for message in messages:
+        assert message in str(error.value)
+
+
+def test_an_unknown_case_is_refused_with_a_suggestion():
+    with pytest.raises(op.PresetError, match="case 'crosed'.*did you mean 'crossed'"):
+        op.load_preset("two-panes", case="crosed")
+
+
+def test_unknown_and_unsuitable_parameters_are_told_at_once():
+    with pytest.raises(op.ParameterError) as error:
+        op.load_preset("npgr026", detla=1.0, phi=9.0, n1=-1.0)
+    assert len(error.value.faults) == 3
+    assert "did you mean 'delta'" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"\xff\xfe", "not UTF-8: byte 0 is 0xff"),
+        (b"a = = 1", "not TOML"),
+        (b"a = " + b"[" * 100_000, "not TOML"),
+        (b"format = 2", "has format 2, but this version reads format 1"),
+        (b"", "'format' is missing"),
+        (b"#" * (5 * 1024 * 1024), "larger than 4 MiB"),
+    ],
+)
+def test_files_that_are_no_presets_are_refused(content, message, tmp_path):
+    file = tmp_path / "file.toml"
+    file.write_bytes(content)
+    with pytest.raises(op.OptipathError, match=message):
+        op.load_preset(file)
+
+
+def test_a_huge_file_is_refused_without_reading_it_all(tmp_path):
+    file = tmp_path / "huge.toml"
+    with file.open("wb") as handle:
+        handle.truncate(100 * 1024 * 1024)
+    with pytest.raises(op.PresetError, match="larger than"):
+        op.load_preset(file)
+
+
+def test_a_folder_is_no_preset(tmp_path):
+    folder = tmp_path / "folder.toml"
+    folder.mkdir()
+    with pytest.raises(op.PresetError, match="cannot be read"):
+        op.load_preset(folder)
