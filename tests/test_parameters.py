@@ -32,5 +32,6 @@ def test_a_parameter_that_cannot_be_is_refused(keywords, message):
 
 def test_twice_negative_is_the_parameter_itself():
     parameter = op.Parameter("a", default=1.0)
-    assert -(-parameter) == parameter
+    negative = -parameter
+    assert -negative == parameter
     assert -parameter != parameter

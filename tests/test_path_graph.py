@@ -184,7 +184,7 @@ def test_the_graph_is_networkx_and_cannot_be_changed():
     path = reflections(0.1)
     assert isinstance(path.graph, nx.MultiDiGraph)
     assert nx.shortest_path(path.graph, "lamp", "eye") == ["lamp", "first", "second", "eye"]
-    assert list(path.graph.edges(keys=True))[0] == ("lamp", "first", ("out", "in"))
+    assert next(iter(path.graph.edges(keys=True))) == ("lamp", "first", ("out", "in"))
     with pytest.raises(nx.NetworkXError, match=r"[Ff]rozen"):
         path.graph.add_node("more")
 

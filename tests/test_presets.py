@@ -104,7 +104,7 @@ def test_presets_that_do_not_exist_are_refused(arguments, messages):
 
 
 def test_an_unknown_case_is_refused_with_a_suggestion():
-    with pytest.raises(op.PresetError, match="case 'crosed'.*did you mean 'crossed'"):
+    with pytest.raises(op.PresetError, match=r"case 'crosed'.*did you mean 'crossed'"):
         op.load_preset("two-panes", case="crosed")
 
 

@@ -60,4 +60,4 @@ def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
     x1, y1 = along_axes(xp, first)
     x2, y2 = along_axes(xp, second)
     rest = (one + other for one, other in zip(first[1:], second[1:], strict=True))
-    return xp.minimum(x1 + x2, y1 + y2), *rest  # type: ignore[return-value]
+    return xp.minimum(x1 + x2, y1 + y2), *rest

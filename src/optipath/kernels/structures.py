@@ -124,7 +124,7 @@ def _block_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
 
 def _full_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     m = tuple(numbers)
-    return m[0:4], m[4:8], m[8:12], m[12:16]  # type: ignore[return-value]
+    return m[0:4], m[4:8], m[8:12], m[12:16]
 
 
 SCALE = Structure("scale", (1.0,), _scale, _scale_rows)
