@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 import numpy as np
 
-from optipath.composer import outlets
+from optipath.composer import Wiring
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.units import format_quantity
@@ -31,7 +31,7 @@ def draw(path: PathGraph) -> str:
     order = list(nx.lexicographical_topological_sort(nx.DiGraph(graph)))
     name_width = max(map(len, order))
     kind_width = max(len(path.element(name).kind) for name in order)
-    leaving = set(outlets(graph))
+    leaving = set(Wiring(graph).outlets)
     lines = []
     for name in order:
         element = path.element(name)

@@ -42,6 +42,8 @@ class Use:
 
     def batch_shape(self, numbers: Any) -> tuple[int, ...]:
         """Return the shape of numbers for this place, the axes of one value left out."""
+        if type(numbers) is float:
+            return ()
         shape: tuple[int, ...] = np.shape(numbers)
         return shape[: len(shape) - len(self.domain.tail)]
 

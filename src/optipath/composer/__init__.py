@@ -1,13 +1,13 @@
 """The composer: validate, lower, plan; one stage a file."""
 
 from optipath.composer.composer import Composer
-from optipath.composer.ports import outlets
 from optipath.composer.validate import structure_faults, validate
 from optipath.composer.values import parameters_of, value_faults
+from optipath.composer.wiring import Wiring
 
 __all__ = [
     "Composer",
-    "outlets",
+    "Wiring",
     "parameters_of",
     "structure_faults",
     "validate",

@@ -9,9 +9,9 @@ from typing import Any, Protocol
 import networkx as nx
 
 from optipath.composer.lower import lower
-from optipath.composer.ports import outlets
-from optipath.composer.validate import validate
-from optipath.composer.values import inputs_of
+from optipath.composer.validate import refuse_faults
+from optipath.composer.values import Values
+from optipath.composer.wiring import Wiring
 from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
 from optipath.plan import Plan
@@ -93,11 +93,12 @@ class Composer:
             With every fault of the path.
         """
         graph: Any = path if isinstance(path, nx.MultiDiGraph) else path.graph
-        validate(graph)
+        values, wiring = Values(graph), Wiring(graph)
+        refuse_faults(values, wiring)
         return Plan(
-            program=lower(graph, self.method),
-            inputs=inputs_of(graph),
-            outlets=tuple(sorted(outlets(graph))),
+            program=lower(wiring, self.method),
+            inputs=values.inputs(),
+            outlets=wiring.outlets,
             copied=_copied(graph),
             method=self.method,
             model="full",

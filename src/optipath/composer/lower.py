@@ -8,7 +8,6 @@ import networkx as nx
 import numpy as np
 
 from optipath.composer.placement import alignment, frame_at
-from optipath.composer.ports import Port, element_of, emitting, ending, port_graph, reached_from
 from optipath.elements import Detector
 from optipath.frames import Frame
 from optipath.parameters import Parameter
@@ -18,22 +17,20 @@ from optipath.views import View, view_of
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
+    from optipath.composer.wiring import Port, Wiring
     from optipath.elements import Coupling, Operation
 
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
 
-def lower(graph: nx.MultiDiGraph, method: str) -> Program:
+def lower(wiring: Wiring, method: str) -> Program:
     """Return the program of a path: ports in the order of travel, each a step or none.
 
     Ports from which no light reaches a detector or a dump are left out.
     """
-    builder = _Builder(graph, method)
-    ports = port_graph(graph)
-    wanted = reached_from(ports, emitting(graph)) & reached_from(
-        ports.reverse(copy=False), ending(graph)
-    )
-    for port in nx.lexicographical_topological_sort(ports.subgraph(wanted)):
+    builder = _Builder(wiring, method)
+    wanted = wiring.ports.subgraph(wiring.lit & wiring.useful).copy()
+    for port in nx.lexicographical_topological_sort(wanted):
         builder.add_port(port)
     return builder.program()
 
@@ -41,8 +38,8 @@ def lower(graph: nx.MultiDiGraph, method: str) -> Program:
 class _Builder:
     """Collects leaves, evaluations and steps; equal ones are entered once."""
 
-    def __init__(self, graph: nx.MultiDiGraph, method: str) -> None:
-        self.graph = graph
+    def __init__(self, wiring: Wiring, method: str) -> None:
+        self.wiring = wiring
         self.method = method
         self.leaves: list[View] = []
         self.evaluations: list[Evaluation] = []
@@ -56,10 +53,8 @@ class _Builder:
         """Return what has been collected."""
         detectors: dict[str, Reading] = {}
         dumps: dict[str, Reading] = {}
-        for name, port in ending(self.graph):
-            if (name, port) not in self.lights:
-                continue
-            element = element_of(self.graph, name)
+        for name, port in self.wiring.ends:
+            element = self.wiring.elements[name]
             reads = element.reads if isinstance(element, Detector) else "stokes"
             kept = detectors if isinstance(element, Detector) else dumps
             light, frame = self.lights[name, port], self._reading_frame(name, port)
@@ -76,13 +71,12 @@ class _Builder:
     def add_port(self, port: Port) -> None:
         """Add the steps that make the light at a port."""
         name, way = port
-        element = element_of(self.graph, name)
-        if way in element.inputs:
+        if way in self.wiring.elements[name].inputs:
             self._add_arrivals(port)
             return
         lights = [
             self._pass(name, coupling)
-            for coupling in element.couplings()
+            for coupling in self.wiring.couplings[name]
             if coupling.leaves == way and self._is_lit(name, coupling)
         ]
         self.lights[port] = self._sum(f"{name}.{way}", lights)
@@ -90,12 +84,12 @@ class _Builder:
     def _add_arrivals(self, port: Port) -> None:
         name, way = port
         lights = []
-        for link in sorted(self.graph.in_edges(name, keys=True)):
-            start, _, (leaves, enters) = link
-            if enters != way or (start, leaves) not in self.lights:
+        for link in self.wiring.links_to[port]:
+            start, _, (leaves, _) = link
+            if (start, leaves) not in self.lights:
                 continue
             light = self.lights[start, leaves]
-            turn = alignment(self.graph, link)
+            turn = alignment(self.wiring, link)
             if turn is not None:
                 light = self._step(f"{start}.{leaves} -> {name}.{way}", (light,), turn, None)
             lights.append(light)
@@ -108,7 +102,7 @@ class _Builder:
         label = f"{name}.{coupling.leaves}"
         if coupling.enters is None:
             light = self._step(label, (), coupling.operations[0], None)
-            self.sources[name] = (light, frame_at(self.graph, name, coupling.leaves) or Frame())
+            self.sources[name] = (light, frame_at(self.wiring, name, coupling.leaves) or Frame())
             return light
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
@@ -144,12 +138,12 @@ class _Builder:
         return index
 
     def _reading_frame(self, name: str, port: str) -> Frame:
-        own = frame_at(self.graph, name, port)
+        own = frame_at(self.wiring, name, port)
         if own is not None:
             return own
         arriving = [
-            frame_at(self.graph, start, leaves)
-            for start, _, (leaves, _) in self.graph.in_edges(name, keys=True)
+            frame_at(self.wiring, start, leaves)
+            for start, _, (leaves, _) in self.wiring.links_to[name, port]
         ]
         return next((frame for frame in arriving if frame is not None), Frame())
 

@@ -6,73 +6,71 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.ports import element_of
 from optipath.elements import Operation, Terminal
 from optipath.errors import FrameError
 from optipath.kernels import GIVEN_TURN, TURN
 from optipath.views import View
 
 if TYPE_CHECKING:
-    import networkx as nx
-
+    from optipath.composer.wiring import Link, Wiring
     from optipath.frames import Frame
 
 
-def frame_at(graph: nx.MultiDiGraph, name: str, port: str) -> Frame | None:
+def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
     """Return the world frame of a port; None for a port placed relatively."""
-    frames = graph.nodes[name]["frames"]
+    frames = wiring.graph.nodes[name]["frames"]
     if not frames:
         return None
-    if port not in frames and element_of(graph, name).straight:
+    if port not in frames and wiring.elements[name].straight:
         return next(iter(frames.values()))  # type: ignore[no-any-return]
     return frames.get(port)  # type: ignore[no-any-return]
 
 
-def azimuth_of(graph: nx.MultiDiGraph, link: tuple[str, str, Any]) -> Any:
+def azimuth_of(wiring: Wiring, link: Link) -> Any:
     """Return the turn of a relatively placed link: its own, or else its element's."""
-    own = graph.edges[link]["azimuth"]
-    return getattr(element_of(graph, link[1]), "azimuth", 0.0) if own is None else own
+    own = wiring.graph.edges[link]["azimuth"]
+    return getattr(wiring.elements[link[1]], "azimuth", 0.0) if own is None else own
 
 
-def alignment(graph: nx.MultiDiGraph, link: tuple[str, str, Any]) -> Operation | None:
+def alignment(wiring: Wiring, link: Link) -> Operation | None:
     """Return the turn from the frame that light leaves in to the one it enters; None for none.
 
     It comes from the link's own two port frames alone and is never accumulated.
     """
     start, end, (leaves, enters) = link
-    arriving, expected = frame_at(graph, start, leaves), frame_at(graph, end, enters)
+    arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     if arriving is not None and expected is not None:
         c, s = arriving.turn_to(expected)
         if np.all(c == 1.0) and np.all(s == 0.0):
             return None
         return Operation(GIVEN_TURN, (View(c), View(s)))
-    azimuth = azimuth_of(graph, link)
+    azimuth = azimuth_of(wiring, link)
     return None if _is_zero(azimuth) else Operation(TURN, (azimuth,))
 
 
-def link_text(link: tuple[str, str, Any]) -> str:
+def link_text(link: Link) -> str:
     """Write a link as ``start.port -> end.port``."""
     start, end, (leaves, enters) = link
     return f"{start}.{leaves} -> {end}.{enters}"
 
 
-def placement_faults(graph: nx.MultiDiGraph) -> list[str]:
+def placement_faults(wiring: Wiring) -> list[str]:
     """Return what is wrong with the frames and turns of the links, a sentence each."""
     found = []
-    for name, element in graph.nodes(data="element"):
-        found += element.frame_faults(name, graph.nodes[name]["frames"])
-    for link in graph.edges(keys=True):
-        found += _link_faults(graph, link)
-    for name, element in graph.nodes(data="element"):
-        found += _meeting_faults(graph, name, element)
+    for name, element in wiring.elements.items():
+        found += element.frame_faults(name, wiring.graph.nodes[name]["frames"])
+    for link in wiring.graph.edges(keys=True):
+        found += _link_faults(wiring, link)
+    for name, element in wiring.elements.items():
+        found += _meeting_faults(wiring, name, element)
     return found
 
 
-def _link_faults(graph: nx.MultiDiGraph, link: tuple[str, str, Any]) -> list[str]:
+def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     start, end, (leaves, enters) = link
-    element = element_of(graph, end)
-    arriving, expected = frame_at(graph, start, leaves), frame_at(graph, end, enters)
-    own, element_turn = graph.edges[link]["azimuth"], getattr(element, "azimuth", 0.0)
+    element = wiring.elements[end]
+    arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
+    own, element_turn = wiring.graph.edges[link]["azimuth"], getattr(element, "azimuth", 0.0)
     text = f"link '{link_text(link)}'"
     if own is not None and not _is_zero(element_turn):
         return [f"{text} and '{end}' both give an azimuth; give it in one place"]
@@ -96,11 +94,11 @@ def _link_faults(graph: nx.MultiDiGraph, link: tuple[str, str, Any]) -> list[str
     return []
 
 
-def _meeting_faults(graph: nx.MultiDiGraph, name: str, element: Any) -> list[str]:
-    if not element.merges or frame_at(graph, name, "in") is not None:
+def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
+    if not element.merges or frame_at(wiring, name, "in") is not None:
         return []
-    links = list(graph.in_edges(name, keys=True))
-    placed = [link for link in links if frame_at(graph, link[0], link[2][0]) is not None]
+    links = wiring.links_to.get((name, "in"), [])
+    placed = [link for link in links if frame_at(wiring, link[0], link[2][0]) is not None]
     if len(links) > 1 and placed:
         return [
             f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"

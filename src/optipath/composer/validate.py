@@ -7,14 +7,8 @@ from typing import TYPE_CHECKING
 import networkx as nx
 
 from optipath.composer.placement import placement_faults
-from optipath.composer.ports import (
-    element_of,
-    emitting,
-    ending,
-    port_graph,
-    reached_from,
-)
-from optipath.composer.values import value_faults
+from optipath.composer.values import Values
+from optipath.composer.wiring import Wiring
 from optipath.elements import Detector, Source
 from optipath.errors import PathError
 
@@ -23,78 +17,77 @@ if TYPE_CHECKING:
 
 
 def validate(graph: nx.MultiDiGraph) -> None:
-    """Raise unless the path can be composed.
+    """Raise unless a graph of elements can be composed.
 
     Raises
     ------
     PathError
         With all faults found: values, frames, ends, links and loops.
     """
-    faults = [
-        *value_faults(graph),
-        *placement_faults(graph),
-        *feeding_faults(graph),
-        *structure_faults(graph),
-    ]
+    refuse_faults(Values(graph), Wiring(graph))
+
+
+def refuse_faults(values: Values, wiring: Wiring) -> None:
+    """Raise unless values and wiring can be composed.
+
+    Raises
+    ------
+    PathError
+        With all faults found.
+    """
+    faults = [*values.faults(), *placement_faults(wiring), *_wiring_faults(wiring)]
     if faults:
         raise PathError(*faults)
 
 
-def feeding_faults(graph: nx.MultiDiGraph) -> list[str]:
-    """Return a sentence for each in-port that is fed twice and does not merge."""
-    found = []
-    for name, element in graph.nodes(data="element"):
-        if element.merges:
-            continue
-        for port in element.inputs:
-            feeders = [
-                f"'{start}.{leaves}'"
-                for start, _, (leaves, enters) in graph.in_edges(name, keys=True)
-                if enters == port
-            ]
-            if len(feeders) > 1:
-                found.append(
-                    f"port '{name}.{port}' is fed by {' and '.join(feeders)}, but {element.kind} "
-                    f"does not merge light; put a Combiner before it"
-                )
-    return found
-
-
 def structure_faults(graph: nx.MultiDiGraph) -> list[str]:
-    """Return what is wrong with ends, reach and loops, a sentence each."""
-    kinds = [element_of(graph, name) for name in graph]
-    found = []
-    if not emitting(graph):
-        found.append(f"the path has no source; add one, such as {Source()!r}")
-    if not any(isinstance(element, Detector) for element in kinds):
-        found.append("the path has no detector; add one, such as Detector()")
-    ports = port_graph(graph)
-    found += _loop_faults(ports)
-    if emitting(graph) and ending(graph):
-        found += _reach_faults(graph, ports)
-    return found
+    """Return what is wrong with links, ends, reach and loops, a sentence each."""
+    return list(_wiring_faults(Wiring(graph)))
 
 
-def _reach_faults(graph: nx.MultiDiGraph, ports: nx.DiGraph) -> Iterator[str]:
-    lit = reached_from(ports, emitting(graph))
-    useful = reached_from(ports.reverse(copy=False), ending(graph))
-    for name, element in graph.nodes(data="element"):
-        all_ports = [(name, port) for port in (*element.inputs, *element.outputs)]
-        entries = ", ".join(f"'{name}.{port}'" for port in element.inputs)
-        if not any(port in lit for port in all_ports):
-            yield _unlit(graph, name, entries)
-        elif not any(port in useful for port in all_ports):
+def _wiring_faults(wiring: Wiring) -> Iterator[str]:
+    yield from _feeding_faults(wiring)
+    if not wiring.starts:
+        yield f"the path has no source; add one, such as {Source()!r}"
+    if not any(isinstance(element, Detector) for element in wiring.elements.values()):
+        yield "the path has no detector; add one, such as Detector()"
+    yield from _loop_faults(wiring.ports)
+    if wiring.starts and wiring.ends:
+        yield from _reach_faults(wiring)
+
+
+def _feeding_faults(wiring: Wiring) -> Iterator[str]:
+    for (name, port), links in wiring.links_to.items():
+        element = wiring.elements[name]
+        if len(links) > 1 and not element.merges:
+            feeders = " and ".join(f"'{start}.{leaves}'" for start, _, (leaves, _) in links)
+            kind = element.kind or type(element).__name__
+            yield (
+                f"port '{name}.{port}' is fed by {feeders}, but {kind} does not merge light; "
+                f"put a Combiner before it"
+            )
+
+
+def _reach_faults(wiring: Wiring) -> Iterator[str]:
+    for name, element in wiring.elements.items():
+        ports = [(name, port) for port in (*element.inputs, *element.outputs)]
+        if not any(port in wiring.lit for port in ports):
+            yield _unlit(wiring, name)
+        elif not any(port in wiring.useful for port in ports):
             exits = " or ".join(f"'{name}.{port}'" for port in element.outputs)
             yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
 
 
-def _unlit(graph: nx.MultiDiGraph, name: str, entries: str) -> str:
-    for start, _, (leaves, _) in graph.in_edges(name, keys=True):
-        if not any(c.leaves == leaves for c in element_of(graph, start).couplings()):
-            return (
-                f"node '{name}' gets no light: '{start}.{leaves}' is named, but "
-                f"{element_of(graph, start).kind} gives no light there in this version"
-            )
+def _unlit(wiring: Wiring, name: str) -> str:
+    for port in wiring.elements[name].inputs:
+        for start, _, (leaves, _) in wiring.links_to.get((name, port), []):
+            if not any(coupling.leaves == leaves for coupling in wiring.couplings[start]):
+                kind = wiring.elements[start].kind
+                return (
+                    f"node '{name}' gets no light: '{start}.{leaves}' is named, but {kind} gives "
+                    f"no light there in this version"
+                )
+    entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
     return f"node '{name}' is reached by no source; link one to {entries}"
 
 

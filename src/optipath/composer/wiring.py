@@ -1,0 +1,116 @@
+"""Wiring: the way light takes from port to port of a path."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, TypeAlias
+
+import networkx as nx
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from optipath.elements import Coupling, Element
+
+Port: TypeAlias = tuple[str, str]
+Link: TypeAlias = tuple[str, str, tuple[str, str]]
+"""(start node, end node, (out-port, in-port)), as networkx keys the edges."""
+
+
+class Wiring:
+    """A graph of elements seen by its ports, each view gathered once.
+
+    Working on ports rather than nodes tells light that passes an element twice, by
+    different ways, from light that goes round in a loop.
+    """
+
+    def __init__(self, graph: nx.MultiDiGraph) -> None:
+        self.graph = graph
+
+    @cached_property
+    def elements(self) -> dict[str, Element]:
+        """The element of each node."""
+        return dict(self.graph.nodes(data="element"))
+
+    @cached_property
+    def couplings(self) -> dict[str, tuple[Coupling, ...]]:
+        """The ways through the element of each node."""
+        return {name: tuple(element.couplings()) for name, element in self.elements.items()}
+
+    @cached_property
+    def links_to(self) -> dict[Port, list[Link]]:
+        """The links that arrive at each in-port, in order of their names."""
+        found: dict[Port, list[Link]] = {}
+        for link in sorted(self.graph.edges(keys=True)):
+            found.setdefault((link[1], link[2][1]), []).append(link)
+        return found
+
+    @cached_property
+    def ports(self) -> nx.DiGraph:
+        """The graph whose nodes are ports, and whose edges are links and couplings."""
+        ports = nx.DiGraph()
+        for name, element in self.elements.items():
+            ports.add_nodes_from((name, port) for port in (*element.inputs, *element.outputs))
+            ports.add_edges_from(
+                ((name, coupling.enters), (name, coupling.leaves))
+                for coupling in self.couplings[name]
+                if coupling.enters is not None
+            )
+        ports.add_edges_from(
+            ((start, leaves), (end, enters))
+            for start, end, (leaves, enters) in self.graph.edges(keys=True)
+        )
+        return ports
+
+    @cached_property
+    def starts(self) -> list[Port]:
+        """The ports where light begins."""
+        return [
+            (name, coupling.leaves)
+            for name, couplings in self.couplings.items()
+            for coupling in couplings
+            if coupling.enters is None
+        ]
+
+    @cached_property
+    def ends(self) -> list[Port]:
+        """The ports where light ends: in-ports of elements with no way out."""
+        return [
+            (name, port)
+            for name, element in self.elements.items()
+            if not element.outputs
+            for port in element.inputs
+        ]
+
+    @cached_property
+    def lit(self) -> set[Port]:
+        """The ports that light reaches."""
+        return _reached(self.ports, self.starts)
+
+    @cached_property
+    def useful(self) -> set[Port]:
+        """The ports from which light reaches an end."""
+        return _reached(self.ports.reverse(copy=False), self.ends)
+
+    @cached_property
+    def outlets(self) -> tuple[str, ...]:
+        """The out-ports that no link takes: their light leaves the path."""
+        taken = {(start, leaves) for start, _, (leaves, _) in self.graph.edges(keys=True)}
+        found = (
+            f"{name}.{port}"
+            for name, element in self.elements.items()
+            for port in element.outputs
+            if (name, port) not in taken
+        )
+        return tuple(sorted(found))
+
+
+def _reached(ports: nx.DiGraph, starts: Iterable[Port]) -> set[Port]:
+    reached = set(starts)
+    waiting = list(reached)
+    while waiting:
+        for successor in ports.successors(waiting.pop()):
+            if successor not in reached:
+                reached.add(successor)
+                waiting.append(successor)
+    return reached
