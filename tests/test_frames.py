@@ -109,3 +109,14 @@ def test_a_frame_does_not_change():
         op.Frame().x = np.zeros(3)
     with pytest.raises(ValueError, match="read-only"):
         op.Frame().x[0] = 2.0
+
+
+@pytest.mark.parametrize("length", [1e-300, 1e-13, 1e300])
+def test_a_direction_may_have_any_length(length):
+    assert np.array_equal(op.Frame.from_direction((0, 0, length), (length, 0, 0)).z, [0, 0, 1])
+
+
+def test_an_x_very_near_to_z_still_makes_a_frame():
+    z = np.array([0.3, 0.5, 0.81]) / np.linalg.norm([0.3, 0.5, 0.81])
+    frame = op.Frame.from_direction(z, z + np.array([1e-8, 0, 0]))
+    assert abs(frame.x @ frame.z) <= 1e-15

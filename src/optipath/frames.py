@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 _TOLERANCE = 1e-8
+_PARALLEL = 1e-12
 
 
 class Frame:
@@ -80,8 +81,12 @@ class Frame:
         """
         along = _unit("z", _vectors("z", z))
         towards = _unit("x", _vectors("x", x))
-        across = towards - np.sum(towards * along, axis=-1, keepdims=True) * along
-        across = _unit("the part of x perpendicular to z", across)
+        across = towards
+        for _ in range(2):  # The second time mends what the first rounds, where x is near z.
+            across = across - np.sum(across * along, axis=-1, keepdims=True) * along
+            if np.any(np.max(np.abs(across), axis=-1) < _PARALLEL):
+                raise FrameError("x has no part perpendicular to z; give an x that is not along z")
+            across = _unit("x", across)
         return cls(across, np.cross(along, across), along)
 
     def turned(self, angle: npt.ArrayLike) -> Frame:
@@ -188,7 +193,7 @@ def _vectors(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def _unit(name: str, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
     scale = np.max(np.abs(vectors), axis=-1, keepdims=True)
-    if np.any(scale < 1e-12):
+    if np.any(scale == 0.0):
         raise FrameError(f"{name} has no length; give a vector with a direction of its own")
     scaled = vectors / scale
     return scaled / np.linalg.norm(scaled, axis=-1, keepdims=True)  # type: ignore[no-any-return]

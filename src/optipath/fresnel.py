@@ -70,5 +70,5 @@ def fresnel_reflection(
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
     reflect = REFLECTION.by_method(method).made_for(NUMPY)
     numbers = reflect(1.0, m.real, m.imag + 0.0, c, s)
-    (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(numbers)
+    (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
     return tuple(np.broadcast_to(number, shape).copy() for number in (A, B, C, S))

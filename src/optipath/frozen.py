@@ -8,7 +8,7 @@ import numpy as np
 
 
 def array_of(value: Any) -> np.ndarray[Any, Any]:
-    """Return an array of a value; words and numbers side by side stay what they are.
+    """Return an array of a value, of float64 at least; words beside numbers stay words.
 
     Examples
     --------
@@ -18,7 +18,10 @@ def array_of(value: Any) -> np.ndarray[Any, Any]:
     array = np.asarray(value)
     if array.dtype.kind == "U" and not isinstance(value, (str, np.ndarray)):
         return np.asarray(value, dtype=object)
-    return array
+    if array.dtype in (np.float16, np.float32):
+        # The precision of a plan is the composer's to choose, not that of what it is given.
+        return array.astype(np.float64)
+    return array.astype(np.complex128) if array.dtype == np.complex64 else array
 
 
 def frozen(value: Any) -> Any:

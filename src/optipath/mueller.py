@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import ShapeError
 from optipath.frames import Frame
 from optipath.frozen import same
-from optipath.kernels import ROTATION
+from optipath.kernels import NUMPY, ROTATION
 from optipath.light import Light
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ class Mueller:
 
 
 def _turn_matrix(leaves: Frame, enters: Frame) -> npt.NDArray[np.float64]:
-    return stacked(ROTATION.rows(leaves.turn_to(enters)))
+    return stacked(ROTATION.rows(NUMPY, leaves.turn_to(enters)))
 
 
 def stacked(rows: Any) -> npt.NDArray[np.float64]:

@@ -1,6 +1,7 @@
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -58,3 +59,33 @@ def test_right_angles_have_no_trace_of_the_other_component():
 def test_elsewhere_cosine_and_sine_are_those_of_the_platform(angle):
     for ours, theirs in ((cosine, math.cos), (sine, math.sin)):
         assert abs(ours(FLOAT)(angle) - theirs(angle)) <= 4.5e-16
+
+
+@pytest.mark.parametrize("distance", [1e-1, 1e-3, 1e-5, 1e-7, 1e-9, 1e-12])
+def test_nearly_crossed_polarizers_keep_malus_law_to_the_last_digits(distance):
+    path = op.PathGraph()
+    first = path.add("first", op.Polarizer())
+    path.add("lamp", op.Source(2.0)) >> first >> path.add("second", op.Polarizer(distance))
+    path["second"] >> path.add("third", op.Polarizer(np.pi / 2)) >> path.add("eye", op.Detector())
+    law = np.cos(distance) ** 2 * np.sin(distance) ** 2
+    assert path.trace().intensity == pytest.approx(law, rel=1e-14)
+
+
+@given(turn=st.floats(-6.2, 6.2), incidence=st.floats(0.0, 1.57), axis=st.floats(-6.2, 6.2))
+def test_no_intensity_is_negative_by_a_rounding(turn, incidence, axis):
+    path = op.load_preset("npgr026", n1=3.836, n2=0.2842, delta=1.2187)
+    assert path.trace(rho=turn, phi=incidence, filter=axis).intensity >= -1e-30
+
+
+def test_angles_so_huge_that_their_rounding_is_a_turn_keep_their_length():
+    light = op.Rotator(1e16).mueller() @ op.Light([1.0, 1.0, 0.0, 0.0])
+    assert light.dop == pytest.approx(1.0, abs=1e-15)
+
+
+def test_the_precision_is_the_composers_not_that_of_the_input():
+    path = op.load_preset("npgr026")
+    single = np.float32(0.8)
+    for value in (single, np.array(single), [single]):
+        stokes = np.ravel(path.trace(delta=value).stokes)
+        np.testing.assert_array_equal(stokes, path.trace(delta=float(single)).stokes)
+    assert op.fresnel_reflection(np.float32(1.5), 1.0, 0.0)[0].dtype == np.float64

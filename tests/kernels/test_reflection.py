@@ -142,3 +142,10 @@ def test_an_unknown_method_is_refused_with_a_suggestion():
 def test_values_that_make_no_reflection_are_refused(arguments, message):
     with pytest.raises(op.OptipathError, match=message):
         op.fresnel_reflection(*arguments)
+
+
+@given(n=st.floats(1.0, 4.0), off=st.floats(-1e-6, 1e-6))
+def test_b_never_exceeds_a_next_to_brewsters_angle(n, off):
+    angle = np.arctan(n) + off
+    A, B, _, _ = op.fresnel_reflection(n, np.cos(angle), np.sin(angle))
+    assert abs(B) <= A

@@ -48,6 +48,13 @@ class PresetGroup(click.Group):
         super().__init__(name, **keywords)
         self.action = action
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Refuse a command without a preset."""
+        if not args and not ctx.resilient_parsing:
+            names = ", ".join(preset_names())
+            raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
+        return super().parse_args(ctx, args)
+
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the presets."""
         del ctx

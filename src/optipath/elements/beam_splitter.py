@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from optipath.domains import Angle, Fraction
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
+from optipath.elements.frame_checks import same_frame, share_x
 from optipath.kernels import COMPLEMENT, MIRROR
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.frames import Frame
 
 
 class BeamSplitter(Element, kind="beam-splitter"):
@@ -42,3 +48,16 @@ class BeamSplitter(Element, kind="beam-splitter"):
             Coupling("in", "reflected", (Operation(MIRROR, (self.reflectance,)),)),
             Coupling("in", "transmitted", (Operation(COMPLEMENT, (self.reflectance,)),)),
         )
+
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        """Check that transmitted light keeps its frame and reflected light its x."""
+        found = []
+        entry = frames.get("in")
+        if entry is not None and not same_frame(frames.get("transmitted", entry), entry):
+            found.append(
+                f"'{owner}' lets transmitted light go straight through; give '{owner}.in' and "
+                f"'{owner}.transmitted' one frame"
+            )
+        if entry is not None and not share_x(frames.get("reflected", entry), entry):
+            found.append(f"the frames of '{owner}.in' and '{owner}.reflected' must share one x")
+        return found

@@ -46,7 +46,7 @@ class Coupling:
             values = [view_of(argument) for argument in operation.arguments]
             numbers = kernel.made_for(NUMPY)(*(view.numbers({}) for view in values))
             assert kernel.structure is not None  # noqa: S101 - only sources have none
-            matrix = stacked(kernel.structure.rows(numbers)) @ matrix
+            matrix = stacked(kernel.structure.rows(NUMPY, numbers)) @ matrix
         return matrix
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, 
 
 from optipath.domains import REAL, Choice, Domain, IndexDomain
 from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.errors import PathError, ValueFault, did_you_mean
 from optipath.frames import Frame
@@ -121,7 +122,7 @@ class Element:
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Return what is wrong with the world frames of the ports, a sentence each."""
-        if self.straight and any(frame != first for frame, first in _pairs(frames)):
+        if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
 

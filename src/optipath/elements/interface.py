@@ -9,9 +9,9 @@ import numpy as np
 from optipath.domains import Angle, Incidence, Index, OutsideIndex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
+from optipath.elements.frame_checks import incidence_between, share_x
 from optipath.kernels import REFLECTION
 from optipath.materials import Material
-from optipath.parameters import Parameter
 from optipath.views import View
 
 if TYPE_CHECKING:
@@ -65,23 +65,27 @@ class Interface(Element, kind="interface"):
         """Check that x = s at both ports and that the directions meet at the incidence."""
         if not {"in", "reflected"} <= frames.keys():
             return []
-        arriving, leaving = frames["in"], frames["reflected"]
-        if np.any(np.abs(np.abs(np.sum(arriving.x * leaving.x, axis=-1)) - 1.0) > 1e-8):
-            problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"
-            return [f"{problem}, perpendicular to the plane of incidence"]
-        return self._direction_faults(owner, arriving, leaving)
-
-    def _direction_faults(self, owner: str, arriving: Frame, leaving: Frame) -> list[str]:
-        if isinstance(self.incidence, Parameter) or self.faults(owner):
-            return []
-        incidence: Any = np.asarray(self.incidence, dtype=float)
-        found = 0.5 * np.arccos(np.clip(-np.sum(arriving.z * leaving.z, axis=-1), -1.0, 1.0))
         try:
-            off = np.abs(np.cos(2 * found) - np.cos(2 * incidence))
+            return self._reflection_faults(owner, frames["in"], frames["reflected"])
         except ValueError:
             return []  # Shapes that do not broadcast are named with all others.
-        if np.all(off <= 1e-6):
+
+    def _reflection_faults(self, owner: str, arriving: Frame, leaving: Frame) -> list[str]:
+        if not share_x(arriving, leaving):
+            problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"
+            return [f"{problem}, perpendicular to the plane of incidence"]
+        found = incidence_between(arriving, leaving)
+        problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
+        incidence = View(self.incidence)
+        if not incidence.known:
+            return [f"{problem}; give that, not the parameter '{self.incidence.name}'"]  # type: ignore[union-attr]
+        if self.faults(owner):
             return []
-        meeting, given = np.degrees(np.ravel(found)[0]), np.degrees(np.ravel(incidence)[0])
-        problem = f"the frames of '{owner}' meet at an incidence of {meeting:.6g} deg"
-        return [f"{problem}, but its incidence is {given:.6g} deg; make them agree"]
+        given = incidence.numbers({})
+        if np.all(np.abs(found - given) <= 1e-7):
+            return []
+        return [f"{problem}, but its incidence is {_degrees(given)}; make them agree"]
+
+
+def _degrees(angle: Any) -> str:
+    return f"{np.degrees(np.ravel(angle)[0]):.9g} deg"

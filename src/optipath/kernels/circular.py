@@ -3,7 +3,8 @@
 Pi/2 has no exact float: cos(pi/2) is 6e-17, the rounding of the angle itself. A filter
 at 90 degrees would so let a trace of the wrong component through, which near Brewster's
 angle is all there is. What vanishes when it is added to the angle is no more than the
-angle's own rounding, and is taken as 0, in any precision.
+angle's own rounding, and is taken as 0, in any precision; at angles so huge that their rounding
+is no longer small nothing is taken away.
 """
 
 from __future__ import annotations
@@ -14,6 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.kernels.primitives import Primitives
+
+
+_SMALL = 1e-6
 
 
 def cosine(xp: Primitives) -> Callable[[Any], Any]:
@@ -43,11 +47,12 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
 
 
 def _without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    where, fixed = xp.where, xp.fixed
+    where, absolute, fixed = xp.where, xp.absolute, xp.fixed
 
     def rounded(angle: Any) -> Any:
         value = function(angle)
         # The value is taken away from itself, not replaced, so that its slope stays.
-        return value - where(angle + value == angle, fixed(value), 0.0)
+        lost = (angle + value == angle) & (absolute(value) < _SMALL)
+        return value - where(lost, fixed(value), 0.0)
 
     return rounded

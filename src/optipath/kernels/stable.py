@@ -46,8 +46,10 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
         b2 = pb * pb
         q = (z + pa) * (z + pa) + b2
-        f = Fs / where(q > 0.0, q, 1.0)
-        Fp = f * ((z - pa) * (z - pa) + b2)
+        q = where(q > 0.0, q, 1.0)
+        f = Fs / q
+        # Not f times the rest: in total reflection the quotient is 1 to the last bit.
+        Fp = Fs * (((z - pa) * (z - pa) + b2) / q)
         root = p * sqrt(g2)
         B = 2.0 * f * z * pa
         C = f * (z - root) * (z + root)

@@ -34,13 +34,13 @@ class Structure:
     action : callable
         ``action(primitives)`` makes ``act(numbers, carried) -> carried``.
     rows : callable
-        ``rows(numbers)`` gives the four rows of the matrix.
+        ``rows(primitives, numbers)`` gives the four rows of the matrix.
     """
 
     name: str
     identity: tuple[float, ...]
     action: Callable[[Primitives], Action]
-    rows: Callable[[Numbers], tuple[Row, Row, Row, Row]]
+    rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
 
     def made_for(self, primitives: Primitives) -> Action:
         """Return the action in terms of these primitives, made once and kept."""
@@ -70,12 +70,17 @@ def _scale(xp: Primitives) -> Action:
 
 
 def _rotation(xp: Primitives) -> Action:
-    absolute = xp.absolute
+    absolute, where = xp.absolute, xp.where
 
     def act(numbers: Numbers, carried: Carried) -> Carried:
+        c, s = numbers
         weak, s1, s2, s3 = carried
         t1, t2 = turn_linear(numbers, s1, s2)
-        return weak + 0.5 * (absolute(s1) - absolute(t1)), t1, t2, s3
+        # |s1| - |t1| without a difference: 1 - |cos| is sin^2 / (1 + |cos|).
+        sign = where(t1 >= 0.0, 1.0, -1.0)
+        larger = 1.0 + absolute(c)
+        share = where(sign * c * s1 >= 0.0, s * s / larger, larger)
+        return weak + 0.5 * (absolute(s1) * share - sign * s * s2), t1, t2, s3
 
     return act
 
@@ -106,23 +111,27 @@ def _full(xp: Primitives) -> Action:
     return act
 
 
-def _scale_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+def _scale_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    del xp
     (t,) = numbers
     return (t, 0.0, 0.0, 0.0), (0.0, t, 0.0, 0.0), (0.0, 0.0, t, 0.0), (0.0, 0.0, 0.0, t)
 
 
-def _rotation_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+def _rotation_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    del xp
     c, s = numbers
     return (1.0, 0.0, 0.0, 0.0), (0.0, c, s, 0.0), (0.0, -s, c, 0.0), (0.0, 0.0, 0.0, 1.0)
 
 
-def _block_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+def _block_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     Fs, Fp, B, C, S = numbers
-    A = 0.5 * (Fs + Fp)
+    # So A is never less than |B|, not even by a rounding.
+    A = xp.minimum(Fs, Fp) + xp.absolute(B)
     return (A, B, 0.0, 0.0), (B, A, 0.0, 0.0), (0.0, 0.0, C, S), (0.0, 0.0, -S, C)
 
 
-def _full_rows(numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+def _full_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    del xp
     m = tuple(numbers)
     return m[0:4], m[4:8], m[8:12], m[12:16]
 

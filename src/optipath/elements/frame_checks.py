@@ -1,0 +1,55 @@
+"""Checks of the world frames that are given for the ports of one element."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.frames import Frame
+
+_TOLERANCE = 1e-8
+
+
+def same_frame(first: Frame, second: Frame) -> bool:
+    """Tell whether two frames are one, to rounding.
+
+    Examples
+    --------
+    >>> from optipath.frames import Frame
+    >>> same_frame(Frame(), Frame().turned(0.1))
+    False
+    """
+    pairs = ((first.x, second.x), (first.z, second.z))
+    return all(bool(np.all(np.abs(one - other) <= _TOLERANCE)) for one, other in pairs)
+
+
+def share_x(first: Frame, second: Frame) -> bool:
+    """Tell whether two frames have x along one line, as s is before and after a reflection.
+
+    Examples
+    --------
+    >>> from optipath.frames import Frame
+    >>> share_x(Frame(), Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0)))
+    True
+    """
+    across = np.linalg.norm(np.cross(first.x, second.x), axis=-1)
+    return bool(np.all(across <= _TOLERANCE))
+
+
+def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float64]:
+    """Return the angle of incidence at which light is turned from one direction to another.
+
+    Examples
+    --------
+    >>> from optipath.frames import Frame
+    >>> to_the_side = Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+    >>> float(np.degrees(incidence_between(Frame(), to_the_side)).round(9))
+    45.0
+    """
+    across = np.linalg.norm(np.cross(arriving.z, reflected.z), axis=-1)
+    against = -np.sum(arriving.z * reflected.z, axis=-1)
+    return np.asarray(0.5 * np.arctan2(across, against))

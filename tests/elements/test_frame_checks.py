@@ -1,0 +1,58 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+START = op.Frame()
+SIDE = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+"""Behind a mirror at 45 degrees."""
+
+
+def faults_of(element, frames, leaves):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), {"out": START})
+    path.add("element", element, {"in": START, **frames})
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", "element.in")
+    path.connect(f"element.{leaves}", "eye.in")
+    try:
+        path.check()
+    except op.PathError as error:
+        return " | ".join(error.faults)
+    return ""
+
+
+@pytest.mark.parametrize("incidence", [np.pi / 4, [np.pi / 4, np.pi / 4]])
+def test_an_incidence_that_agrees_with_the_frames_is_allowed(incidence):
+    assert faults_of(op.Interface(1.5, incidence), {"reflected": SIDE}, "reflected") == ""
+
+
+@pytest.mark.parametrize(
+    ("incidence", "message"),
+    [
+        (np.pi / 4 + 1e-6, "incidence of 45 deg, but its incidence is 45.0000573 deg"),
+        (op.Parameter("t"), "incidence of 45 deg; give that, not the parameter 't'"),
+        (op.Parameter("t", 0.1, bound=True), "but its incidence is 5.72957795 deg"),
+    ],
+)
+def test_an_incidence_that_the_frames_contradict_is_refused(incidence, message):
+    assert message in faults_of(op.Interface(1.5, incidence), {"reflected": SIDE}, "reflected")
+
+
+def test_grazing_frames_are_told_from_nearly_grazing_ones():
+    nearly = op.Frame.from_direction(z=(0, np.sin(1.4e-3), np.cos(1.4e-3)), x=(1, 0, 0))
+    found = faults_of(op.Interface(1.5, np.pi / 2), {"reflected": nearly}, "reflected")
+    assert "but its incidence is 90 deg" in found
+
+
+@pytest.mark.parametrize("element", [op.Interface(1.5, np.pi / 4), op.BeamSplitter()])
+@pytest.mark.parametrize("turn", [1e-4, 0.5])
+def test_reflected_light_keeps_its_x(element, turn):
+    found = faults_of(element, {"reflected": SIDE.turned(turn)}, "reflected")
+    assert "must share one x" in found
+
+
+def test_light_that_a_splitter_transmits_keeps_its_frame():
+    found = faults_of(op.BeamSplitter(), {"transmitted": START.turned(0.1)}, "transmitted")
+    assert "straight through" in found
+    assert faults_of(op.BeamSplitter(), {"transmitted": START}, "transmitted") == ""
