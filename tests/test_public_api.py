@@ -31,6 +31,7 @@ ROOMS = [
     "cases",
     "binding",
     "preset_format",
+    "port_names",
     "path_graph",
     "preset_reader",
     "presets",

@@ -12,6 +12,7 @@ from optipath.composer import Composer, parameters_of, validate
 from optipath.elements import Element
 from optipath.errors import PathError, did_you_mean
 from optipath.frozen import frozen, same
+from optipath.port_names import check_port
 from optipath.preset_format import to_toml
 
 if TYPE_CHECKING:
@@ -140,7 +141,7 @@ class PathGraph:
             )
         frames = dict(frames or {})
         for port in frames:
-            element.check_port(name, port, (*element.inputs, *element.outputs))
+            check_port(element, name, port, (*element.inputs, *element.outputs))
         self._graph.add_node(name, element=element, frames=frames)
         self._plan = None
         return Node(self, name)
@@ -251,7 +252,7 @@ class PathGraph:
             raise PathError(f"{text!r} is no {way}-port; write it as '{example}'")
         name, _, port = text.partition(".")
         element = self.element(name)
-        element.check_port(name, port, element.outputs if out else element.inputs)
+        check_port(element, name, port, element.outputs if out else element.inputs)
         return name, port
 
     def __eq__(self, other: object) -> bool:

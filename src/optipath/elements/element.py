@@ -10,17 +10,16 @@ from optipath.domains import REAL, Choice, Domain, IndexDomain
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
-from optipath.errors import PathError, ValueFault, did_you_mean
+from optipath.elements.rows import rows_kernel
+from optipath.errors import PathError, ValueFault
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
-from optipath.kernels import FULL, Kernel
+from optipath.kernels import Kernel  # noqa: TC001 - annotations are read when this runs
 from optipath.mueller import Mueller
 from optipath.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
-
-    from optipath.kernels import Primitives
+    from collections.abc import Iterator, Mapping
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
@@ -79,7 +78,7 @@ class Element:
         if kind:
             register(kind, cls)
         if "mueller_rows" in cls.__dict__:
-            cls._kernel = _rows_kernel(kind or cls.__name__, cls.__dict__["mueller_rows"])
+            cls._kernel = rows_kernel(kind or cls.__name__, cls.__dict__["mueller_rows"])
 
     def __post_init__(self) -> None:
         """Keep read-only copies of arrays, so that an element never changes."""
@@ -188,30 +187,6 @@ class Element:
         ways = [f"{c.enters} -> {c.leaves}" for c in self.couplings() if c.enters]
         raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
 
-    def check_port(self, owner: str, port: str, ports: tuple[str, ...]) -> None:
-        """Raise unless the port is one of those given.
-
-        Raises
-        ------
-        PathError
-            With a did-you-mean.
-        """
-        if port in ports:
-            return
-        if port in (*self.inputs, *self.outputs):
-            way = "in" if port in self.inputs else "out"
-            raise PathError(
-                f"port '{owner}.{port}' lets light {way}; a link goes from an out-port "
-                f"to an in-port"
-            )
-        cure = did_you_mean(port, ports)
-        if cure.startswith("; did"):
-            close = cure.split("'")[1]
-            cure = f"; did you mean '{owner}.{close}'?"
-        elif not ports:
-            cure = f"; '{owner}' has no such ports at all"
-        raise PathError(f"port '{owner}.{port}' does not exist{cure}")
-
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
@@ -225,7 +200,13 @@ class Element:
 
 @cache
 def _domains(element_class: type[Element]) -> dict[str, Domain]:
-    hints = get_type_hints(element_class, include_extras=True)
+    try:
+        hints = get_type_hints(element_class, include_extras=True)
+    except NameError as error:
+        raise PathError(
+            f"the annotations of element class {element_class.__name__} cannot be read: {error}; "
+            f"import it where the module runs, not for type checking alone"
+        ) from None
     domains = {}
     for f in fields(element_class):  # type: ignore[arg-type]
         domains[f.name] = next(_annotated(hints[f.name]), REAL)
@@ -246,21 +227,6 @@ def _same_value(first: Any, second: Any, domain: Domain) -> bool:
     # An index may be written as a complex number or as a Material.
     pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)
     return all(same(one, other) for one, other in pairs)
-
-
-def _rows_kernel(name: str, rows_of: Any) -> Kernel:
-    function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
-
-    def factory(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-        def numbers(*values: Any) -> tuple[Any, ...]:
-            rows = function(xp, *values)
-            if len(rows) != 4 or any(len(row) != 4 for row in rows):
-                raise PathError(f"the Mueller matrix of '{name}' must be four rows of four entries")
-            return tuple(entry for row in rows for entry in row)
-
-        return numbers
-
-    return Kernel(name, FULL, factory)
 
 
 def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:

@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from optipath.errors import PathError, did_you_mean
 
-if TYPE_CHECKING:
-    from optipath.elements.element import Element
-
-_KINDS: dict[str, type[Element]] = {}
+_KINDS: dict[str, type[Any]] = {}
 
 
-def register(kind: str, element_class: type[Element]) -> None:
+def register(kind: str, element_class: type[Any]) -> None:
     """Enter a class under its kind; defining the same class again replaces it.
 
     Raises
@@ -28,7 +25,7 @@ def register(kind: str, element_class: type[Element]) -> None:
     _KINDS[kind] = element_class
 
 
-def element_class(kind: str) -> type[Element]:
+def element_class(kind: str) -> type[Any]:
     """Return the class of a kind.
 
     Raises
@@ -46,5 +43,5 @@ def element_class(kind: str) -> type[Element]:
     return _KINDS[kind]
 
 
-def _identity(element_class: type[Element]) -> tuple[str, str]:
+def _identity(element_class: type[Any]) -> tuple[str, str]:
     return element_class.__module__, element_class.__qualname__

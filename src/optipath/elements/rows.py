@@ -1,0 +1,35 @@
+"""A kernel out of the rows of a Mueller matrix, as an element of one's own gives them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import PathError
+from optipath.kernels import FULL, Kernel
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels import Primitives
+
+
+def rows_kernel(name: str, rows_of: Any) -> Kernel:
+    """Return the kernel of ``rows_of(xp, *values)``, a function or a static method.
+
+    Raises
+    ------
+    PathError
+        When it is called and gives no four rows of four entries.
+    """
+    function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
+
+    def factory(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        def numbers(*values: Any) -> tuple[Any, ...]:
+            rows = function(xp, *values)
+            if len(rows) != 4 or any(len(row) != 4 for row in rows):
+                raise PathError(f"the Mueller matrix of '{name}' must be four rows of four entries")
+            return tuple(entry for row in rows for entry in row)
+
+        return numbers
+
+    return Kernel(name, FULL, factory)
