@@ -40,9 +40,9 @@ def draw(path: PathGraph) -> str:
         links = sorted(graph.out_edges(name, keys=True, data="azimuth"))
         for _, end, (leaves, enters), azimuth in links:
             turn = "" if azimuth is None else f"  turned by {_text(azimuth, 'deg')}"
-            lines.append(f"  │ {leaves} ──> {end}.{enters}{turn}")
+            lines.append(f"  | {leaves} --> {end}.{enters}{turn}")
         lines += [
-            f"  │ {port} ──> leaves the path"
+            f"  | {port} --> leaves the path"
             for port in element.outputs
             if f"{name}.{port}" in leaving
         ]

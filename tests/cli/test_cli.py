@@ -1,4 +1,5 @@
 import json
+import os
 import subprocess
 import sys
 
@@ -186,6 +187,21 @@ def test_a_parameter_named_like_an_option_is_refused(capsys, tmp_path):
 def test_the_command_is_installed(command):
     done = subprocess.run([*command, "--version"], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("optipath")
+
+
+def test_a_terminal_without_the_letters_gets_question_marks(tmp_path):
+    file = tmp_path / "letters.toml"
+    text = op.load_preset("malus").to_toml().replace("Malus's law", "Étienne Malus' law")
+    file.write_text(text, "utf-8")
+    for command in (["show", str(file)], ["run", str(file)], ["presets"]):
+        done = subprocess.run(
+            [sys.executable, "-m", "optipath", *command],
+            capture_output=True,
+            check=False,
+            env={**os.environ, "PYTHONIOENCODING": "ascii"},
+        )
+        assert done.returncode == 0
+        assert done.stderr == b""
 
 
 def test_without_arguments_it_says_what_it_can_do(capsys):

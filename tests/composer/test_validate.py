@@ -188,6 +188,12 @@ def test_an_optional_parameter_may_only_take_out_what_light_goes_straight_throug
     chain(op.Rotator(optional)).check()
 
 
+def test_one_optional_parameter_is_enough_for_an_element():
+    one, other = (op.Parameter(name, default=0.1, optional=True) for name in "ab")
+    (fault,) = faults_of(chain(op.Retarder(one, other)))
+    assert "several optional parameters (a, b)" in fault
+
+
 @pytest.mark.parametrize("reads", ["stoke", 3, None, op.Parameter("reads")])
 def test_a_reading_that_does_not_exist_is_refused(reads):
     path = op.PathGraph()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 from importlib.metadata import version
@@ -47,6 +48,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     int
         0, or 2 with one line on standard error for bad input.
     """
+    for stream in (sys.stdout, sys.stderr):
+        # A terminal that lacks a letter shows a question mark in its place.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")
     try:
         cli.main(args=arguments, prog_name="optipath", standalone_mode=False)
     except click.ClickException as error:

@@ -80,6 +80,7 @@ class Values:
             except ValueFault as fault:
                 found += fault.faults
         found += self._parameter_faults()
+        found += self._optional_faults()
         return found or broadcast_fault(self.known_shapes)
 
     def _parameter_faults(self) -> Iterator[str]:
@@ -96,6 +97,15 @@ class Values:
                 yield (
                     f"parameter '{name}' is optional, but the element of {use.owner} cannot be "
                     f"left out; only one that light goes straight through can"
+                )
+
+    def _optional_faults(self) -> Iterator[str]:
+        for name, element in self.graph.nodes(data="element"):
+            optional = {p.name for p in element.parameters() if p.optional}
+            if len(optional) > 1:
+                yield (
+                    f"'{name}' has several optional parameters ({', '.join(sorted(optional))}); "
+                    f"one is enough to leave it out"
                 )
 
     def _can_be_absent(self, owner: str) -> bool:
