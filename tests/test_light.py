@@ -31,6 +31,35 @@ def test_batches_of_lights_and_frames_broadcast():
     assert light.stokes.shape == (3, 2, 4)
 
 
+def test_shapes_that_do_not_broadcast_are_named():
+    two, three = op.Light(np.ones((2, 4))), op.Light(np.ones((3, 4)))
+    with pytest.raises(op.ShapeError, match=r"light \(2,\), other light \(3,\)"):
+        two + three
+    with pytest.raises(op.ShapeError, match=r"light \(2,\), frame \(3,\)"):
+        two.in_frame(op.Frame().turned(np.zeros(3)))
+    with pytest.raises(op.ShapeError, match=r"matrix \(3,\), light \(2,\)"):
+        op.Mueller(np.ones((3, 4, 4))) @ two
+    with pytest.raises(op.ShapeError, match=r"matrix \(3,\), other matrix \(2,\)"):
+        op.Mueller(np.ones((3, 4, 4))) @ op.Mueller(np.ones((2, 4, 4)))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: op.Light([1.0, 0, 0, 0], "frame"),
+        lambda: op.Light([1.0, 0, 0, 0]).in_frame("frame"),
+        lambda: op.Mueller(np.eye(4), frame_in="frame"),
+        lambda: op.Frame().turned("a bit"),
+        lambda: op.Frame().rotated(np.eye(2)),
+        lambda: op.Frame(x=[10**400, 0, 0]),
+        lambda: op.Frame(x=[1e308, 0, 0]),
+    ],
+)
+def test_what_is_no_frame_is_refused(make):
+    with pytest.raises(op.FrameError):
+        make()
+
+
 @pytest.mark.parametrize("stokes", [[1.0, 0.0, 0.0], 1.0, [1j, 0, 0, 0], "abcd"])
 def test_what_is_no_stokes_vector_is_refused(stokes):
     with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4\)"):

@@ -259,6 +259,29 @@ def test_a_name_is_given_once():
         path.add("a", op.Detector())
 
 
+@pytest.mark.parametrize("frames", [op.Frame(), {"out": [1, 0, 0]}, 3])
+def test_what_are_no_frames_is_refused(frames):
+    with pytest.raises(op.PathError, match="a Frame for each port"):
+        op.PathGraph().add("a", op.Source(), frames)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: op.PathGraph(description=3),
+        lambda: op.PathGraph()["a"],
+        lambda: op.PathGraph().element(None),
+        lambda: op.Composer().compose(None),
+        lambda: op.load_preset("malus").mueller(1),
+        lambda: op.Polarizer().mueller(method="stabel"),
+        lambda: op.Interface([1.5, 2.0], [0.1, 0.2, 0.3]).mueller(),
+    ],
+)
+def test_wrong_types_are_refused_in_words(make):
+    with pytest.raises(op.OptipathError):
+        make()
+
+
 def test_what_is_no_element_is_refused():
     with pytest.raises(op.PathError, match="must be an element"):
         op.PathGraph().add("a", "polarizer")

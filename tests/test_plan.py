@@ -1,3 +1,6 @@
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -122,7 +125,9 @@ def test_float32_is_carried_as_float32():
         ({"filter": "horizntal"}, ["horizntal", "did you mean 'horizontal'"]),
         ({"delta": np.ones(3), "rho": np.ones(4)}, ["delta (3,)", "rho (4,)"]),
         ({"delta": 1j}, ["delta", "complex"]),
-        ({"delta": "48"}, ["'48'", "no unit"]),
+        ({"delta": "48"}, ["'delta': '48' has no unit"]),
+        ({"delta": 10**400}, ["'delta'", "numbers"]),
+        ({"n1": 10**20, "phi": 2.0}, ["'phi'"]),
         ({"delta": "48 dge"}, ["'dge'", "did you mean 'deg'"]),
         ({"delta": None, "phi": True}, ["'phi' must be a number"]),
         ({"delta": [[1.0], [1.0, 2.0]]}, ["'delta'", "unequal"]),
@@ -134,6 +139,36 @@ def test_values_that_cannot_be_are_refused_all_at_once(values, messages):
         NPGR026.trace(**values)
     for message in messages:
         assert message in str(error.value)
+
+
+def test_light_that_is_not_finite_is_refused():
+    with pytest.raises(op.ParameterError, match="not finite in float64"):
+        NPGR026.trace(n1=1e200)
+
+
+def test_a_parameter_may_have_any_name():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(op.Parameter("self")))
+    lamp >> path.add("eye", op.Detector())
+    assert path.trace(self=2.0).intensity == 2.0
+    assert path.compose().run(self=3.0).intensity == 3.0
+    assert path.bind(self=3.0).trace().intensity == 3.0
+
+
+@pytest.mark.parametrize(
+    "copied", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))]
+)
+def test_paths_and_plans_can_be_copied_and_pickled(copied):
+    path = op.load_preset("npgr026", filter=[0.1, "none"])
+    assert copied(path) == path
+    assert copied(path.compose()) == path.compose()
+    np.testing.assert_array_equal(copied(path.compose()).run().stokes, path.trace().stokes)
+
+
+def test_a_copied_path_is_another_path():
+    path = op.load_preset("malus")
+    copy.copy(path).add("more", op.Source())
+    assert "more" not in path.graph
 
 
 def test_a_bound_parameter_cannot_be_given_again():

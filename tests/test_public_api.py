@@ -11,6 +11,7 @@ SOURCE = Path(op.__file__).parent
 ROOMS = [
     "errors",
     "frozen",
+    "shapes",
     "units",
     "kernels",
     "frames",

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from optipath.frozen import frozen, same
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Case:
     """A named set of values for the parameters of a path.
 
@@ -26,3 +28,22 @@ class Case:
     values: Mapping[str, Any]
     published: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     note: str = ""
+
+    def __post_init__(self) -> None:
+        values = {str(name): frozen(value) for name, value in self.values.items()}
+        published = {
+            str(name): tuple(map(float, stokes)) for name, stokes in self.published.items()
+        }
+        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "published", published)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Case):
+            return NotImplemented
+        return (
+            self.values.keys() == other.values.keys()
+            and all(same(value, other.values[name]) for name, value in self.values.items())
+            and (self.published, self.note) == (other.published, other.note)
+        )
+
+    __hash__ = None  # type: ignore[assignment]

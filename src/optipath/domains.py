@@ -105,7 +105,7 @@ class Domain:
 
 
 class IndexDomain(Domain):
-    """Complex numbers n + ik with n and k not negative, not both 0."""
+    """Complex numbers n + ik with n and k not negative."""
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return n and k of a material, or the value itself."""
@@ -115,14 +115,14 @@ class IndexDomain(Domain):
 
     def quickly_allows(self, value: Any) -> bool:
         """Tell, for plain floats, whether all is well."""
-        return type(value) is float and 0.0 < value < math.inf
+        return type(value) is float and 0.0 <= value < math.inf
 
     def described(self) -> str:
         """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
-        bad = (array.real < 0.0) | (array.imag < 0.0) | (array == 0.0)
+        bad = (array.real < 0.0) | (array.imag < 0.0)
         if np.any(bad):
             value = array[bad].ravel()[0]
             cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
@@ -131,6 +131,10 @@ class IndexDomain(Domain):
 
 class OutsideDomain(Domain):
     """Positive real numbers: the medium that light comes from does not absorb."""
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return "a real index of refraction above 0, since light comes from there"
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return n and k of a material, or the value itself."""
@@ -152,8 +156,11 @@ class StokesDomain(Domain):
         if np.any(negative):
             value = array[..., 0][negative].ravel()[0]
             raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
-        polarised = np.linalg.norm(array[..., 1:], axis=-1)
-        bad = polarised > array[..., 0] * (1.0 + _ROUNDING)
+        dark = array[..., :1] == 0.0
+        shares = np.abs(array[..., 1:]) / np.where(dark, 1.0, array[..., :1])
+        # Cut off, so that squares of what is far too much do not overflow.
+        polarised = np.linalg.norm(np.minimum(shares, 2.0), axis=-1)
+        bad = polarised > np.where(dark[..., 0], 0.0, 1.0 + _ROUNDING)
         if np.any(bad):
             state = array[bad].reshape(-1, 4)[0].tolist()
             raise ValueFault(

@@ -9,6 +9,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 
+_LONGEST = 600
+
+
 class OptipathError(Exception):
     """The base of every error that optipath raises on purpose.
 
@@ -26,8 +29,9 @@ class OptipathError(Exception):
     """
 
     def __init__(self, *faults: str) -> None:
-        super().__init__(*faults)
-        self.faults = faults
+        short = tuple(map(_shortened, faults))
+        super().__init__(*short)
+        self.faults = short
 
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
@@ -68,12 +72,12 @@ class ComposerError(OptipathError):
     """A composer option that does not exist."""
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
+def did_you_mean(word: object, known: Iterable[str]) -> str:
     """Return the cure for a misspelt word, ready to be put behind the fault.
 
     Parameters
     ----------
-    word : str
+    word : object
         What was written.
     known : iterable of str
         What could have been meant.
@@ -90,9 +94,14 @@ def did_you_mean(word: str, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    names = list(known)
+    names, word = list(known), str(word)
     by_lower = {name.lower(): name for name in reversed(names)}
     close = get_close_matches(word.lower(), by_lower, n=1)
     if close:
         return f"; did you mean '{by_lower[close[0]]}'?"
     return f"; there are: {', '.join(names)}" if names else "; there are none"
+
+
+def _shortened(fault: str) -> str:
+    # A sentence may quote what was given, which may be of any length.
+    return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"

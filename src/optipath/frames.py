@@ -9,6 +9,7 @@ import numpy as np
 from optipath.errors import FrameError
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
+from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -97,7 +98,9 @@ class Frame:
         >>> Frame().turned([0.0, np.pi]).x.shape
         (2, 3)
         """
-        a = np.asarray(angle, dtype=np.float64)[..., np.newaxis]
+        a = _floats("the angle of a turn", angle)
+        check_broadcast({"frame": self.z.shape[:-1], "angle": a.shape})
+        a = a[..., np.newaxis]
         c, s = np.cos(a), np.sin(a)
         return Frame(c * self.x + s * self.y, c * self.y - s * self.x, self.z)
 
@@ -114,7 +117,10 @@ class Frame:
         >>> Frame().rotated([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).x
         array([0., 1., 0.])
         """
-        matrix = np.asarray(rotation, dtype=np.float64)
+        matrix = _floats("a rotation", rotation)
+        if matrix.shape[-2:] != (3, 3):
+            raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
+        check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
         axes = (np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z))
         return Frame(*axes)
 
@@ -132,6 +138,9 @@ class Frame:
         >>> float(abs(c)) < 1e-15, float(s)
         (True, 1.0)
         """
+        if not isinstance(other, Frame):
+            raise FrameError(f"a frame is aligned with a Frame, not with {other!r}")
+        check_broadcast({"frame": self.z.shape[:-1], "other frame": other.z.shape[:-1]})
         apart = np.linalg.norm(self.z - other.z, axis=-1)
         if np.any(apart > _TOLERANCE):
             where = np.unravel_index(np.argmax(apart), apart.shape)
@@ -167,6 +176,8 @@ class Frame:
 
     def _check(self) -> None:
         axes = np.stack([self.x, self.y, self.z], axis=-2)
+        if np.any(np.abs(axes) > 2.0):
+            raise FrameError("the axes of a frame must be unit vectors; use Frame.from_direction")
         off = np.abs(axes @ np.swapaxes(axes, -1, -2) - np.eye(3)).max(axis=(-1, -2), initial=0.0)
         left = np.linalg.det(axes) < 0.0
         if np.all(off <= _TOLERANCE) and not np.any(left):
@@ -180,14 +191,19 @@ class Frame:
 
 
 def _vectors(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise FrameError(f"axis {name} of a frame must be numbers, not {value!r}") from None
+    array = _floats(f"axis {name} of a frame", value)
     if array.ndim == 0 or array.shape[-1] != 3:
         raise FrameError(f"axis {name} of a frame must have shape (..., 3), not {array.shape}")
+    return array
+
+
+def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise FrameError(f"{what} must be numbers, not {value!r}") from None
     if not np.all(np.isfinite(array)):
-        raise FrameError(f"axis {name} of a frame must be finite; check for NaN and infinity")
+        raise FrameError(f"{what} must be finite; check for NaN and infinity")
     return array
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.domains import Domain, IndexDomain
-from optipath.errors import ShapeError, ValueFault
-from optipath.inputs import broadcast_fault
+from optipath.errors import ValueFault
 from optipath.kernels import BLOCK, NUMPY, REFLECTION
+from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -63,9 +63,7 @@ def fresnel_reflection(
     c = _COSINE.check("cos_incidence", cos_incidence)
     s = _COSINE.check("sin_incidence", sin_incidence)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
-    if faults := broadcast_fault(shapes):
-        raise ShapeError(*faults)
-    shape = np.broadcast_shapes(*shapes.values())
+    shape = check_broadcast(shapes)
     if np.any(np.abs(np.hypot(c, s) - 1.0) > 1e-6):
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
     reflect = REFLECTION.by_method(method).made_for(NUMPY)

@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, did_you_mean
 from optipath.parameters import Parameter
+from optipath.shapes import broadcast_fault
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -44,7 +45,10 @@ class Use:
         """Return the shape of numbers for this place, the axes of one value left out."""
         if type(numbers) is float:
             return ()
-        shape: tuple[int, ...] = np.shape(numbers)
+        try:
+            shape: tuple[int, ...] = np.shape(numbers)
+        except ValueError:
+            return ()  # Rows of unequal lengths are a fault of their own.
         return shape[: len(shape) - len(self.domain.tail)]
 
     def check_given(self, numbers: np.ndarray[Any, Any]) -> None:
@@ -105,12 +109,13 @@ class Inputs:
             if name not in resolved:
                 continue
             numbers = resolved[name].value
-            shapes[name] = use.batch_shape(numbers)
             try:
                 use.check_given(numbers)
             except OptipathError as fault:
                 faults += fault.faults
-        faults = faults or broadcast_fault(shapes)
+            else:
+                shapes[name] = use.batch_shape(numbers)
+        faults += broadcast_fault(shapes)
         if faults:
             raise ParameterError(*faults)
         return resolved, np.broadcast_shapes(*shapes.values())
@@ -133,19 +138,3 @@ class Inputs:
                 f"leave it open when loading or building the path to vary it"
             )
         return f"parameter '{name}' is unknown{did_you_mean(name, self.open)}"
-
-
-def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
-    """Return the sentence that names shapes which do not broadcast, or nothing.
-
-    Examples
-    --------
-    >>> broadcast_fault({"delta": (3,), "rho": (4,)})
-    ['arrays do not broadcast together: delta (3,), rho (4,); make their axes equal or 1']
-    """
-    try:
-        np.broadcast_shapes(*shapes.values())
-    except ValueError:
-        named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
-        return [f"arrays do not broadcast together: {named}; make their axes equal or 1"]
-    return []

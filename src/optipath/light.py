@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ShapeError
+from optipath.errors import FrameError, ShapeError
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import turn_linear
+from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -45,7 +46,12 @@ class Light:
     frame: Frame = field(default_factory=Frame)
 
     def __post_init__(self) -> None:
-        stokes = np.asarray(self.stokes)
+        if not isinstance(self.frame, Frame):
+            raise FrameError(f"the frame of a light must be a Frame, not {self.frame!r}")
+        try:
+            stokes = np.asarray(self.stokes)
+        except ValueError:
+            raise ShapeError("a Stokes vector has rows of unequal lengths") from None
         if stokes.dtype.kind in "iub":
             stokes = stokes.astype(np.float64)
         if stokes.dtype.kind != "f" or stokes.shape[-1:] != (4,):
@@ -74,6 +80,8 @@ class Light:
         FrameError
             If the other frame has another direction.
         """
+        if isinstance(frame, Frame):
+            check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
         s0, s1, s2, s3 = np.moveaxis(self.stokes, -1, 0)
         parts = (s0, *turn_linear(self.frame.turn_to(frame), s1, s2), s3)
         return Light(np.stack(np.broadcast_arrays(*parts), axis=-1), frame)
@@ -81,6 +89,8 @@ class Light:
     def __add__(self, other: object) -> Light:
         if not isinstance(other, Light):
             return NotImplemented
+        shapes = {"light": self.stokes.shape[:-1], "other light": other.stokes.shape[:-1]}
+        check_broadcast(shapes)
         return Light(self.stokes + other.in_frame(self.frame).stokes, self.frame)
 
     def __eq__(self, other: object) -> bool:

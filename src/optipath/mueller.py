@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from optipath.errors import ShapeError
+from optipath.errors import FrameError, ShapeError
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import NUMPY, ROTATION
 from optipath.light import Light
+from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -49,7 +50,12 @@ class Mueller:
     frame_out: Frame = field(default_factory=Frame)
 
     def __post_init__(self) -> None:
-        matrix = np.asarray(self.matrix)
+        if not (isinstance(self.frame_in, Frame) and isinstance(self.frame_out, Frame)):
+            raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
+        try:
+            matrix = np.asarray(self.matrix)
+        except ValueError:
+            raise ShapeError("a Mueller matrix has rows of unequal lengths") from None
         if matrix.dtype.kind in "iub":
             matrix = matrix.astype(np.float64)
         if matrix.dtype.kind != "f" or matrix.shape[-2:] != (4, 4):
@@ -64,10 +70,13 @@ class Mueller:
     @overload
     def __matmul__(self, other: Light) -> Light: ...
     def __matmul__(self, other: Mueller | Light) -> Mueller | Light:
+        batch = self.matrix.shape[:-2]
         if isinstance(other, Light):
+            check_broadcast({"matrix": batch, "light": other.stokes.shape[:-1]})
             stokes = other.in_frame(self.frame_in).stokes
             return Light((self.matrix @ stokes[..., np.newaxis])[..., 0], self.frame_out)
         if isinstance(other, Mueller):
+            check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
             turn = _turn_matrix(other.frame_out, self.frame_in)
             return Mueller(self.matrix @ turn @ other.matrix, other.frame_in, self.frame_out)
         return NotImplemented

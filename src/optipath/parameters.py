@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import ParameterError, did_you_mean
+from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import array_of, frozen, same
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
@@ -85,12 +85,63 @@ class Parameter:
                 f"not starting with a digit"
             )
         dimension_of(self.unit)
-        object.__setattr__(self, "default", frozen(self.default))
-        object.__setattr__(self, "words", dict(self.words))
+        self._check_types()
+        low, high = (self._limit(limit) for limit in (self.minimum, self.maximum))
+        if not low <= high:
+            raise ParameterError(
+                f"parameter '{self.name}' has the range {low} .. {high}; begin with the lower end"
+            )
+        object.__setattr__(self, "minimum", low)
+        object.__setattr__(self, "maximum", high)
+        object.__setattr__(self, "words", {w: self._word(w, v) for w, v in self.words.items()})
         if self.default is not None:
+            object.__setattr__(self, "default", frozen(self._as_number(self.default)))
             self.resolve(self.default)
         elif self.bound:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
+
+    def _check_types(self) -> None:
+        kinds: dict[str, tuple[type, str]] = {
+            "help": (str, "a text"),
+            "words": (dict, "a dict from word to number"),
+            "optional": (bool, "True or False"),
+            "bound": (bool, "True or False"),
+            "negative": (bool, "True or False"),
+        }
+        for name, (kind, described) in kinds.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind):
+                raise ParameterError(
+                    f"{name} of parameter '{self.name}' must be {described}, not {value!r}"
+                )
+
+    def _limit(self, value: Any) -> float:
+        try:
+            return float(value)
+        except (TypeError, ValueError, OverflowError):
+            raise ParameterError(
+                f"the range of parameter '{self.name}' must be numbers, not {value!r}"
+            ) from None
+
+    def _word(self, word: Any, value: Any) -> float:
+        if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
+            raise ParameterError(
+                f"parameter '{self.name}' cannot have the word {word!r}; begin with a letter, "
+                f"and keep '{ABSENT}' for an element that is left out"
+            )
+        if isinstance(value, str) or np.ndim(value) or isinstance(value, complex):
+            raise ParameterError(
+                f"the word '{word}' of parameter '{self.name}' must be a number, not {value!r}"
+            )
+        return float(self.resolve(value).value)
+
+    def _as_number(self, value: Any) -> Any:
+        """Return a default with its texts read; words stay words."""
+        if isinstance(value, str):
+            return self.parse(value)
+        if isinstance(value, (list, tuple)):
+            return [self._as_number(entry) for entry in value]
+        return value
 
     def __neg__(self) -> Parameter:
         return replace(self, negative=not self.negative)
@@ -169,7 +220,10 @@ class Parameter:
         if text[:1].isalpha():
             cure = did_you_mean(text, words) if words else "; give a number"
             raise ParameterError(f"parameter '{self.name}' knows no word '{text}'{cure}")
-        return parse_quantity(text, dimension_of(self.unit), default_unit)
+        try:
+            return parse_quantity(text, dimension_of(self.unit), default_unit)
+        except UnitError as error:
+            raise UnitError(f"parameter '{self.name}': {error}") from None
 
     def text(self, value: Any) -> str:
         """Write a value as files and the command line give it."""
@@ -194,7 +248,9 @@ class Parameter:
 
     def _entry(self, entry: Any) -> Any:
         if not isinstance(entry, str):
-            if isinstance(entry, (int, float, complex)) and not isinstance(entry, bool):
+            if isinstance(entry, int) and not isinstance(entry, bool):
+                return self._limit(entry)
+            if isinstance(entry, (float, complex)):
                 return entry
             raise ParameterError(f"parameter '{self.name}' must be a number, not {entry!r}")
         value = self.parse(entry)
@@ -202,7 +258,10 @@ class Parameter:
 
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         bad = ~np.isfinite(array)
-        if array.dtype.kind != "c":
+        if array.dtype.kind == "c":
+            if np.isfinite([self.minimum, self.maximum]).any():
+                raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
+        else:
             bad |= (array < self.minimum) | (array > self.maximum)
         if not np.any(bad):
             return

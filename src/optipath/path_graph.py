@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,16 +11,16 @@ import networkx as nx
 from optipath.binding import bind
 from optipath.composer import Composer, parameters_of, validate
 from optipath.elements import Element
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError
+from optipath.frames import Frame
 from optipath.frozen import frozen, same
-from optipath.port_names import check_port
+from optipath.port_names import check_port, element_at, find_port
 from optipath.preset_format import to_toml
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from optipath.cases import Case
-    from optipath.frames import Frame
     from optipath.light import Light
     from optipath.mueller import Mueller
     from optipath.parameters import Parameter
@@ -87,6 +88,8 @@ class PathGraph:
         cases: Mapping[str, Case] | None = None,
         declared: Sequence[str] = (),
     ) -> None:
+        if not isinstance(description, str):
+            raise PathError(f"the description of a path must be a text, not {description!r}")
         self.description = description
         self.cases = dict(cases or {})
         self._graph = nx.MultiDiGraph(declared=tuple(declared))
@@ -100,6 +103,11 @@ class PathGraph:
         and carry ``azimuth``.
         """
         return self._graph.copy(as_view=True)
+
+    def __copy__(self) -> PathGraph:
+        path = PathGraph(self.description, self.cases)
+        path._graph = self._graph.copy()
+        return path
 
     @property
     def parameters(self) -> dict[str, Parameter]:
@@ -139,7 +147,15 @@ class PathGraph:
             raise PathError(
                 f"node '{name}' must be an element such as Polarizer(), not {element!r}"
             )
-        frames = dict(frames or {})
+        frames = {} if frames is None else frames
+        if not isinstance(frames, Mapping) or not all(
+            isinstance(frame, Frame) for frame in frames.values()
+        ):
+            raise PathError(
+                f"frames of '{name}' must be a Frame for each port, such as "
+                f"{{'in': Frame()}}, not {frames!r}"
+            )
+        frames = dict(frames)
         for port in frames:
             check_port(element, name, port, (*element.inputs, *element.outputs))
         self._graph.add_node(name, element=element, frames=frames)
@@ -167,7 +183,7 @@ class PathGraph:
         ends = []
         for text, out in ((leaves, True), (enters, False)):
             try:
-                ends.append(self._port(text, out=out))
+                ends.append(find_port(self._graph, text, out=out))
             except PathError as fault:
                 faults += fault.faults
         if faults:
@@ -186,9 +202,7 @@ class PathGraph:
         PathError
             If there is no such node.
         """
-        if name not in self._graph:
-            raise PathError(f"node '{name}' does not exist{did_you_mean(name, self._graph)}")
-        return self._graph.nodes[name]["element"]  # type: ignore[no-any-return]
+        return element_at(self._graph, name)
 
     def __getitem__(self, name: str) -> Node:
         self.element(name)
@@ -245,15 +259,6 @@ class PathGraph:
             If an element has no kind, or a value has no form in TOML.
         """
         return to_toml(self._graph, self.description, self.cases)
-
-    def _port(self, text: str, *, out: bool) -> tuple[str, str]:
-        way, example = ("out", "node.out") if out else ("in", "node.in")
-        if not isinstance(text, str) or text.count(".") != 1:
-            raise PathError(f"{text!r} is no {way}-port; write it as '{example}'")
-        name, _, port = text.partition(".")
-        element = self.element(name)
-        check_port(element, name, port, element.outputs if out else element.inputs)
-        return name, port
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PathGraph):

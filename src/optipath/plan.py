@@ -48,7 +48,7 @@ class Plan:
     engine: str
     dtype: str
 
-    def run(self, **parameters: Any) -> Light:
+    def run(self, /, **parameters: Any) -> Light:
         """Return the light at the only detector.
 
         Parameters
@@ -70,7 +70,7 @@ class Plan:
         name = self._only("detector", tuple(self.program.detectors), "run_all()")
         return self.run_all(**parameters)[name]
 
-    def run_all(self, **parameters: Any) -> dict[str, Light]:
+    def run_all(self, /, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.
 
         Raises
@@ -139,6 +139,11 @@ class Plan:
         stokes = np.full((*batch, 4), np.nan, dtype=self.dtype)
         for component in range(reading.components):
             stokes[..., component] = components[component]
+        if not np.all(np.isfinite(stokes[..., : reading.components])):
+            raise ParameterError(
+                f"the light is not finite in {self.dtype}: a value is too extreme, such as an "
+                f"index of refraction of 1e77 or more; give values nearer to 1"
+            )
         return stokes
 
     @staticmethod

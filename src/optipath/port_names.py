@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PathError, did_you_mean
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import networkx as nx
 
     from optipath.elements import Element
 
@@ -38,3 +40,50 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
         )
     cure = did_you_mean(f"{owner}.{port}", [f"{owner}.{known}" for known in ports])
     raise PathError(f"port '{owner}.{port}' does not exist{cure}")
+
+
+def split_port(text: Any, *, out: bool) -> tuple[str, str]:
+    """Return the node and the port of ``"node.port"``.
+
+    Raises
+    ------
+    PathError
+        If it is no such text.
+
+    Examples
+    --------
+    >>> split_port("lamp.out", out=True)
+    ('lamp', 'out')
+    """
+    if not isinstance(text, str) or text.count(".") != 1:
+        way = "out" if out else "in"
+        raise PathError(f"{text!r} is no {way}-port; write it as 'node.{way}'")
+    name, _, port = text.partition(".")
+    return name, port
+
+
+def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
+    """Return the node and the port that a text names in a graph of elements.
+
+    Raises
+    ------
+    PathError
+        If there is no such node, or it has no such port.
+    """
+    name, port = split_port(text, out=out)
+    element = element_at(graph, name)
+    check_port(element, name, port, element.outputs if out else element.inputs)
+    return name, port
+
+
+def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
+    """Return the element of a node.
+
+    Raises
+    ------
+    PathError
+        If there is no such node.
+    """
+    if name not in graph:
+        raise PathError(f"node '{name}' does not exist{did_you_mean(name, graph)}")
+    return graph.nodes[name]["element"]  # type: ignore[no-any-return]

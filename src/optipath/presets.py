@@ -62,12 +62,21 @@ def load_preset(
     """
     path = read_preset(locate(preset))
     given = dict(values)
-    if case is not None:
-        if str(case) not in path.cases:
-            cure = did_you_mean(str(case), path.cases)
-            raise PresetError(f"case '{case}' is unknown in preset '{preset}'{cure}")
+    faults: list[str] = []
+    if case is not None and str(case) not in path.cases:
+        cure = did_you_mean(str(case), path.cases)
+        faults.append(f"case '{case}' is unknown in preset '{preset}'{cure}")
+    elif case is not None:
         given = {**path.cases[str(case)].values, **values}
-    return path.bind(**given) if given else path
+    try:
+        path = path.bind(**given) if given else path
+    except OptipathError as error:
+        if not faults:
+            raise
+        faults += error.faults
+    if faults:
+        raise PresetError(*faults)
+    return path
 
 
 def locate(preset: str | PathLike[str]) -> Path:
@@ -86,10 +95,14 @@ def locate(preset: str | PathLike[str]) -> Path:
         path = Path(preset)
     except TypeError:
         raise PresetError(f"a preset is a name or the path of a file, not {preset!r}") from None
-    if path.suffix != ".toml":
+    if path.suffix.lower() != ".toml":
+        names = preset_names()
+        cure = did_you_mean(path.stem, names)
+        if not cure.startswith("; did you mean"):
+            cure = "; see the names with `optipath presets`"
         raise PresetError(
             f"'{preset}' is neither the name of a preset (a-z, 0-9 and -) nor the path of a "
-            f".toml file; see the names with `optipath presets`"
+            f".toml file{cure}"
         )
     return path
 
@@ -118,6 +131,8 @@ def read_preset(path: Path) -> PathGraph:
 
 def _text(path: Path) -> str:
     try:
+        if path.exists() and not path.is_file():
+            raise PresetError(f"'{path}' cannot be read: it is no file")
         with path.open("rb") as file:
             data = file.read(_LARGEST + 1)
     except (OSError, ValueError) as error:
@@ -126,7 +141,7 @@ def _text(path: Path) -> str:
     if len(data) > _LARGEST:
         raise PresetError(f"'{path}' is larger than {_LARGEST // 1024**2} MiB; no preset is")
     try:
-        return data.decode("utf-8")
+        return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise PresetError(
             f"'{path}' is not UTF-8: byte {error.start} is 0x{data[error.start]:02x}; "
@@ -137,7 +152,7 @@ def _text(path: Path) -> str:
 def _parse(path: Path, text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.
         reason = "too deeply nested" if isinstance(error, RecursionError) else str(error)
         raise PresetError(f"'{path}' is not TOML: {reason}") from None
 

@@ -42,7 +42,7 @@ def dimension_of(unit: str) -> str:
     """
     if unit == "":
         return ""
-    if unit not in UNITS:
+    if not isinstance(unit, str) or unit not in UNITS:
         raise UnitError(f"unit '{unit}' is unknown{did_you_mean(unit, UNITS)}")
     return UNITS[unit][0]
 
@@ -97,6 +97,7 @@ def in_unit(value: float, unit: str) -> float:
     if unit == "":
         return float(value)
     size = UNITS[unit][1]
+    value = float(value)
     rounded = float(f"{value / size:.13g}")
     return rounded if rounded * size == value else value / size
 

@@ -2,6 +2,7 @@ import json
 import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -160,6 +161,46 @@ def test_bad_input_ends_with_status_2_and_one_line(arguments, messages, capsys):
     assert err.count("\n") == 1
     for message in messages:
         assert message in err
+
+
+def test_all_wrong_options_are_told_at_once(capsys):
+    arguments = ["run", "npgr026", "--delta", "91", "--n1", "x", "--rho", "3 dge", "--case", "99"]
+    status, _, err = run(capsys, *arguments)
+    assert status == 2
+    for part in ("'delta' is 91 deg", "no word 'x'", "did you mean 'deg'", "case '99'"):
+        assert part in err
+
+
+@pytest.mark.parametrize("as_json", [True, False])
+def test_arrays_in_a_file_give_a_light_for_each_of_their_values(capsys, tmp_path, as_json):
+    file = tmp_path / "arrays.toml"
+    text = op.load_preset("malus").to_toml()
+    text = text.replace('default = "30 deg"', 'default = ["0 deg", "30 deg", "60 deg"]')
+    file.write_text(text, "utf-8")
+    status, out, err = run(capsys, "run", str(file), *(["--json"] if as_json else []))
+    assert (status, err) == (0, "")
+    if as_json:
+        found = json.loads(out)
+        assert found["parameters"]["angle"] == [0.0, 30.0, 60.0]
+        assert [row[0] for row in found["detectors"]["eye"]["stokes"]] == pytest.approx(
+            [0.5, 0.375, 0.125]
+        )
+    else:
+        assert "0.375" in out
+
+
+def test_output_that_cannot_be_written_ends_with_one_line():
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
+        done = subprocess.run(
+            [sys.executable, "-m", "optipath", "run", "malus"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert "cannot be written" in done.stderr
 
 
 def test_all_faults_of_a_file_stand_in_the_one_line(capsys, tmp_path):

@@ -76,7 +76,7 @@ def test_a_complex_index_and_a_material_give_equal_plans():
         ("format = 1", "format = true", ["'format' must be a whole number"]),
         ('kind = "source"', 'kind = "sorce"', ["'sorce' is unknown", "did you mean 'source'"]),
         ('kind = "source"', "", ["elements.lamp: kind is missing"]),
-        ('kind = "source"', "kind = 3", ["elements.lamp: kind is missing"]),
+        ('kind = "source"', "kind = 3", ["'kind' must be a text, not 3"]),
         ("index =", "indx =", ["key 'indx'", "did you mean 'index'", "'index' is missing"]),
         ("k = 7.0", "kk = 7.0", ["key 'kk' is unknown"]),
         ("k = 7.0", "k = -7.0", ["mirror.index.k is -7"]),
@@ -103,7 +103,7 @@ def test_a_complex_index_and_a_material_give_equal_plans():
         ('theta = "80 deg"', 'theta = "100 deg"', ["cases.steep.theta", "outside its range"]),
         ("values = {", "valus = {", ["key 'valus'"]),
         ("[cases.steep]", "[cases.steep]\npublished = {ey = [1, 2, 3, 4]}", ["mean 'eye'"]),
-        ("[cases.steep]", "[cases.steep]\npublished = {eye = [1, 2]}", ["four numbers"]),
+        ("[cases.steep]", "[cases.steep]\npublished = {eye = [1, 2]}", ["four finite numbers"]),
         ("[elements.eye]", "[elements.extra]\nkind='dump'\n[elements.eye]", ["'extra' is reached"]),
     ],
 )
@@ -121,6 +121,51 @@ def test_all_faults_of_a_file_are_told_at_once():
     faults = faults_of(text)
     for part in ("sorce", "mirror.index.k", "reflectd", "rnge", "dge", "thta"):
         assert sum(part in fault for fault in faults) == 1, part
+
+
+def test_a_node_that_could_not_be_read_is_not_called_missing_as_well():
+    faults = faults_of(GOOD.replace('kind = "source"', 'kind = "sorce"'))
+    assert len(faults) == 1
+
+
+def test_a_cycle_and_azimuths_are_told_beside_faults_of_reading():
+    text = GOOD.replace('kind = "source"', 'kind = "sorce"').replace(
+        "[cases.steep]", '[[links]]\nfrom = "mirror.reflected"\nto = "mirror.in"\n\n[cases.steep]'
+    )
+    text = text.replace('kind = "detector"', 'kind = "polarizer"\nazimuth = "3 deg"')
+    faults = " | ".join(faults_of(text))
+    for part in ("sorce", "cycle: mirror -> mirror", "give it in one place"):
+        assert part in faults
+
+
+@pytest.mark.parametrize(
+    "new",
+    [
+        f"index = {10**400}",
+        "index = { n = [1, 2], k = [3, 4, 5] }",
+        "index = []",
+        "outside = { n = 1.1, k = 2 }",
+        f"azimuth = {10**20}",
+        "frames = { xy = { x = [1, 0, 0], y = [0, 1, 0], z = [0, 0, 1] } }",
+        "frames = { in = { xy = [1, 0, 0] } }",
+    ],
+)
+def test_odd_values_are_faults_and_nothing_else(new):
+    text = GOOD.replace("index = { n = 1.2, k = 7.0 }", new)
+    assert faults_of(text)
+
+
+def test_materials_numpy_numbers_and_complex_arrays_are_written_and_read_back():
+    path = op.PathGraph("numbers", {"one": op.Case({"q": np.float64(0.1)})})
+    q = op.Parameter(
+        "q", np.float64(0.1), unit="deg", minimum=np.float64(0.0), words={"up": np.float64(0.3)}
+    )
+    m = op.Parameter("m", default=[1 + 2j, 2 + 1j])
+    lamp = path.add("lamp", op.Source())
+    mirror = path.add("mirror", op.Interface(m, q, outside=op.Material(1.2)))
+    lamp >> mirror >> path.add("eye", op.Detector())
+    assert "np." not in path.to_toml()
+    assert read(tomllib.loads(path.to_toml())) == path
 
 
 def test_frames_are_written_and_read_back():

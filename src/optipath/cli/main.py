@@ -54,6 +54,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="replace")
     try:
         cli.main(args=arguments, prog_name="optipath", standalone_mode=False)
+        sys.stdout.flush()
     except click.ClickException as error:
         return _refuse(error.format_message())
     except OptipathError as error:
@@ -61,9 +62,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (click.Abort, KeyboardInterrupt):
         return 130
     except BrokenPipeError:
-        # Whoever read the output has seen enough; keep Python from saying so at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _forget_output()  # Whoever read it has seen enough.
+    except OSError as error:
+        _forget_output()
+        return _refuse(f"the output cannot be written: {error.strerror}")
     return 0
+
+
+def _forget_output() -> None:
+    # Otherwise Python tries once more at exit, and complains.
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _refuse(message: str) -> int:

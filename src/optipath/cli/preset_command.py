@@ -6,32 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.errors import OptipathError, PresetError
+from optipath.errors import OptipathError, ParameterError, PresetError
 from optipath.kernels import METHODS
-from optipath.parameters import ABSENT, Parameter
+from optipath.parameters import ABSENT
 from optipath.presets import load_preset, preset_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-RESERVED = ("case", "json", "method", "help", "h")
+    from optipath.parameters import Parameter
+    from optipath.path_graph import PathGraph
 
-
-class Value(click.ParamType):  # type: ignore[type-arg]
-    """A value for a parameter: a number in its unit, a number with a unit, or a word."""
-
-    def __init__(self, parameter: Parameter) -> None:
-        self.parameter = parameter
-        self.name = parameter.unit or "number"
-
-    def convert(self, value: Any, param: Any, ctx: Any) -> Any:
-        """Return the number or word, or fail with one sentence."""
-        try:
-            given = self.parameter.parse(value, self.parameter.unit)
-            self.parameter.resolve(given)
-        except OptipathError as error:
-            self.fail("; ".join(error.faults), param, ctx)
-        return given
+RESERVED = ("case", "json", "as_json", "method", "help", "h")
 
 
 class PresetGroup(click.Group):
@@ -71,9 +57,9 @@ class PresetGroup(click.Group):
                 f"command line; rename it in the file"
             )
 
-        def callback(*, case: str | None, method: str, as_json: bool, **values: Any) -> None:
-            given = {name: value for name, value in values.items() if value is not None}
-            self.action(cmd_name, case, given, method, as_json=as_json)
+        def callback(*, case: str | None, method: str, as_json: bool, **texts: Any) -> None:
+            values = _parsed(path, cmd_name, case, texts)
+            self.action(cmd_name, case, values, method, as_json=as_json)
 
         options: list[click.Parameter] = [
             _option(parameter) for parameter in path.parameters.values() if not parameter.bound
@@ -93,11 +79,36 @@ class PresetGroup(click.Group):
         return click.Command(cmd_name, callback=callback, params=options, help=path.description)
 
 
+def _parsed(
+    path: PathGraph, preset: str, case: str | None, texts: dict[str, str | None]
+) -> dict[str, Any]:
+    """Return the values that the options give; all that is wrong with them at once."""
+    values: dict[str, Any] = {}
+    faults: list[str] = []
+    for name, text in texts.items():
+        if text is None:
+            continue
+        parameter = path.parameters[name]
+        try:
+            values[name] = parameter.parse(text, parameter.unit)
+        except OptipathError as error:
+            faults += error.faults
+    if faults:
+        try:
+            load_preset(preset, case=case, **values)
+        except OptipathError as error:
+            faults += error.faults
+        raise ParameterError(*faults)
+    return values
+
+
 def _option(parameter: Parameter) -> click.Option:
     words = [*parameter.words, *([ABSENT] if parameter.optional else [])]
     default = "must be given" if parameter.default is None else parameter.text(parameter.default)
     hints = [parameter.help, f"words: {', '.join(words)}" if words else "", f"[{default}]"]
     flag = "--" + parameter.name.replace("_", "-")
     return click.Option(
-        [flag, parameter.name], type=Value(parameter), help="; ".join(h for h in hints if h)
+        [flag, parameter.name],
+        metavar=(parameter.unit or "number").upper(),
+        help="; ".join(h for h in hints if h),
     )

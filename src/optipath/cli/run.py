@@ -21,9 +21,11 @@ from optipath.units import in_unit
 
 if TYPE_CHECKING:
     from optipath.light import Light
-    from optipath.parameters import Parameter
     from optipath.path_graph import PathGraph
     from optipath.plan import Plan
+
+
+_ROWS = 20
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,9 @@ def _as_json(result: Result) -> dict[str, Any]:
     plan = result.plan
     found: dict[str, Any] = {
         "preset": result.preset,
-        "parameters": {name: _plain(p) for name, p in result.path.parameters.items()},
+        "parameters": {
+            name: _plain(p.default, p.unit) for name, p in result.path.parameters.items()
+        },
         "units": {name: p.unit for name, p in result.path.parameters.items() if p.unit},
         "model": plan.model,
         "method": plan.method,
@@ -88,25 +92,23 @@ def _as_json(result: Result) -> dict[str, Any]:
 
 
 def _reading(result: Result, name: str) -> dict[str, Any]:
-    stokes = [_number(component) for component in result.lights[name].stokes.tolist()]
     published = result.published(name)
+    stokes = _plain(result.lights[name].stokes.tolist(), "")
     return {"stokes": stokes} | ({"published": list(published)} if published else {})
 
 
-def _number(component: float) -> float | None:
-    # JSON has no NaN: what is not read is null. Adding 0 turns -0 into 0.
-    return None if math.isnan(component) else component + 0.0
-
-
-def _plain(parameter: Parameter) -> Any:
-    value = parameter.default
-    if isinstance(value, (str, NoneType)):
-        return value
+def _plain(value: Any, unit: str) -> Any:
+    """Return a value as JSON can hold it, in a unit."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list):
+        return [_plain(entry, unit) for entry in value]
     if isinstance(value, complex):
         return {"n": value.real, "k": value.imag}
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return in_unit(value, parameter.unit)
+    if isinstance(value, (str, NoneType)):
+        return value
+    # JSON has no NaN: what is not read is null. Adding 0 turns -0 into 0.
+    return None if math.isnan(value) else in_unit(value, unit) + 0.0
 
 
 def _print(result: Result) -> None:
@@ -130,12 +132,27 @@ def _parameter_table(result: Result) -> Table:
 
 
 def _light_table(result: Result, name: str) -> Table:
-    published = result.published(name)
+    stokes, published = result.lights[name].stokes, result.published(name)
+    if stokes.ndim > 1:
+        return _batch_table(name, stokes)
     table = Table(f"light at {name}", "computed", header_style="bold")
     if published:
         table.add_column("published")
-    for position, component in enumerate(result.lights[name].stokes.tolist()):
-        computed = "not read" if math.isnan(component) else f"{component + 0.0:.12g}"
-        row = [f"S{position}", computed, *([f"{published[position]:g}"] if published else [])]
-        table.add_row(*map(Text, row))
+    for position, component in enumerate(stokes.tolist()):
+        row = [f"S{position}", _shown(component)]
+        table.add_row(*map(Text, [*row, *([f"{published[position]:g}"] if published else [])]))
     return table
+
+
+def _batch_table(name: str, stokes: np.ndarray[Any, Any]) -> Table:
+    table = Table(f"light at {name}", "S0", "S1", "S2", "S3", header_style="bold")
+    indices = list(np.ndindex(stokes.shape[:-1]))
+    for index in indices[:_ROWS]:
+        table.add_row(Text(str(list(index))), *(Text(_shown(c)) for c in stokes[index].tolist()))
+    if len(indices) > _ROWS:
+        table.add_row(f"{len(indices) - _ROWS} more")
+    return table
+
+
+def _shown(component: float) -> str:
+    return "not read" if math.isnan(component) else f"{component + 0.0:.12g}"

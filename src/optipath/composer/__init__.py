@@ -1,7 +1,7 @@
 """The composer: validate, lower, plan; one stage a file."""
 
 from optipath.composer.composer import Composer
-from optipath.composer.validate import structure_faults, validate
+from optipath.composer.validate import partial_faults, validate
 from optipath.composer.values import parameters_of, value_faults
 from optipath.composer.wiring import Wiring
 
@@ -9,7 +9,7 @@ __all__ = [
     "Composer",
     "Wiring",
     "parameters_of",
-    "structure_faults",
+    "partial_faults",
     "validate",
     "value_faults",
 ]

@@ -92,7 +92,9 @@ class Composer:
         PathError
             With every fault of the path.
         """
-        graph: Any = path if isinstance(path, nx.MultiDiGraph) else path.graph
+        graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
+        if not isinstance(graph, nx.MultiDiGraph):
+            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {path!r}")
         values, wiring = Values(graph), Wiring(graph)
         refuse_faults(values, wiring)
         return Plan(

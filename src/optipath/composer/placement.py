@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements import Operation, Terminal
-from optipath.errors import FrameError
+from optipath.errors import OptipathError
 from optipath.kernels import GIVEN_TURN, TURN
+from optipath.shapes import broadcast_fault
 from optipath.views import View
 
 if TYPE_CHECKING:
@@ -58,7 +59,9 @@ def placement_faults(wiring: Wiring) -> list[str]:
     """Return what is wrong with the frames and turns of the links, a sentence each."""
     found = []
     for name, element in wiring.elements.items():
-        found += element.frame_faults(name, wiring.graph.nodes[name]["frames"])
+        frames = wiring.graph.nodes[name]["frames"]
+        if not broadcast_fault({port: frame.z.shape[:-1] for port, frame in frames.items()}):
+            found += element.frame_faults(name, frames)
     for link in wiring.graph.edges(keys=True):
         found += _link_faults(wiring, link)
     for name, element in wiring.elements.items():
@@ -87,10 +90,8 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
         return [f"{text} is turned by its world frames and by an azimuth; give one of them"]
     try:
         arriving.turn_to(expected)
-    except FrameError as fault:
+    except OptipathError as fault:
         return [f"{text}: {fault}"]
-    except ValueError:
-        return [f"{text}: frames of shapes {arriving.z.shape} and {expected.z.shape} do not match"]
     return []
 
 

@@ -35,25 +35,53 @@ def refuse_faults(values: Values, wiring: Wiring) -> None:
     PathError
         With all faults found.
     """
-    faults = [*values.faults(), *placement_faults(wiring), *_wiring_faults(wiring)]
+    faults = [
+        *values.faults(),
+        *placement_faults(wiring),
+        *_link_faults(wiring),
+        *_end_faults(wiring),
+    ]
     if faults:
         raise PathError(*faults)
 
 
-def structure_faults(graph: nx.MultiDiGraph) -> list[str]:
-    """Return what is wrong with links, ends, reach and loops, a sentence each."""
-    return list(_wiring_faults(Wiring(graph)))
+def partial_faults(graph: nx.MultiDiGraph, *, whole: bool) -> list[str]:
+    """Return the faults of a graph of elements of which some may be missing.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links that there are.
+    whole : bool
+        Whether all are there, so that missing ends and unreached nodes say something.
+    """
+    values, wiring = Values(graph), Wiring(graph)
+    found = [*values.faults(), *placement_faults(wiring), *_link_faults(wiring)]
+    return [*found, *_end_faults(wiring)] if whole else found
 
 
-def _wiring_faults(wiring: Wiring) -> Iterator[str]:
+def _link_faults(wiring: Wiring) -> Iterator[str]:
     yield from _feeding_faults(wiring)
+    yield from _dark_link_faults(wiring)
+    yield from _loop_faults(wiring.ports)
+
+
+def _end_faults(wiring: Wiring) -> Iterator[str]:
     if not wiring.starts:
         yield f"the path has no source; add one, such as {Source()!r}"
     if not any(isinstance(element, Detector) for element in wiring.elements.values()):
         yield "the path has no detector; add one, such as Detector()"
-    yield from _loop_faults(wiring.ports)
     if wiring.starts and wiring.ends:
         yield from _reach_faults(wiring)
+
+
+def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
+    for start, end, (leaves, enters) in wiring.dark_links:
+        yield (
+            f"link '{start}.{leaves} -> {end}.{enters}' carries no light: "
+            f"{wiring.elements[start].kind} names '{leaves}', but gives no light there in this "
+            f"version; remove the link"
+        )
 
 
 def _feeding_faults(wiring: Wiring) -> Iterator[str]:
@@ -69,26 +97,17 @@ def _feeding_faults(wiring: Wiring) -> Iterator[str]:
 
 
 def _reach_faults(wiring: Wiring) -> Iterator[str]:
+    blamed = {end for _, end, _ in wiring.dark_links}
     for name, element in wiring.elements.items():
         ports = [(name, port) for port in (*element.inputs, *element.outputs)]
+        if name in blamed:
+            continue
         if not any(port in wiring.lit for port in ports):
-            yield _unlit(wiring, name)
+            entries = ", ".join(f"'{name}.{port}'" for port in element.inputs)
+            yield f"node '{name}' is reached by no source; link one to {entries}"
         elif not any(port in wiring.useful for port in ports):
             exits = " or ".join(f"'{name}.{port}'" for port in element.outputs)
             yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
-
-
-def _unlit(wiring: Wiring, name: str) -> str:
-    for port in wiring.elements[name].inputs:
-        for start, _, (leaves, _) in wiring.links_to.get((name, port), []):
-            if not any(coupling.leaves == leaves for coupling in wiring.couplings[start]):
-                kind = wiring.elements[start].kind
-                return (
-                    f"node '{name}' gets no light: '{start}.{leaves}' is named, but {kind} gives "
-                    f"no light there in this version"
-                )
-    entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
-    return f"node '{name}' is reached by no source; link one to {entries}"
 
 
 def _loop_faults(ports: nx.DiGraph) -> Iterator[str]:

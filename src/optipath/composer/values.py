@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from optipath.domains import Choice
 from optipath.elements import Interface
 from optipath.errors import ValueFault
-from optipath.inputs import Inputs, Use, broadcast_fault
+from optipath.inputs import Inputs, Use
 from optipath.parameters import Parameter
+from optipath.shapes import broadcast_fault
 from optipath.units import dimension_of
 
 if TYPE_CHECKING:
@@ -74,14 +75,20 @@ class Values:
     def faults(self) -> list[str]:
         """Return what is wrong with the values that are known, a sentence each."""
         found: list[str] = []
+        faulty = set()
         for use in self.uses:
             try:
                 _check(use)
             except ValueFault as fault:
                 found += fault.faults
-        found += self._parameter_faults()
-        found += self._optional_faults()
-        return found or broadcast_fault(self.known_shapes)
+                faulty.add(use.owner)
+        sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
+        return [
+            *found,
+            *self._parameter_faults(),
+            *self._optional_faults(),
+            *broadcast_fault(sound),
+        ]
 
     def _parameter_faults(self) -> Iterator[str]:
         for use in self.uses:
@@ -92,6 +99,11 @@ class Values:
                 yield (
                     f"parameter '{name}' at {use.owner} differs from the one of that name "
                     f"elsewhere; use one Parameter, or two names"
+                )
+            if use.domain.tail != self._tails[name]:
+                yield (
+                    f"parameter '{name}' at {use.owner} has another shape than elsewhere; "
+                    f"use two names"
                 )
             if use.value.optional and not self._can_be_absent(use.owner):
                 yield (
@@ -107,6 +119,14 @@ class Values:
                     f"'{name}' has several optional parameters ({', '.join(sorted(optional))}); "
                     f"one is enough to leave it out"
                 )
+
+    @cached_property
+    def _tails(self) -> dict[str, tuple[int, ...]]:
+        found: dict[str, tuple[int, ...]] = {}
+        for use in self.uses:
+            if isinstance(use.value, Parameter):
+                found.setdefault(use.value.name, use.domain.tail)
+        return found
 
     def _can_be_absent(self, owner: str) -> bool:
         name, _, part = owner.partition(".")

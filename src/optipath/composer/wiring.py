@@ -93,6 +93,12 @@ class Wiring:
         return _reached(self.ports.reverse(copy=False), self.ends)
 
     @cached_property
+    def dark_links(self) -> list[Link]:
+        """The links from out-ports that no coupling gives light to."""
+        lit = {(name, c.leaves) for name, ways in self.couplings.items() for c in ways}
+        return [link for link in self.graph.edges(keys=True) if (link[0], link[2][0]) not in lit]
+
+    @cached_property
     def outlets(self) -> tuple[str, ...]:
         """The out-ports that no link takes: their light leaves the path."""
         taken = {(start, leaves) for start, _, (leaves, _) in self.graph.edges(keys=True)}

@@ -6,6 +6,8 @@ from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
 
+import numpy as np
+
 from optipath.domains import REAL, Choice, Domain, IndexDomain
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
@@ -14,9 +16,13 @@ from optipath.elements.rows import rows_kernel
 from optipath.errors import PathError, ValueFault
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
-from optipath.kernels import Kernel  # noqa: TC001 - annotations are read when this runs
+from optipath.kernels import (
+    REFLECTION,
+    Kernel,
+)
 from optipath.mueller import Mueller
 from optipath.parameters import Parameter
+from optipath.shapes import broadcast_fault
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -175,10 +181,12 @@ class Element:
         >>> Attenuator(0.5).mueller().matrix.diagonal()
         array([0.5, 0.5, 0.5, 0.5])
         """
+        REFLECTION.by_method(method)
         owner = self.kind or type(self).__name__
         leaves = leaves or self.natural
         open_ones = [f"parameter '{p.name}' of {owner} has no value yet" for p in self.parameters()]
-        if faults := self.faults(owner) + open_ones:
+        shapes = {name: np.shape(value) for name, value, d in self.quantities() if not d.tail}
+        if faults := self.faults(owner) + open_ones or broadcast_fault(shapes):
             raise PathError(*faults)
         for coupling in self.couplings():
             if (coupling.enters, coupling.leaves) == (enters, leaves):

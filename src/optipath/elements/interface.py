@@ -12,6 +12,7 @@ from optipath.elements.element import Element
 from optipath.elements.frame_checks import incidence_between, share_x
 from optipath.kernels import REFLECTION
 from optipath.materials import Material
+from optipath.shapes import broadcast_fault
 from optipath.views import View
 
 if TYPE_CHECKING:
@@ -65,12 +66,7 @@ class Interface(Element, kind="interface"):
         """Check that x = s at both ports and that the directions meet at the incidence."""
         if not {"in", "reflected"} <= frames.keys():
             return []
-        try:
-            return self._reflection_faults(owner, frames["in"], frames["reflected"])
-        except ValueError:
-            return []  # Shapes that do not broadcast are named with all others.
-
-    def _reflection_faults(self, owner: str, arriving: Frame, leaving: Frame) -> list[str]:
+        arriving, leaving = frames["in"], frames["reflected"]
         if not share_x(arriving, leaving):
             problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"
             return [f"{problem}, perpendicular to the plane of incidence"]
@@ -82,6 +78,8 @@ class Interface(Element, kind="interface"):
         if self.faults(owner):
             return []
         given = incidence.numbers({})
+        if broadcast_fault({"frames": found.shape, "incidence": given.shape}):
+            return []  # Named with all other shapes.
         if np.all(np.abs(found - given) <= 1e-7):
             return []
         return [f"{problem}, but its incidence is {_degrees(given)}; make them agree"]

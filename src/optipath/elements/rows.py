@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PathError
@@ -13,6 +14,27 @@ if TYPE_CHECKING:
     from optipath.kernels import Primitives
 
 
+@dataclass(frozen=True)
+class RowsFactory:
+    """Makes the function of a kernel; a class, so that plans can be pickled."""
+
+    name: str
+    rows_of: Callable[..., Any]
+
+    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        """Return the function that gives the sixteen numbers of the matrix."""
+
+        def numbers(*values: Any) -> tuple[Any, ...]:
+            rows = self.rows_of(xp, *values)
+            if rows is None or len(rows) != 4 or any(len(row) != 4 for row in rows):
+                raise PathError(
+                    f"the Mueller matrix of '{self.name}' must be four rows of four entries"
+                )
+            return tuple(entry for row in rows for entry in row)
+
+        return numbers
+
+
 def rows_kernel(name: str, rows_of: Any) -> Kernel:
     """Return the kernel of ``rows_of(xp, *values)``, a function or a static method.
 
@@ -22,14 +44,4 @@ def rows_kernel(name: str, rows_of: Any) -> Kernel:
         When it is called and gives no four rows of four entries.
     """
     function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
-
-    def factory(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-        def numbers(*values: Any) -> tuple[Any, ...]:
-            rows = function(xp, *values)
-            if len(rows) != 4 or any(len(row) != 4 for row in rows):
-                raise PathError(f"the Mueller matrix of '{name}' must be four rows of four entries")
-            return tuple(entry for row in rows for entry in row)
-
-        return numbers
-
-    return Kernel(name, FULL, factory)
+    return Kernel(name, FULL, RowsFactory(name, function))

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from optipath.program import Evaluation, Program
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def run(
     program: Program, leaves: Sequence[np.ndarray[Any, Any]], columns_from: str | None = None
 ) -> dict[int, Carried]:

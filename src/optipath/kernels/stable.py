@@ -46,13 +46,15 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
         b2 = pb * pb
         q = (z + pa) * (z + pa) + b2
-        q = where(q > 0.0, q, 1.0)
+        # q vanishes only at normal incidence on an index of 0, where r_p = -r_s.
+        slanted = q > 0.0
+        q = where(slanted, q, 1.0)
         f = Fs / q
         # Not f times the rest: in total reflection the quotient is 1 to the last bit.
-        Fp = Fs * (((z - pa) * (z - pa) + b2) / q)
+        Fp = Fs * where(slanted, ((z - pa) * (z - pa) + b2) / q, 1.0)
         root = p * sqrt(g2)
         B = 2.0 * f * z * pa
-        C = f * (z - root) * (z + root)
+        C = where(slanted, f * (z - root) * (z + root), -Fs)
         S = 2.0 * f * z * pb
         return Fs, Fp, B, C, S
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import Choice, Domain, IndexDomain
+from optipath.domains import REAL, Choice, Domain, IndexDomain, OutsideDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
@@ -42,10 +42,10 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     [1.0, 2.5]
     """
     if isinstance(domain, Choice):
-        return domain.check("it", raw)
+        return domain.check("the value", raw)
     if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
         return _reference(raw, parameters)
-    if isinstance(raw, dict) and isinstance(domain, IndexDomain):
+    if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
         return _material(raw, domain, parameters)
     return _number(raw, domain.dimension)
 
@@ -63,7 +63,8 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
     if isinstance(raw, list):
         return [decode_given(entry, parameter) for entry in raw]
     if isinstance(raw, dict):
-        return complex(_number(raw.get("n"), ""), _number(raw.get("k"), ""))
+        index = _material(raw, REAL, {})
+        return np.asarray(index.n) + 1j * np.asarray(index.k)
     return _number(raw, dimension_of(parameter.unit))
 
 
@@ -75,6 +76,8 @@ def encode(value: Any, dimension: str) -> Any:
     PresetError
         If it has no form in TOML.
     """
+    if isinstance(value, np.generic):
+        value = value.item()
     if isinstance(value, Parameter):
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
@@ -120,15 +123,21 @@ def _material(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> 
 
 
 def _number(raw: Any, dimension: str) -> Any:
+    if isinstance(raw, list) and not raw:
+        raise UnitError("an empty list is no value; give at least one number")
     if isinstance(raw, list):
         return [_number(entry, dimension) for entry in raw]
     if isinstance(raw, str):
         return parse_quantity(raw, dimension)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
         raise UnitError(f"{raw!r} is not a number")
-    if dimension and np.isfinite(raw):
+    try:
+        number = float(raw)
+    except OverflowError:
+        raise UnitError(f"{raw} is too large a number") from None
+    if dimension and np.isfinite(number):
         unit = _WRITTEN_UNIT[dimension]
         raise UnitError(
             f"{raw!r} has no unit, but an {dimension} is asked for; write '{raw} {unit}'"
         )
-    return float(raw)
+    return number

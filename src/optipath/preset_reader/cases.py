@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from optipath.parameters import Parameter
     from optipath.preset_reader.faults import Faults
 
+_LARGEST = 1e308
+
 
 def read_case(
     where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
@@ -36,9 +38,14 @@ def read_case(
             values[name] = value
     published = {}
     for name, stokes in table.get("published", {}).items():
-        numbers = isinstance(stokes, list) and all(type(part) in (int, float) for part in stokes)
-        if numbers and len(stokes) == 4:
+        if _is_stokes(stokes):
             published[name] = tuple(float(part) for part in stokes)
         else:
-            faults.append(f"{where}.published.{name} must be four numbers, not {stokes!r}")
+            faults.append(f"{where}.published.{name} must be four finite numbers, not {stokes!r}")
     return Case(values, published, table.get("note", ""))
+
+
+def _is_stokes(stokes: Any) -> bool:
+    if not isinstance(stokes, list) or len(stokes) != 4:
+        return False
+    return all(type(part) in (int, float) and abs(part) < _LARGEST for part in stokes)

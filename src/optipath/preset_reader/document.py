@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer import structure_faults, value_faults
+from optipath.composer import partial_faults
 from optipath.domains import Domain
 from optipath.errors import PathError, did_you_mean
 from optipath.path_graph import PathGraph
+from optipath.port_names import find_port
 from optipath.preset_format import decode, schema
 from optipath.preset_reader.cases import read_case
 from optipath.preset_reader.elements import read_element, read_frames
@@ -38,29 +39,33 @@ def read(document: dict[str, Any]) -> PathGraph:
     description = str(document.get("description", ""))
     path = PathGraph(description, declared=tuple(parameters))
     elements = _tables(document, "elements", faults)
-    added = [_add(path, name, table, parameters, faults) for name, table in elements.items()]
+    lost = {
+        name for name, table in elements.items() if not _add(path, name, table, parameters, faults)
+    }
     links = document.get("links", [])
     linked = [
-        _link(path, f"links[{number}]", table, parameters, faults)
+        _link(path, f"links[{number}]", table, parameters, lost, faults)
         for number, table in enumerate(links if isinstance(links, list) else [])
     ]
     for name, table in _tables(document, "cases", faults).items():
         path.cases[name] = read_case(f"cases.{name}", table, parameters, faults)
-        for detector in path.cases[name].published:
-            if detector not in path.graph:
-                cure = did_you_mean(detector, path.graph)
-                faults.append(f"cases.{name}.published: node '{detector}' does not exist{cure}")
-    if all(added) and all(linked):
+        _check_published(path, name, lost, faults)
+    is_whole = not lost and all(linked)
+    if is_whole:
         for name in parameters.keys() - path.parameters.keys():
             faults.append(f"parameter '{name}' is declared, but no element takes it")
-    if not faults:
-        path.check()
-        return path
-    faults += value_faults(path.graph)
-    if all(added) and all(linked):
-        # Only with every node and link in place does their structure say something.
-        faults += structure_faults(path.graph)
-    raise PathError(*dict.fromkeys(faults))
+    if faults:
+        raise PathError(*dict.fromkeys([*faults, *partial_faults(path.graph, whole=is_whole)]))
+    path.check()
+    return path
+
+
+def _check_published(path: PathGraph, case: str, lost: set[str], faults: Faults) -> None:
+    ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]
+    for name in path.cases[case].published:
+        if name not in ends and name not in lost:
+            cure = did_you_mean(name, ends)
+            faults.append(f"cases.{case}.published: '{name}' is no detector{cure}")
 
 
 def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str, dict[str, Any]]:
@@ -86,11 +91,19 @@ def _add(
     frames = read_frames(where, table.get("frames", {}), faults)
     if element is None:
         return False
-    return faults.attempt(where, path.add, name, element, frames) is not None
+    if faults.attempt(where, path.add, name, element, frames) is not None:
+        return True
+    # Without its frames, perhaps, so that the links to it are not called wrong as well.
+    return bool(frames) and Faults().attempt(where, path.add, name, element) is not None
 
 
 def _link(
-    path: PathGraph, where: str, table: Any, parameters: dict[str, Parameter], faults: Faults
+    path: PathGraph,
+    where: str,
+    table: Any,
+    parameters: dict[str, Parameter],
+    lost: set[str],
+    faults: Faults,
 ) -> bool:
     if not isinstance(table, dict):
         faults.append(f"{where} must be a table headed [[links]], not {table!r}")
@@ -103,6 +116,11 @@ def _link(
     azimuth = None
     if "azimuth" in table:
         azimuth = faults.attempt(where, decode, table["azimuth"], _AZIMUTH, parameters)
+    ends = [(table["from"], True), (table["to"], False)]
+    whole = [end for end in ends if str(end[0]).partition(".")[0] not in lost]
+    found = [faults.attempt(where, find_port, path.graph, text, out=out) for text, out in whole]
+    if len(whole) < 2 or None in found:
+        return False
     before = len(faults)
     faults.attempt(where, path.connect, table["from"], table["to"], azimuth)
     return len(faults) == before

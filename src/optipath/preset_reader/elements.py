@@ -25,7 +25,8 @@ def read_element(
     """Return the element that a table describes; None where its kind is not known."""
     kind = table.get("kind")
     if not isinstance(kind, str):
-        faults.append(f'{where}: kind is missing; add kind = "..."')
+        what = f"'kind' must be a text, not {kind!r}" if "kind" in table else "kind is missing"
+        faults.append(f'{where}: {what}; write kind = "..."')
         return None
     found = faults.attempt(where, element_class, kind)
     if found is None:
@@ -54,7 +55,7 @@ def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
     frames = {}
     for port, axes in table.items():
         at = f"{where}.frames.{port}"
-        wrong = schema.key_faults(at, axes, "xyz")
+        wrong = schema.key_faults(at, axes, ("x", "y", "z"))
         wrong += [f"{at}: axis '{axis}' is missing" for axis in "xyz" if axis not in axes]
         faults += wrong
         frame = None if wrong else faults.attempt(at, Frame, **axes)

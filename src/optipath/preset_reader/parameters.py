@@ -55,11 +55,11 @@ def _range(where: str, table: dict[str, Any], domain: Domain, faults: Faults) ->
         faults.append(f"{where}: 'range' must have two ends, not {len(limits)}")
         return None, None
     low, high = (faults.attempt(f"{where}.range", decode, end, domain, {}) for end in limits)
-    if isinstance(low, float) and isinstance(high, float) and not low <= high:
-        faults.append(f"{where}: 'range' must begin with its lower end")
+    if isinstance(low, list) or isinstance(high, list):
+        faults.append(f"{where}: the ends of 'range' must be single values")
     return low, high
 
 
 def _hint(where: str, unit: str, faults: Faults) -> None:
-    if not unit:
+    if not unit and any(fault.startswith(where) and "has the unit" in fault for fault in faults):
         faults.append(f'{where} declares no unit; if its values have one, add unit = "..."')

@@ -1,0 +1,41 @@
+"""Shapes that must broadcast, and what to say where they do not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.errors import ShapeError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
+    """Return the sentence that names shapes which do not broadcast, or nothing.
+
+    Examples
+    --------
+    >>> broadcast_fault({"delta": (3,), "rho": (4,)})
+    ['arrays do not broadcast together: delta (3,), rho (4,); make their axes equal or 1']
+    """
+    try:
+        np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
+        return [f"arrays do not broadcast together: {named}; make their axes equal or 1"]
+    return []
+
+
+def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
+    """Return the shape that several shapes broadcast to.
+
+    Raises
+    ------
+    ShapeError
+        Naming each shape and its owner.
+    """
+    if faults := broadcast_fault(shapes):
+        raise ShapeError(*faults)
+    return np.broadcast_shapes(*shapes.values())
