@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from optipath.parameters import Resolved
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Use:
     """A value where it stands.
 

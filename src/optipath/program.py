@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from optipath.views import View
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Evaluation:
     """A kernel called on leaves.
 
@@ -38,7 +38,7 @@ class Evaluation:
     presence: int | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Step:
     """Makes one light: the sum of its inputs, changed by an evaluation.
 

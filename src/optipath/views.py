@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _COS, _SIN = cosine(NUMPY), sine(NUMPY)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class View:
     """A number, an array or a parameter, and which part of it a kernel is given.
 

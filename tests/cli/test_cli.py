@@ -2,6 +2,7 @@ import json
 import os
 import subprocess
 import sys
+import sysconfig
 from pathlib import Path
 
 import pytest
@@ -224,7 +225,10 @@ def test_a_parameter_named_like_an_option_is_refused(capsys, tmp_path):
     assert "'json'" in err
 
 
-@pytest.mark.parametrize("command", [["optipath"], [sys.executable, "-m", "optipath"]])
+COMMAND = str(Path(sysconfig.get_path("scripts")) / "optipath")
+
+
+@pytest.mark.parametrize("command", [[COMMAND], [sys.executable, "-m", "optipath"]])
 def test_the_command_is_installed(command):
     done = subprocess.run([*command, "--version"], capture_output=True, text=True, check=True)
     assert done.stdout.startswith("optipath")

@@ -29,8 +29,7 @@ def lower(wiring: Wiring, method: str) -> Program:
     Ports from which no light reaches a detector or a dump are left out.
     """
     builder = _Builder(wiring, method)
-    wanted = wiring.ports.subgraph(wiring.lit & wiring.useful).copy()
-    for port in nx.lexicographical_topological_sort(wanted):
+    for port in nx.lexicographical_topological_sort(wiring.wanted):
         builder.add_port(port)
     return builder.program()
 

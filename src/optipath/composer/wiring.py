@@ -93,6 +93,15 @@ class Wiring:
         return _reached(self.ports.reverse(copy=False), self.ends)
 
     @cached_property
+    def wanted(self) -> nx.DiGraph:
+        """The ports that light passes on its way from a start to an end."""
+        kept = self.lit & self.useful
+        found = nx.DiGraph()
+        found.add_nodes_from(kept)
+        found.add_edges_from(edge for edge in self.ports.edges if kept.issuperset(edge))
+        return found
+
+    @cached_property
     def dark_links(self) -> list[Link]:
         """The links from out-ports that no coupling gives light to."""
         lit = {(name, c.leaves) for name, ways in self.couplings.items() for c in ways}

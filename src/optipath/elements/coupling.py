@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from optipath.kernels import Kernel, KernelFamily
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Operation:
     """A kernel and the values it is given."""
 
@@ -27,7 +27,7 @@ class Operation:
     arguments: tuple[Any, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, slots=True)
 class Coupling:
     """One way through an element: from an in-port to an out-port, in order of travel.
 
