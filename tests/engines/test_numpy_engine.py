@@ -54,7 +54,8 @@ def matrix_of(element):
 @settings(deadline=None)
 @given(elements=CHAINS, state=states())
 def test_a_chain_is_the_product_of_its_matrices(elements, state):
-    product = reduce(lambda later, m: m @ later, map(matrix_of, elements))
+    start = op.Mueller(np.eye(4))
+    product = reduce(lambda before, matrix: matrix @ before, map(matrix_of, elements), start)
     expected = (product @ op.Light(state)).stokes
     path = path_of(elements, state)
     np.testing.assert_allclose(path.trace().stokes, expected, rtol=0, atol=1e-13 * state[0])
