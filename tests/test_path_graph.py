@@ -1,7 +1,7 @@
 import networkx as nx
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
@@ -66,7 +66,6 @@ def rotation_of(quaternion):
 QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 0.1)
 
 
-@settings(deadline=None)
 @given(azimuth=st.floats(-4, 4), quaternion=QUATERNIONS)
 def test_rotating_every_world_frame_changes_no_result(azimuth, quaternion):
     light = placed(azimuth, rotation_of(quaternion)).trace()

@@ -3,7 +3,7 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
@@ -30,7 +30,6 @@ def batches(draw):
     return {name: rng.uniform(*RANGES[name], size=shapes[name]) for name in RANGES}
 
 
-@settings(deadline=None)
 @given(values=batches())
 def test_arrays_give_what_the_values_give_one_by_one(values):
     whole = NPGR026.trace(**values).stokes
@@ -44,7 +43,6 @@ def test_arrays_give_what_the_values_give_one_by_one(values):
         np.testing.assert_allclose(whole[index], single.stokes, rtol=0, atol=slack)
 
 
-@settings(deadline=None)
 @given(values=batches())
 def test_light_is_never_negative_nor_more_than_polarised(values):
     light = NPGR026.trace(**values)
@@ -56,7 +54,6 @@ def test_light_is_never_negative_nor_more_than_polarised(values):
     assert np.all(light.dop[bright] <= 1.0 + 1e-9)
 
 
-@settings(deadline=None)
 @given(values=batches())
 def test_the_mueller_matrix_times_the_source_is_the_light(values):
     mueller = NPGR026.mueller(**values)
