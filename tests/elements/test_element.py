@@ -62,6 +62,27 @@ def test_couplings_can_put_kernels_of_the_library_in_a_row():
     np.testing.assert_allclose(dim, 0.25 * bright)
 
 
+def test_an_azimuth_of_ones_own_element_turns_its_frame():
+    class Turnable(op.Element):
+        axis: op.Angle = 0.0
+        azimuth: op.Angle = 0.0
+
+        @staticmethod
+        def mueller_rows(xp, axis):
+            c, s = xp.cos(2 * axis) / 2, xp.sin(2 * axis) / 2
+            return (
+                (0.5, c, s, 0),
+                (c, 2 * c * c, 2 * c * s, 0),
+                (s, 2 * c * s, 2 * s * s, 0),
+                (0,) * 4,
+            )
+
+    own = traced(Turnable(0.3, azimuth=0.4), [1.0, 0.6, 0.3, 0.2])
+    np.testing.assert_allclose(
+        own, traced(op.Polarizer(0.3, 0.4), [1.0, 0.6, 0.3, 0.2]), atol=1e-16
+    )
+
+
 def test_a_class_that_does_not_say_what_it_does_is_refused():
     class Nothing(op.Element):
         pass

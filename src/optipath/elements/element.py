@@ -39,7 +39,8 @@ class Element:
     - ``mueller_rows(xp, *values)``, a static method that returns the rows of its Mueller
       matrix, elementwise: `xp` has ``sin``, ``cos``, ``exp``, ``sqrt``, ``where``, ...
       Each field gives one value, but an `Index` gives two (n and k), a Stokes
-      vector four and a matrix sixteen; or
+      vector four and a matrix sixteen. A field ``azimuth`` gives none: it turns the
+      frame of ``in`` against the one before it, for every element; or
     - ``couplings()``, which names a kernel for each way from an in-port to an out-port.
 
     Attributes
@@ -144,8 +145,11 @@ class Element:
                 f"element class {type(self).__name__} does not say what it does to light; "
                 f"give it a static method mueller_rows(xp, ...) or a method couplings()"
             )
-        domains = self.domains()
-        arguments = [numbers_of(getattr(self, name), domain) for name, domain in domains.items()]
+        arguments = [
+            numbers_of(getattr(self, name), domain)
+            for name, domain in self.domains().items()
+            if name != "azimuth"
+        ]
         operation = Operation(self._kernel, tuple(number for part in arguments for number in part))
         return (Coupling("in", "out", (operation,)),)
 
