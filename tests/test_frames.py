@@ -62,6 +62,21 @@ def test_frames_of_other_directions_are_refused_with_both_named():
         op.Frame().turn_to(tilted)
 
 
+def test_directions_may_differ_by_rounding_and_no_more():
+    nearly = op.Frame.from_direction(z=(0, 5e-9, 1), x=(1, 0, 0))
+    op.Frame().turn_to(nearly)
+    off = op.Frame.from_direction(z=(0, 2e-8, 1), x=(1, 0, 0))
+    with pytest.raises(op.FrameError, match="one direction"):
+        op.Frame().turn_to(off)
+
+
+@pytest.mark.parametrize("stretch", [1e-7, -1e-7])
+def test_axes_are_unit_vectors_to_1e_8(stretch):
+    op.Frame(x=(1 + 1e-9, 0, 0))
+    with pytest.raises(op.FrameError, match="unit vectors"):
+        op.Frame(x=(1 + stretch, 0, 0))
+
+
 def test_opposite_directions_are_refused():
     back = op.Frame.from_direction(z=(0, 0, -1), x=(1, 0, 0))
     with pytest.raises(op.FrameError, match="one direction"):

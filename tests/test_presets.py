@@ -69,6 +69,7 @@ def test_senarmonts_compensator_is_dark_at_half_the_retardance():
     bright = path.trace(retardance=retardance, analyzer=retardance / 2).intensity
     np.testing.assert_allclose(dark, 0.0, atol=1e-15)
     np.testing.assert_allclose(bright, 0.5, atol=1e-15)
+    assert path.trace().intensity == pytest.approx(0.0, abs=1e-16), "dark by default"
 
 
 def test_values_given_take_precedence_over_the_case_and_others_stay_open():

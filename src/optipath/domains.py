@@ -7,7 +7,7 @@ The annotated types below say it where the fields of an element are declared:
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, TypeAlias
 
 import numpy as np
@@ -17,7 +17,7 @@ from optipath.errors import ValueFault, did_you_mean
 from optipath.frozen import array_of
 from optipath.materials import Material
 from optipath.parameters import Parameter
-from optipath.units import format_quantity
+from optipath.units import USUAL_UNITS, format_quantity
 
 _ROUNDING = 1e-12
 
@@ -93,7 +93,7 @@ class Domain:
         return f"a real {self.name} within {low} .. {high}"
 
     def _text(self, value: float) -> str:
-        return format_quantity(value, {"angle": "deg", "length": "nm"}.get(self.dimension, ""))
+        return format_quantity(value, USUAL_UNITS[self.dimension])
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
         if array.dtype.kind == "c":
@@ -168,6 +168,19 @@ class StokesDomain(Domain):
             )
 
 
+def in_unit_of(value: Any, domain: Domain) -> Any:
+    """Return a value; a parameter without a unit gets the usual one of a domain.
+
+    Examples
+    --------
+    >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
+    'deg'
+    """
+    if isinstance(value, Parameter) and not value.unit:
+        return replace(value, unit=USUAL_UNITS[domain.dimension])
+    return value
+
+
 @dataclass(frozen=True)
 class Choice(Domain):
     """One word out of a few."""
@@ -192,7 +205,8 @@ _K = Domain("extinction coefficient", minimum=0.0)
 _NO_K = Domain("extinction coefficient of the medium that light comes from", minimum=0.0, maximum=0)
 REAL = Domain("number")
 
-Angle: TypeAlias = Annotated[Quantity, Domain("angle", "angle")]
+ANGLE = Domain("angle", "angle")
+Angle: TypeAlias = Annotated[Quantity, ANGLE]
 Incidence: TypeAlias = Annotated[
     Quantity, Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
 ]

@@ -11,7 +11,7 @@ import numpy as np
 from optipath.composer import Wiring
 from optipath.materials import Material
 from optipath.parameters import Parameter
-from optipath.units import format_quantity
+from optipath.units import USUAL_UNITS, format_quantity
 
 if TYPE_CHECKING:
     from optipath.elements import Element
@@ -28,10 +28,11 @@ def draw(path: PathGraph) -> str:
     lamp       source     intensity=$intensity
     """
     graph = path.graph
-    order = list(nx.lexicographical_topological_sort(nx.DiGraph(graph)))
+    wiring = Wiring(graph)
+    order = _in_order_of_travel(wiring)
     name_width = max(map(len, order))
     kind_width = max(len(path.element(name).kind) for name in order)
-    leaving = set(Wiring(graph).outlets)
+    leaving = set(wiring.outlets)
     lines = []
     for name in order:
         element = path.element(name)
@@ -49,6 +50,13 @@ def draw(path: PathGraph) -> str:
     return "\n".join(lines)
 
 
+def _in_order_of_travel(wiring: Wiring) -> list[str]:
+    if not nx.is_directed_acyclic_graph(wiring.ports):
+        return list(wiring.elements)
+    ports = nx.lexicographical_topological_sort(wiring.ports)
+    return list(dict.fromkeys(name for name, _ in ports))
+
+
 def _values(element: Element) -> str:
     domains = element.domains()
     shown = []
@@ -56,7 +64,7 @@ def _values(element: Element) -> str:
         value = getattr(element, f.name)
         if value is None or (isinstance(value, (int, float, str)) and value == f.default):
             continue
-        unit = {"angle": "deg", "length": "nm"}.get(domains[f.name].dimension, "")
+        unit = USUAL_UNITS[domains[f.name].dimension]
         shown.append(f"{f.name}={_text(value, unit)}")
     return "  ".join(shown)
 

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 
 from optipath.binding import bind
+from optipath.cases import Case
 from optipath.composer import Composer, parameters_of, validate
+from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Element
 from optipath.errors import PathError
 from optipath.frames import Frame
@@ -20,7 +22,6 @@ from optipath.preset_format import to_toml
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from optipath.cases import Case
     from optipath.light import Light
     from optipath.mueller import Mueller
     from optipath.parameters import Parameter
@@ -90,8 +91,11 @@ class PathGraph:
     ) -> None:
         if not isinstance(description, str):
             raise PathError(f"the description of a path must be a text, not {description!r}")
+        cases = {} if cases is None else cases
+        if not isinstance(cases, Mapping) or not all(isinstance(c, Case) for c in cases.values()):
+            raise PathError(f"cases of a path must be a Case for each name, not {cases!r}")
         self.description = description
-        self.cases = dict(cases or {})
+        self.cases = dict(cases)
         self._graph = nx.MultiDiGraph(declared=tuple(declared))
         self._plan: Plan | None = None
 
@@ -191,7 +195,9 @@ class PathGraph:
         (start, out_port), (end, in_port) = ends
         if self._graph.has_edge(start, end, key=(out_port, in_port)):
             raise PathError(f"link '{leaves} -> {enters}' is there already; remove the second one")
-        self._graph.add_edge(start, end, key=(out_port, in_port), azimuth=frozen(azimuth))
+        self._graph.add_edge(
+            start, end, key=(out_port, in_port), azimuth=in_unit_of(frozen(azimuth), ANGLE)
+        )
         self._plan = None
 
     def element(self, name: str) -> Element:

@@ -24,6 +24,9 @@ UNITS: dict[str, tuple[str, float]] = {
     **{unit: ("length", size) for unit, size in _LENGTHS.items()},
 }
 
+USUAL_UNITS = {"angle": "deg", "length": "nm", "": ""}
+"""The unit in which a dimension is written where nobody says another."""
+
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", re.ASCII)
 
 
@@ -77,7 +80,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
     """
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        example = f"30 {_example_unit(dimension)}".strip()
+        example = f"30 {USUAL_UNITS[dimension]}".strip()
         raise UnitError(f"'{text}' is not a quantity; write a number such as '{example}'")
     number, unit = float(match[1]), match[2] or default_unit
     found = dimension_of(unit)
@@ -118,10 +121,6 @@ def format_quantity(value: float, unit: str) -> str:
         return f"{repr(number).removesuffix('.0')} {unit}"
     base = {"angle": "rad", "length": "m"}[dimension]
     return f"{float(value)!r} {base}"
-
-
-def _example_unit(dimension: str) -> str:
-    return {"angle": "deg", "length": "nm"}.get(dimension, "")
 
 
 def _mismatch(text: str, unit: str, dimension: str) -> str:

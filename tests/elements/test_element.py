@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.drawing import draw
 
 
 class HalfWavePlate(op.Element, kind="test-half-wave-plate"):
@@ -129,6 +130,21 @@ def test_a_matrix_with_open_parameters_is_refused_by_name():
         op.Polarizer(op.Parameter("a")).mueller()
 
 
+def test_one_frame_will_do_where_light_goes_straight_through():
+    frame = op.Frame().turned(0.5)
+    light = op.Attenuator(1.0).mueller(frame_in=frame) @ op.Light([1.0, 1.0, 0, 0])
+    assert light.frame == frame
+    np.testing.assert_allclose(light.in_frame(op.Frame()).stokes, [1, 1, 0, 0], atol=1e-15)
+
+
+def test_frames_that_an_element_cannot_have_are_refused():
+    side = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+    with pytest.raises(op.PathError, match="one frame"):
+        op.Polarizer().mueller(frame_in=op.Frame(), frame_out=side)
+    with pytest.raises(op.PathError, match="incidence of 45 deg"):
+        op.Interface(1.5, 0.1).mueller(frame_in=op.Frame(), frame_out=side)
+
+
 def test_a_way_that_does_not_exist_is_refused_with_those_that_do():
     with pytest.raises(op.PathError, match="there are: in -> reflected"):
         op.Interface(1.5, 0.1).mueller(leaves="transmitted")
@@ -151,3 +167,26 @@ def test_a_batch_of_stokes_states_gives_a_batch_of_lights():
     states = np.array([[1.0, 1.0, 0, 0], [2.0, 0, 0, 1.0], [0, 0, 0, 0]])
     lights = traced(op.Attenuator(0.5), op.Parameter("state"), state=states)
     np.testing.assert_allclose(lights, 0.5 * states)
+
+
+class Passage(op.Element, kind="test-passage"):
+    """Two ways through, side by side: light may pass it twice without a loop."""
+
+    inputs = ("a", "b")
+    outputs = ("c", "d")
+    natural = ""
+
+    def couplings(self):
+        return (op.Coupling("a", "c", ()), op.Coupling("b", "d", ()))
+
+
+def test_light_may_pass_an_element_twice_by_different_ways():
+    path = op.PathGraph()
+    for name, element in (("lamp", op.Source()), ("two", Passage()), ("eye", op.Detector())):
+        path.add(name, element)
+    path.add("grey", op.Attenuator(0.5))
+    for start, end in (("lamp.out", "two.a"), ("two.c", "grey.in"), ("grey.out", "two.b")):
+        path.connect(start, end)
+    path.connect("two.d", "eye.in")
+    assert path.trace().intensity == 0.5
+    assert draw(path).splitlines()[0].startswith("lamp")

@@ -45,10 +45,10 @@ def path_of(elements, state):
 
 
 def matrix_of(element):
-    turned = op.Frame().turned(getattr(element, "azimuth", 0.0))
     leaves = "out" if element.straight else "reflected"
-    # Frames of their own make the product realign them, as the path does.
-    return element.mueller(leaves=leaves, frame_in=turned)
+    # The frame turned by a is the light turned by -a.
+    turn = op.Rotator(-getattr(element, "azimuth", 0.0)).mueller()
+    return element.mueller(leaves=leaves) @ turn
 
 
 @given(elements=CHAINS, state=states())

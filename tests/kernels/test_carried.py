@@ -77,6 +77,17 @@ def test_no_intensity_is_negative_by_a_rounding(turn, incidence, axis):
     assert path.trace(rho=turn, phi=incidence, filter=axis).intensity >= -1e-30
 
 
+def test_crossed_polarizers_at_any_angle_let_no_negative_light_through():
+    axes = np.random.default_rng(3).uniform(-4, 4, 100_000)
+    path = op.PathGraph()
+    first = path.add("first", op.Polarizer(axes))
+    path.add("lamp", op.Source()) >> first >> path.add("second", op.Polarizer(axes + np.pi / 2))
+    path["second"] >> path.add("eye", op.Detector())
+    light = path.trace().intensity
+    assert np.all(light >= 0.0)
+    assert np.all(light <= 1e-15)
+
+
 def test_angles_so_huge_that_their_rounding_is_a_turn_keep_their_length():
     light = op.Rotator(1e16).mueller() @ op.Light([1.0, 1.0, 0.0, 0.0])
     assert light.dop == pytest.approx(1.0, abs=1e-15)

@@ -128,6 +128,45 @@ def test_a_node_that_could_not_be_read_is_not_called_missing_as_well():
     assert len(faults) == 1
 
 
+def test_a_bad_port_hides_no_node_that_hangs_elsewhere():
+    text = GOOD.replace("lamp.out", "lamp.uot").replace(
+        "[elements.eye]", '[elements.alone]\nkind = "polarizer"\n\n[elements.eye]'
+    )
+    faults = faults_of(text)
+    assert len(faults) == 2
+    assert "did you mean 'lamp.out'" in faults[0]
+    assert "'alone' is reached by no source" in faults[1]
+
+
+def test_a_missing_source_is_told_beside_a_bad_port():
+    text = GOOD.replace('kind = "source"', 'kind = "polarizer"').replace("lamp.out", "lamp.uot")
+    faults = " | ".join(faults_of(text))
+    for part in ("lamp.uot", "no source"):
+        assert part in faults
+
+
+def test_a_parameter_that_is_an_angle_declares_a_unit():
+    text = GOOD.replace(
+        'default = "30 deg"\nunit = "deg"\nrange = ["0 deg", "90 deg"]', "default = 1"
+    )
+    faults = faults_of(text.split("[cases")[0])
+    assert faults == (
+        'parameters.theta is used where an angle is asked for; add unit = "deg" or another',
+    )
+
+
+def test_a_parameter_without_unit_in_python_gets_one_where_it_is_an_angle():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source())
+    (
+        lamp
+        >> path.add("turn", op.Rotator(op.Parameter("theta", 0.5)))
+        >> path.add("eye", op.Detector())
+    )
+    assert path.parameters["theta"].unit == "deg"
+    assert read(tomllib.loads(path.to_toml())) == path
+
+
 def test_a_cycle_and_azimuths_are_told_beside_faults_of_reading():
     text = GOOD.replace('kind = "source"', 'kind = "sorce"').replace(
         "[cases.steep]", '[[links]]\nfrom = "mirror.reflected"\nto = "mirror.in"\n\n[cases.steep]'

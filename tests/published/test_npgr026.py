@@ -62,7 +62,7 @@ def test_the_textbook_method_agrees_save_what_it_loses_in_case_3(case):
     plan = op.Composer(method="textbook").compose(op.load_preset("npgr026", case=case))
     error = relative_error(plan.run().stokes, case)
     if case == "3":
-        assert 1e-11 < error < 1e-7, "documented in docs/methods.md"
+        assert error < 5e-11, "documented in docs/methods.md"
     else:
         assert error <= 1e-11
 

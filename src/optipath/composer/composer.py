@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from dataclasses import dataclass
 from typing import Any, Protocol
 
@@ -101,14 +100,9 @@ class Composer:
             program=lower(wiring, self.method),
             inputs=values.inputs(),
             outlets=wiring.outlets,
-            copied=_copied(graph),
+            copied=wiring.copied,
             method=self.method,
             model="full",
             engine="numpy",
             dtype=self.dtype,
         )
-
-
-def _copied(graph: nx.MultiDiGraph) -> tuple[str, ...]:
-    counts = Counter(f"{start}.{leaves}" for start, _, (leaves, _) in graph.edges(keys=True))
-    return tuple(sorted(port for port, count in counts.items() if count > 1))

@@ -8,6 +8,7 @@ import networkx as nx
 import numpy as np
 
 from optipath.composer.placement import alignment, frame_at
+from optipath.composer.wiring import link_text
 from optipath.elements import Detector
 from optipath.frames import Frame
 from optipath.parameters import Parameter
@@ -90,7 +91,7 @@ class _Builder:
             light = self.lights[start, leaves]
             turn = alignment(self.wiring, link)
             if turn is not None:
-                light = self._step(f"{start}.{leaves} -> {name}.{way}", (light,), turn, None)
+                light = self._step(link_text(link), (light,), turn, None)
             lights.append(light)
         self.lights[port] = self._sum(f"{name}.{way}", lights)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.composer.wiring import link_text
 from optipath.elements import Operation, Terminal
 from optipath.errors import OptipathError
 from optipath.kernels import GIVEN_TURN, TURN
@@ -47,12 +48,6 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
         return Operation(GIVEN_TURN, (View(c), View(s)))
     azimuth = azimuth_of(wiring, link)
     return None if _is_zero(azimuth) else Operation(TURN, (azimuth,))
-
-
-def link_text(link: Link) -> str:
-    """Write a link as ``start.port -> end.port``."""
-    start, end, (leaves, enters) = link
-    return f"{start}.{leaves} -> {end}.{enters}"
 
 
 def placement_faults(wiring: Wiring) -> list[str]:

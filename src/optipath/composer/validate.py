@@ -8,7 +8,7 @@ import networkx as nx
 
 from optipath.composer.placement import placement_faults
 from optipath.composer.values import Values
-from optipath.composer.wiring import Wiring
+from optipath.composer.wiring import Wiring, link_text
 from optipath.elements import Detector, Source
 from optipath.errors import PathError
 
@@ -45,19 +45,30 @@ def refuse_faults(values: Values, wiring: Wiring) -> None:
         raise PathError(*faults)
 
 
-def partial_faults(graph: nx.MultiDiGraph, *, whole: bool) -> list[str]:
+def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -> list[str]:
     """Return the faults of a graph of elements of which some may be missing.
 
     Parameters
     ----------
     graph : networkx.MultiDiGraph
         The elements and links that there are.
+    suspects : set of str
+        The nodes whose links may not all be there; what hangs together with them is not
+        called unreached.
     whole : bool
-        Whether all are there, so that missing ends and unreached nodes say something.
+        Whether all nodes are there, so that a missing source or detector says something.
     """
     values, wiring = Values(graph), Wiring(graph)
+    unsure: set[str] = set()
+    for together in nx.weakly_connected_components(graph):
+        if together & suspects:
+            unsure |= together
     found = [*values.faults(), *placement_faults(wiring), *_link_faults(wiring)]
-    return [*found, *_end_faults(wiring)] if whole else found
+    if whole:
+        found += _missing_end_faults(wiring)
+    if wiring.starts and wiring.ends:
+        found += _reach_faults(wiring, unsure)
+    return found
 
 
 def _link_faults(wiring: Wiring) -> Iterator[str]:
@@ -67,20 +78,24 @@ def _link_faults(wiring: Wiring) -> Iterator[str]:
 
 
 def _end_faults(wiring: Wiring) -> Iterator[str]:
+    yield from _missing_end_faults(wiring)
+    if wiring.starts and wiring.ends:
+        yield from _reach_faults(wiring, set())
+
+
+def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
     if not wiring.starts:
         yield f"the path has no source; add one, such as {Source()!r}"
     if not any(isinstance(element, Detector) for element in wiring.elements.values()):
         yield "the path has no detector; add one, such as Detector()"
-    if wiring.starts and wiring.ends:
-        yield from _reach_faults(wiring)
 
 
 def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
-    for start, end, (leaves, enters) in wiring.dark_links:
+    for link in wiring.dark_links:
+        kind, leaves = wiring.elements[link[0]].kind, link[2][0]
         yield (
-            f"link '{start}.{leaves} -> {end}.{enters}' carries no light: "
-            f"{wiring.elements[start].kind} names '{leaves}', but gives no light there in this "
-            f"version; remove the link"
+            f"link '{link_text(link)}' carries no light: {kind} names '{leaves}', but gives no "
+            f"light there in this version; remove the link"
         )
 
 
@@ -96,11 +111,10 @@ def _feeding_faults(wiring: Wiring) -> Iterator[str]:
             )
 
 
-def _reach_faults(wiring: Wiring) -> Iterator[str]:
-    blamed = {end for _, end, _ in wiring.dark_links}
+def _reach_faults(wiring: Wiring, unsure: set[str]) -> Iterator[str]:
     for name, element in wiring.elements.items():
         ports = [(name, port) for port in (*element.inputs, *element.outputs)]
-        if name in blamed:
+        if name in unsure:
             continue
         if not any(port in wiring.lit for port in ports):
             entries = ", ".join(f"'{name}.{port}'" for port in element.inputs)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from optipath.domains import Choice
-from optipath.elements import Interface
+from optipath.composer.wiring import link_text
+from optipath.domains import ANGLE, Choice
 from optipath.errors import ValueFault
 from optipath.inputs import Inputs, Use
 from optipath.parameters import Parameter
@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     import networkx as nx
-
-_LINK_AZIMUTH = Interface.domains()["azimuth"]
 
 
 class Values:
@@ -35,10 +33,9 @@ class Values:
             for name, element in self.graph.nodes(data="element")
             for part, value, domain in element.quantities()
         ]
-        for start, end, (leaves, enters), azimuth in self.graph.edges(keys=True, data="azimuth"):
+        for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
-                owner = f"link '{start}.{leaves} -> {end}.{enters}' azimuth"
-                found.append(Use(owner, azimuth, _LINK_AZIMUTH))
+                found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
         return tuple(found)
 
     @cached_property

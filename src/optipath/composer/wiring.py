@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -15,6 +16,12 @@ if TYPE_CHECKING:
 Port: TypeAlias = tuple[str, str]
 Link: TypeAlias = tuple[str, str, tuple[str, str]]
 """(start node, end node, (out-port, in-port)), as networkx keys the edges."""
+
+
+def link_text(link: Link) -> str:
+    """Write a link as ``start.port -> end.port``."""
+    start, end, (leaves, enters) = link
+    return f"{start}.{leaves} -> {end}.{enters}"
 
 
 class Wiring:
@@ -59,6 +66,12 @@ class Wiring:
         ports.add_edges_from(
             ((start, leaves), (end, enters))
             for start, end, (leaves, enters) in self.graph.edges(keys=True)
+        )
+        # A link that carries no light is a fault of its own, and not one of reach as well.
+        ports.add_edges_from(
+            ((start, enters), (start, leaves))
+            for start, _, (leaves, _) in self.dark_links
+            for enters in self.elements[start].inputs
         )
         return ports
 
@@ -118,6 +131,12 @@ class Wiring:
             if (name, port) not in taken
         )
         return tuple(sorted(found))
+
+    @cached_property
+    def copied(self) -> tuple[str, ...]:
+        """The out-ports that several links take, each the whole light."""
+        counts = Counter(f"{start}.{ways[0]}" for start, _, ways in self.graph.edges(keys=True))
+        return tuple(sorted(port for port, count in counts.items() if count > 1))
 
 
 def _reached(ports: nx.DiGraph, starts: Iterable[Port]) -> set[Port]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, 
 
 import numpy as np
 
-from optipath.domains import REAL, Choice, Domain, IndexDomain
+from optipath.domains import REAL, Choice, Domain, IndexDomain, in_unit_of
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
@@ -59,7 +59,7 @@ class Element:
     Examples
     --------
     >>> class HalfWavePlate(Element, kind="example-half-wave-plate"):
-    ...     angle: Angle = 0.0
+    ...     angle: float = 0.0
     ...
     ...     @staticmethod
     ...     def mueller_rows(xp, angle):
@@ -88,9 +88,9 @@ class Element:
             cls._kernel = rows_kernel(kind or cls.__name__, cls.__dict__["mueller_rows"])
 
     def __post_init__(self) -> None:
-        """Keep read-only copies of arrays, so that an element never changes."""
-        for f in fields(self):  # type: ignore[arg-type]
-            object.__setattr__(self, f.name, frozen(getattr(self, f.name)))
+        """Keep read-only copies of arrays, and give parameters the unit of their field."""
+        for name, domain in self.domains().items():
+            object.__setattr__(self, name, in_unit_of(frozen(getattr(self, name)), domain))
 
     @classmethod
     def domains(cls) -> Mapping[str, Domain]:
@@ -171,7 +171,8 @@ class Element:
         method : str, optional
             How Fresnel's equations are computed.
         frame_in, frame_out : Frame, optional
-            The world frames of the two ports, for an element that stands in space.
+            The world frames of the two ports, for an element that stands in space; one
+            will do where light goes straight through.
 
         Raises
         ------
@@ -190,7 +191,16 @@ class Element:
         leaves = leaves or self.natural
         open_ones = [f"parameter '{p.name}' of {owner} has no value yet" for p in self.parameters()]
         shapes = {name: np.shape(value) for name, value, d in self.quantities() if not d.tail}
-        if faults := self.faults(owner) + open_ones or broadcast_fault(shapes):
+        if frame_in is not None and self.straight:
+            frame_out = frame_out or frame_in
+        frames = {
+            port: frame
+            for port, frame in ((enters, frame_in), (leaves, frame_out))
+            if frame is not None
+        }
+        faults = self.faults(owner) + open_ones
+        faults = faults or broadcast_fault(shapes) or self.frame_faults(owner, frames)
+        if faults:
             raise PathError(*faults)
         for coupling in self.couplings():
             if (coupling.enters, coupling.leaves) == (enters, leaves):

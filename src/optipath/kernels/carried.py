@@ -26,7 +26,23 @@ def carry(xp: Primitives, stokes: tuple[Any, ...]) -> Carried:
     (0.25, -0.5, 0.0, 0.0)
     """
     s0, s1, s2, s3 = stokes
-    return 0.5 * (s0 - xp.absolute(s1)), s1, s2, s3
+    size = xp.absolute(s1)
+    return not_below_rounding(xp, 0.5 * (s0 - size), size), s1, s2, s3
+
+
+def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
+    """Return an intensity, 0 where it is negative by no more than the rounding of a size.
+
+    Matrices of one's own may make light that cannot be; its negative intensities stay.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
+    (0.0, -0.1)
+    """
+    several = 16.0 * size
+    return xp.where((weak < 0.0) & (several + weak == several), 0.0, weak)
 
 
 def stokes_of(xp: Primitives, carried: Carried) -> tuple[Any, Any, Any, Any]:

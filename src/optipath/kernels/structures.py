@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.carried import Carried, along_axes, carry, stokes_of
+from optipath.kernels.carried import Carried, along_axes, carry, not_below_rounding, stokes_of
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
@@ -80,7 +80,8 @@ def _rotation(xp: Primitives) -> Action:
         sign = where(t1 >= 0.0, 1.0, -1.0)
         larger = 1.0 + absolute(c)
         share = where(sign * c * s1 >= 0.0, s * s / larger, larger)
-        return weak + 0.5 * (absolute(s1) * share - sign * s * s2), t1, t2, s3
+        turned = weak + 0.5 * (absolute(s1) * share - sign * s * s2)
+        return not_below_rounding(xp, turned, absolute(s1) + absolute(s2)), t1, t2, s3
 
     return act
 

@@ -10,12 +10,10 @@ from optipath.domains import REAL, Choice, Domain, IndexDomain, OutsideDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
-from optipath.units import dimension_of, format_quantity, parse_quantity
+from optipath.units import USUAL_UNITS, dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-_WRITTEN_UNIT = {"angle": "deg", "length": "nm", "": ""}
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -95,7 +93,7 @@ def encode(value: Any, dimension: str) -> Any:
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if not dimension or np.isinf(value):
             return float(value)
-        return format_quantity(value, _WRITTEN_UNIT[dimension])
+        return format_quantity(value, USUAL_UNITS[dimension])
     raise PresetError(f"{value!r} has no form in a preset file; use numbers or parameters")
 
 
@@ -136,7 +134,7 @@ def _number(raw: Any, dimension: str) -> Any:
     except OverflowError:
         raise UnitError(f"{raw} is too large a number") from None
     if dimension and np.isfinite(number):
-        unit = _WRITTEN_UNIT[dimension]
+        unit = USUAL_UNITS[dimension]
         raise UnitError(
             f"{raw!r} has no unit, but an {dimension} is asked for; write '{raw} {unit}'"
         )

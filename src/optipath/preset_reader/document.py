@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer import partial_faults
-from optipath.domains import Domain
+from optipath.domains import ANGLE
 from optipath.errors import PathError, did_you_mean
 from optipath.path_graph import PathGraph
 from optipath.port_names import find_port
@@ -14,11 +14,10 @@ from optipath.preset_reader.cases import read_case
 from optipath.preset_reader.elements import read_element, read_frames
 from optipath.preset_reader.faults import Faults
 from optipath.preset_reader.parameters import read_parameter
+from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from optipath.parameters import Parameter
-
-_AZIMUTH = Domain("azimuth", "angle")
 
 
 def read(document: dict[str, Any]) -> PathGraph:
@@ -50,14 +49,25 @@ def read(document: dict[str, Any]) -> PathGraph:
     for name, table in _tables(document, "cases", faults).items():
         path.cases[name] = read_case(f"cases.{name}", table, parameters, faults)
         _check_published(path, name, lost, faults)
-    is_whole = not lost and all(linked)
-    if is_whole:
+    suspects = lost | {name for names in linked for name in names}
+    if not suspects:
         for name in parameters.keys() - path.parameters.keys():
             faults.append(f"parameter '{name}' is declared, but no element takes it")
+    faults += _unit_faults(path, parameters)
     if faults:
-        raise PathError(*dict.fromkeys([*faults, *partial_faults(path.graph, whole=is_whole)]))
+        partial = partial_faults(path.graph, suspects, whole=not lost)
+        raise PathError(*dict.fromkeys([*faults, *partial]))
     path.check()
     return path
+
+
+def _unit_faults(path: PathGraph, parameters: dict[str, Parameter]) -> list[str]:
+    return [
+        f"parameters.{name} is used where an {dimension_of(parameter.unit)} is asked for; "
+        f'add unit = "{parameter.unit}" or another'
+        for name, parameter in path.parameters.items()
+        if name in parameters and parameter.unit != parameters[name].unit
+    ]
 
 
 def _check_published(path: PathGraph, case: str, lost: set[str], faults: Faults) -> None:
@@ -104,23 +114,27 @@ def _link(
     parameters: dict[str, Parameter],
     lost: set[str],
     faults: Faults,
-) -> bool:
+) -> set[str]:
+    """Add a link; return the nodes whose links are not all there, if it could not be added."""
     if not isinstance(table, dict):
         faults.append(f"{where} must be a table headed [[links]], not {table!r}")
-        return False
+        return set(path.graph)
+    ends = {key: str(table.get(key)).partition(".")[0] for key in ("from", "to")}
     before = len(faults)
     faults += schema.type_faults(where, table, schema.LINK)
-    faults += [f"{where}: '{key}' is missing" for key in ("from", "to") if key not in table]
+    faults += [f"{where}: '{key}' is missing" for key in ends if key not in table]
     if len(faults) > before:
-        return False
+        return set(path.graph)
     azimuth = None
     if "azimuth" in table:
-        azimuth = faults.attempt(where, decode, table["azimuth"], _AZIMUTH, parameters)
-    ends = [(table["from"], True), (table["to"], False)]
-    whole = [end for end in ends if str(end[0]).partition(".")[0] not in lost]
-    found = [faults.attempt(where, find_port, path.graph, text, out=out) for text, out in whole]
-    if len(whole) < 2 or None in found:
-        return False
-    before = len(faults)
-    faults.attempt(where, path.connect, table["from"], table["to"], azimuth)
-    return len(faults) == before
+        azimuth = faults.attempt(where, decode, table["azimuth"], ANGLE, parameters)
+    known = [key for key, name in ends.items() if name not in lost]
+    found = [
+        faults.attempt(where, find_port, path.graph, table[key], out=key == "from") for key in known
+    ]
+    if len(known) == 2 and None not in found:
+        before = len(faults)
+        faults.attempt(where, path.connect, table["from"], table["to"], azimuth)
+        return set() if len(faults) == before else set(ends.values())
+    # A node that does not exist may be any of those that do.
+    return set(ends.values()) if set(ends.values()) <= {*path.graph, *lost} else set(path.graph)
