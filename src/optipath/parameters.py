@@ -52,6 +52,8 @@ class Parameter:
         Whether the word ``"none"`` takes the element out of the path.
     bound : bool, optional
         Whether the default is the value for good.
+    negative : bool, optional
+        Whether it stands for its negative; ``-parameter`` says so.
 
     Raises
     ------

@@ -167,6 +167,13 @@ def test_a_parameter_without_unit_in_python_gets_one_where_it_is_an_angle():
     assert read(tomllib.loads(path.to_toml())) == path
 
 
+def test_a_case_for_an_unknown_parameter_is_not_written():
+    path = read(tomllib.loads(GOOD))
+    path.cases["odd"] = op.Case({"thta": 0.1})
+    with pytest.raises(op.PathError, match=r"case 'odd'.*did you mean 'theta'"):
+        path.to_toml()
+
+
 def test_a_cycle_and_azimuths_are_told_beside_faults_of_reading():
     text = GOOD.replace('kind = "source"', 'kind = "sorce"').replace(
         "[cases.steep]", '[[links]]\nfrom = "mirror.reflected"\nto = "mirror.in"\n\n[cases.steep]'

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer import parameters_of
-from optipath.errors import OptipathError, PathError
+from optipath.errors import OptipathError, PathError, did_you_mean
 from optipath.preset_format.codec import encode
 from optipath.preset_format.schema import FORMAT
 from optipath.units import dimension_of
@@ -52,6 +52,12 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
             link["azimuth"] = encode(azimuth, "angle")
         tables.append(_lines("[[links]]", link))
     for name, case in cases.items():
+        faults += [
+            f"case '{name}' gives parameter '{given}', which is unknown"
+            f"{did_you_mean(given, parameters)}"
+            for given in case.values
+            if given not in parameters
+        ]
         tables.append(_lines(f"[cases.{_key(name)}]", _case(case, parameters)))
     if faults:
         raise PathError(*faults)
