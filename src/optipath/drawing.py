@@ -51,10 +51,10 @@ def draw(path: PathGraph) -> str:
 
 
 def _in_order_of_travel(wiring: Wiring) -> list[str]:
-    if not nx.is_directed_acyclic_graph(wiring.ports):
-        return list(wiring.elements)
-    ports = nx.lexicographical_topological_sort(wiring.ports)
-    return list(dict.fromkeys(name for name, _ in ports))
+    passed = []
+    if nx.is_directed_acyclic_graph(wiring.wanted):
+        passed = [name for name, _ in nx.lexicographical_topological_sort(wiring.wanted)]
+    return list(dict.fromkeys([*passed, *wiring.elements]))
 
 
 def _values(element: Element) -> str:
