@@ -50,7 +50,7 @@ def _parameter_lines(inputs: Inputs) -> list[str]:
     bound = [f"parameter {p.name} = {p.text(p.default)}" for p in inputs.bound.values()]
     return bound + [
         f"parameter {p.name}: "
-        + ("must be given" if p.default is None else f"open, {p.text(p.default)} if not given")
+        + (p.default_text() if p.default is None else f"open, {p.default_text()} if not given")
         for p in inputs.open.values()
     ]
 

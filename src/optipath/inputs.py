@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, did_you_mean
+from optipath.domains import Choice
+from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean
 from optipath.parameters import Parameter
 from optipath.shapes import broadcast_fault
+from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -50,6 +52,33 @@ class Use:
         except ValueError:
             return ()  # Rows of unequal lengths are a fault of their own.
         return shape[: len(shape) - len(self.domain.tail)]
+
+    def known_shape(self) -> tuple[int, ...]:
+        """Return the batch shape of a value that is known."""
+        value = self.value
+        return self.batch_shape(value.default if isinstance(value, Parameter) else value)
+
+    def check(self) -> None:
+        """Check what is known of the value: all of it, or a parameter's unit and default.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner, the value and what is asked for.
+        """
+        if not isinstance(self.value, Parameter):
+            self.domain.check(self.owner, self.value)
+            return
+        if isinstance(self.domain, Choice):
+            raise ValueFault(f"{self.owner} cannot be a parameter; choose one word when building")
+        unit, name = self.value.unit, self.value.name
+        if unit and dimension_of(unit) != self.domain.dimension:
+            raise ValueFault(
+                f"parameter '{name}' is in {unit}, but {self.owner} takes "
+                f"{self.domain.described()}; change its unit or where it is used"
+            )
+        if self.value.default is not None:
+            self.check_given(self.value.resolve(self.value.default).value)
 
     def check_given(self, numbers: np.ndarray[Any, Any]) -> None:
         """Check numbers given for the parameter that stands here.

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import FrameError, ShapeError
+from optipath.errors import FrameError
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import turn_linear
-from optipath.shapes import check_broadcast
+from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -48,16 +48,7 @@ class Light:
     def __post_init__(self) -> None:
         if not isinstance(self.frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {self.frame!r}")
-        try:
-            stokes = np.asarray(self.stokes)
-        except ValueError:
-            raise ShapeError("a Stokes vector has rows of unequal lengths") from None
-        if stokes.dtype.kind in "iub":
-            stokes = stokes.astype(np.float64)
-        if stokes.dtype.kind != "f" or stokes.shape[-1:] != (4,):
-            raise ShapeError(
-                f"a Stokes vector is real and of shape (..., 4), not {stokes.dtype} {stokes.shape}"
-            )
+        stokes = real_array("a Stokes vector", self.stokes, (4,))
         object.__setattr__(self, "stokes", stokes)
 
     @property

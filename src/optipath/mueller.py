@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from optipath.errors import FrameError, ShapeError
+from optipath.errors import FrameError
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import NUMPY, ROTATION
 from optipath.light import Light
-from optipath.shapes import check_broadcast
+from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -52,17 +52,7 @@ class Mueller:
     def __post_init__(self) -> None:
         if not (isinstance(self.frame_in, Frame) and isinstance(self.frame_out, Frame)):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
-        try:
-            matrix = np.asarray(self.matrix)
-        except ValueError:
-            raise ShapeError("a Mueller matrix has rows of unequal lengths") from None
-        if matrix.dtype.kind in "iub":
-            matrix = matrix.astype(np.float64)
-        if matrix.dtype.kind != "f" or matrix.shape[-2:] != (4, 4):
-            raise ShapeError(
-                f"a Mueller matrix is real and of shape (..., 4, 4), "
-                f"not {matrix.dtype} {matrix.shape}"
-            )
+        matrix = real_array("a Mueller matrix", self.matrix, (4, 4))
         object.__setattr__(self, "matrix", matrix)
 
     @overload

@@ -216,11 +216,10 @@ class Parameter:
         UnitError
             If it is no quantity of the parameter's dimension.
         """
-        words = [*self.words, *([ABSENT] if self.optional else [])]
-        if text in words:
+        if text in self.all_words:
             return text
         if text[:1].isalpha():
-            cure = did_you_mean(text, words) if words else "; give a number"
+            cure = did_you_mean(text, self.all_words) if self.all_words else "; give a number"
             raise ParameterError(f"parameter '{self.name}' knows no word '{text}'{cure}")
         try:
             return parse_quantity(text, dimension_of(self.unit), default_unit)
@@ -236,6 +235,15 @@ class Parameter:
         if isinstance(value, complex):
             return str(value)
         return format_quantity(value, self.unit)
+
+    @property
+    def all_words(self) -> tuple[str, ...]:
+        """The words that may be given, the one for absence included."""
+        return (*self.words, *([ABSENT] if self.optional else []))
+
+    def default_text(self) -> str:
+        """Write the default, or that there is none."""
+        return "must be given" if self.default is None else self.text(self.default)
 
     def range_text(self) -> str:
         """Write the range, or nothing where there is none."""

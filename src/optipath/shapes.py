@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from optipath.errors import ShapeError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    import numpy.typing as npt
 
 
 def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
@@ -39,3 +41,28 @@ def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
     if faults := broadcast_fault(shapes):
         raise ShapeError(*faults)
     return np.broadcast_shapes(*shapes.values())
+
+
+def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
+    """Return an array of real numbers whose last axes are given.
+
+    Raises
+    ------
+    ShapeError
+        If it is not real, or of another shape.
+
+    Examples
+    --------
+    >>> real_array("a Stokes vector", [1, 0, 0, 0], (4,))
+    array([1., 0., 0., 0.])
+    """
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        raise ShapeError(f"{what} has rows of unequal lengths") from None
+    if array.dtype.kind in "iub":
+        array = array.astype(np.float64)
+    if array.dtype.kind != "f" or array.shape[-len(tail) :] != tail:
+        shape = ", ".join(map(str, ("...", *tail)))
+        raise ShapeError(f"{what} is real and of shape ({shape}), not {array.dtype} {array.shape}")
+    return array

@@ -145,6 +145,11 @@ def test_frames_that_an_element_cannot_have_are_refused():
         op.Interface(1.5, 0.1).mueller(frame_in=op.Frame(), frame_out=side)
 
 
+def test_a_bound_parameter_is_a_value():
+    bound = op.Polarizer(op.Parameter("a", 0.3, bound=True)).mueller()
+    assert bound == op.Polarizer(0.3).mueller()
+
+
 def test_a_way_that_does_not_exist_is_refused_with_those_that_do():
     with pytest.raises(op.PathError, match="there are: in -> reflected"):
         op.Interface(1.5, 0.1).mueller(leaves="transmitted")

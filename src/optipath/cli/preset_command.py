@@ -8,7 +8,6 @@ import click
 
 from optipath.errors import OptipathError, ParameterError, PresetError
 from optipath.kernels import METHODS
-from optipath.parameters import ABSENT
 from optipath.presets import load_preset, preset_names
 
 if TYPE_CHECKING:
@@ -103,9 +102,8 @@ def _parsed(
 
 
 def _option(parameter: Parameter) -> click.Option:
-    words = [*parameter.words, *([ABSENT] if parameter.optional else [])]
-    default = "must be given" if parameter.default is None else parameter.text(parameter.default)
-    hints = [parameter.help, f"words: {', '.join(words)}" if words else "", f"[{default}]"]
+    words = f"words: {', '.join(parameter.all_words)}" if parameter.all_words else ""
+    hints = [parameter.help, words, f"[{parameter.default_text()}]"]
     flag = "--" + parameter.name.replace("_", "-")
     return click.Option(
         [flag, parameter.name],

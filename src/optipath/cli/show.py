@@ -12,10 +12,10 @@ from rich.table import Table
 from rich.text import Text
 
 from optipath.drawing import draw
-from optipath.parameters import ABSENT, Parameter
 from optipath.presets import load_preset
 
 if TYPE_CHECKING:
+    from optipath.parameters import Parameter
     from optipath.path_graph import PathGraph
 
 
@@ -54,8 +54,11 @@ def _print(console: Console, path: PathGraph) -> None:
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:
-    default = "must be given" if parameter.default is None else parameter.text(parameter.default)
-    words = [*parameter.words, *([ABSENT] if parameter.optional else [])]
-    described = "; ".join(part for part in (parameter.help, ", ".join(words)) if part)
+    described = [parameter.help, ", ".join(parameter.all_words)]
     state = "bound to " if parameter.bound else ""
-    return parameter.name, state + default, parameter.range_text(), described
+    return (
+        parameter.name,
+        state + parameter.default_text(),
+        parameter.range_text(),
+        "; ".join(part for part in described if part),
+    )

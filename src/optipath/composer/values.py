@@ -6,12 +6,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from optipath.composer.wiring import link_text
-from optipath.domains import ANGLE, Choice
+from optipath.domains import ANGLE
 from optipath.errors import ValueFault
 from optipath.inputs import Inputs, Use
 from optipath.parameters import Parameter
 from optipath.shapes import broadcast_fault
-from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,8 +53,7 @@ class Values:
         shapes = {}
         for use in self.uses:
             if not use.is_open:
-                known = use.value.default if isinstance(use.value, Parameter) else use.value
-                shapes[use.owner] = use.batch_shape(known)
+                shapes[use.owner] = use.known_shape()
         for name, frames in self.graph.nodes(data="frames"):
             shapes |= {f"frame of {name}.{port}": f.z.shape[:-1] for port, f in frames.items()}
         return {owner: shape for owner, shape in shapes.items() if shape}
@@ -75,7 +73,7 @@ class Values:
         faulty = set()
         for use in self.uses:
             try:
-                _check(use)
+                use.check()
             except ValueFault as fault:
                 found += fault.faults
                 faulty.add(use.owner)
@@ -142,19 +140,3 @@ def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:
 def value_faults(graph: nx.MultiDiGraph) -> list[str]:
     """Return what is wrong with the values of a graph of elements, a sentence each."""
     return Values(graph).faults()
-
-
-def _check(use: Use) -> None:
-    if not isinstance(use.value, Parameter):
-        use.domain.check(use.owner, use.value)
-        return
-    if isinstance(use.domain, Choice):
-        raise ValueFault(f"{use.owner} cannot be a parameter; choose one word when building")
-    unit, name = use.value.unit, use.value.name
-    if unit and dimension_of(unit) != use.domain.dimension:
-        raise ValueFault(
-            f"parameter '{name}' is in {unit}, but {use.owner} takes {use.domain.described()}; "
-            f"change its unit or where it is used"
-        )
-    if use.value.default is not None:
-        use.check_given(use.value.resolve(use.value.default).value)

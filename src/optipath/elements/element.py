@@ -6,9 +6,7 @@ from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
 
-import numpy as np
-
-from optipath.domains import REAL, Choice, Domain, IndexDomain, in_unit_of
+from optipath.domains import REAL, Domain, IndexDomain, in_unit_of
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
@@ -16,6 +14,7 @@ from optipath.elements.rows import rows_kernel
 from optipath.errors import PathError, ValueFault
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
+from optipath.inputs import Use
 from optipath.kernels import (
     REFLECTION,
     Kernel,
@@ -117,14 +116,15 @@ class Element:
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""
         found: list[str] = []
-        for name, value, domain in self.quantities():
-            if isinstance(value, Parameter) and not isinstance(domain, Choice):
-                continue
+        for use in self._uses(owner):
             try:
-                domain.check(f"{owner}.{name}", value)
+                use.check()
             except ValueFault as fault:
                 found += fault.faults
         return found
+
+    def _uses(self, owner: str) -> list[Use]:
+        return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Return what is wrong with the world frames of the ports, a sentence each."""
@@ -189,8 +189,13 @@ class Element:
         REFLECTION.by_method(method)
         owner = self.kind or type(self).__name__
         leaves = leaves or self.natural
-        open_ones = [f"parameter '{p.name}' of {owner} has no value yet" for p in self.parameters()]
-        shapes = {name: np.shape(value) for name, value, d in self.quantities() if not d.tail}
+        uses = self._uses(owner)
+        open_ones = [
+            f"parameter '{use.value.name}' of {owner} has no value yet"
+            for use in uses
+            if use.is_open
+        ]
+        shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
         if frame_in is not None and self.straight:
             frame_out = frame_out or frame_in
         frames = {

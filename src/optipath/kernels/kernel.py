@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.errors import ComposerError, did_you_mean
-from optipath.kernels.primitives import Primitives
+from optipath.kernels.primitives import Primitives, made
 
 if TYPE_CHECKING:
     from optipath.kernels.structures import Structure
@@ -38,17 +37,13 @@ class Kernel:
 
     def made_for(self, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
         """Return the function in terms of these primitives, made once and kept."""
-        return _made(self.factory, primitives)
+        function: Callable[..., tuple[Any, ...]] = made(self.factory, primitives)
+        return function
 
     def by_method(self, method: str) -> Kernel:
         """Return the kernel itself: it has one method only."""
         del method
         return self
-
-
-@cache
-def _made(factory: Factory, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
-    return factory(primitives)
 
 
 @dataclass(frozen=True)

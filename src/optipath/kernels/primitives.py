@@ -8,12 +8,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -35,6 +38,12 @@ class Primitives:
     exp: Callable[[Any], Any]
     atan2: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
+
+
+@cache
+def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
+    """Return what a factory makes of primitives, made once and kept."""
+    return factory(primitives)
 
 
 def _itself(value: Any) -> Any:

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.carried import Carried, along_axes, carry, not_below_rounding, stokes_of
+from optipath.kernels.primitives import made
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
@@ -44,12 +44,8 @@ class Structure:
 
     def made_for(self, primitives: Primitives) -> Action:
         """Return the action in terms of these primitives, made once and kept."""
-        return _made(self.action, primitives)
-
-
-@cache
-def _made(action: Callable[[Primitives], Action], primitives: Primitives) -> Action:
-    return action(primitives)
+        action: Action = made(self.action, primitives)
+        return action
 
 
 def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:

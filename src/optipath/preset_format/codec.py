@@ -15,6 +15,8 @@ from optipath.units import USUAL_UNITS, dimension_of, format_quantity, parse_qua
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+_INDEX = ("n", "k")
+
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
     """Return the value of an element's field.
@@ -106,11 +108,13 @@ def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
 
 
 def _material(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Material:
-    faults = [f"key '{key}' is unknown{did_you_mean(key, 'nk')}" for key in raw.keys() - {"n", "k"}]
+    faults = [
+        f"key '{key}' is unknown{did_you_mean(key, _INDEX)}" for key in raw if key not in _INDEX
+    ]
     if "n" not in raw:
         faults.append("an index written as a table needs 'n'")
     parts = {}
-    for key in raw.keys() & {"n", "k"}:
+    for key in [key for key in _INDEX if key in raw]:
         try:
             parts[key] = decode(raw[key], Domain(domain.name), parameters)
         except OptipathError as fault:

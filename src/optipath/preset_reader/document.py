@@ -51,8 +51,12 @@ def read(document: dict[str, Any]) -> PathGraph:
         _check_published(path, name, lost, faults)
     suspects = lost | {name for names in linked for name in names}
     if not suspects:
-        for name in parameters.keys() - path.parameters.keys():
-            faults.append(f"parameter '{name}' is declared, but no element takes it")
+        used = path.parameters
+        faults += [
+            f"parameter '{name}' is declared, but no element takes it"
+            for name in parameters
+            if name not in used
+        ]
     faults += _unit_faults(path, parameters)
     if faults:
         partial = partial_faults(path.graph, suspects, whole=not lost)
