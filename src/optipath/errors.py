@@ -60,6 +60,21 @@ class PathError(OptipathError):
     """A path graph that cannot be composed; carries every fault found."""
 
 
+class MissingExtraError(OptipathError):
+    """A feature whose extra is not installed.
+
+    Parameters
+    ----------
+    what, library, extra : str
+        The feature, what it needs, and the extra that brings it.
+    """
+
+    def __init__(self, what: str, library: str, extra: str) -> None:
+        super().__init__(
+            f"{what} need {library}, which is not installed; pip install 'optipath[{extra}]'"
+        )
+
+
 class ParameterError(OptipathError):
     """Parameter values that a plan cannot run with; carries every fault found."""
 

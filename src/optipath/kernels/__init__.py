@@ -5,20 +5,50 @@ to the structure of what they return.
 """
 
 from optipath.kernels import emission, filters, rotation
+from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
 from optipath.kernels.carried import Carried, add, carry, stokes_of
 from optipath.kernels.circular import cosine, sine
-from optipath.kernels.kernel import Kernel, KernelFamily
+from optipath.kernels.compensated import (
+    compensated_lossless_reflection,
+    compensated_lossless_transmission,
+    compensated_reflection,
+    compensated_transmission,
+)
+from optipath.kernels.kernel import Factory, Kernel, KernelFamily
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
-from optipath.kernels.stable import stable_reflection
+from optipath.kernels.stable import (
+    lossless_reflection,
+    lossless_transmission,
+    stable_reflection,
+    stable_transmission,
+)
 from optipath.kernels.structures import BLOCK, FULL, ROTATION, SCALE, Structure, turn_linear
-from optipath.kernels.textbook import textbook_reflection
+from optipath.kernels.textbook import textbook_reflection, textbook_transmission
 
-REFLECTION = KernelFamily(
+
+def _fresnel(what: str, **methods: tuple[Factory, Factory | None]) -> KernelFamily:
+    found = {}
+    for method, (factory, lossless) in methods.items():
+        name = f"{what} ({method}"
+        # Of (n1, n, k, cos, sin), k is the third.
+        without = (2, Kernel(f"{name}, lossless)", BLOCK, lossless)) if lossless else None
+        found[method] = Kernel(f"{name})", BLOCK, factory, without)
+    return KernelFamily(what, found)
+
+
+REFLECTION = _fresnel(
     "Fresnel reflection",
-    {
-        "stable": Kernel("Fresnel reflection (stable)", BLOCK, stable_reflection),
-        "textbook": Kernel("Fresnel reflection (textbook)", BLOCK, textbook_reflection),
-    },
+    stable=(stable_reflection, lossless_reflection),
+    compensated=(compensated_reflection, compensated_lossless_reflection),
+    amplitude=(amplitude_reflection, None),
+    textbook=(textbook_reflection, None),
+)
+TRANSMISSION = _fresnel(
+    "Fresnel transmission",
+    stable=(stable_transmission, lossless_transmission),
+    compensated=(compensated_transmission, compensated_lossless_transmission),
+    amplitude=(amplitude_transmission, None),
+    textbook=(textbook_transmission, None),
 )
 METHODS = tuple(REFLECTION.methods)
 
@@ -55,6 +85,7 @@ __all__ = [
     "RETARDER",
     "ROTATION",
     "SCALE",
+    "TRANSMISSION",
     "TURN",
     "TURN_BACK",
     "UNPOLARIZED",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -29,16 +29,29 @@ class Kernel:
     factory : callable
         ``factory(primitives)`` gives the function; its result has as many
         numbers as the structure asks for.
+    without : tuple of int and Kernel, optional
+        A cheaper kernel for where one argument is 0: the position of that argument, and
+        the kernel that takes the others.
     """
 
     name: str
     structure: Structure | None
     factory: Factory
+    without: tuple[int, Kernel] | None = None
 
     def made_for(self, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
         """Return the function in terms of these primitives, made once and kept."""
         function: Callable[..., tuple[Any, ...]] = made(self.factory, primitives)
         return function
+
+    def leaving_out(
+        self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
+    ) -> tuple[Kernel, tuple[Any, ...]]:
+        """Return the cheapest kernel for these arguments, and those that it takes."""
+        if self.without is None or not vanishes(arguments[self.without[0]]):
+            return self, tuple(arguments)
+        position, cheaper = self.without
+        return cheaper, (*arguments[:position], *arguments[position + 1 :])
 
     def by_method(self, method: str) -> Kernel:
         """Return the kernel itself: it has one method only."""

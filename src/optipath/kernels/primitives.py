@@ -26,6 +26,7 @@ class Primitives:
     ``where`` may evaluate both of its branches, so kernels keep both free of
     division by zero and of roots of negative numbers. ``fixed`` is a value without its
     slope, where an engine takes gradients, and the value itself elsewhere.
+    ``two_product`` gives a product and what its rounding has lost.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -37,6 +38,9 @@ class Primitives:
     cos: Callable[[Any], Any]
     exp: Callable[[Any], Any]
     atan2: Callable[[Any, Any], Any]
+    frexp: Callable[[Any], tuple[Any, Any]]
+    ldexp: Callable[[Any, Any], Any]
+    two_product: Callable[[Any, Any], tuple[Any, Any]]
     fixed: Callable[[Any], Any]
 
 
@@ -50,6 +54,36 @@ def _itself(value: Any) -> Any:
     return value
 
 
+def _two_product(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return a b rounded and the rest, without a fused multiply-add (Dekker, 1971)."""
+    product = a * b
+    a_high, a_low = _halves(a)
+    b_high, b_low = _halves(b)
+    rest = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
+    return product, rest
+
+
+def _halves(a: Any) -> tuple[Any, Any]:
+    high = (_SPLITTERS[a.dtype.char] if isinstance(a, _ARRAYS) else _PLAIN_SPLITTER) * a
+    high = high - (high - a)
+    return high, a - high
+
+
+def _splitter(kind: str) -> Any:
+    digits = np.finfo(kind).nmant + 1
+    return np.dtype(kind).type(2) ** (digits - digits // 2) + np.dtype(kind).type(1)
+
+
+_ARRAYS = (np.ndarray, np.generic)
+_PLAIN_SPLITTER = 2.0**27 + 1.0
+_SPLITTERS = {kind: _splitter(kind) for kind in "fdg"}
+
+
+def _fused_two_product(a: float, b: float) -> tuple[float, float]:
+    product = a * b
+    return product, math.fma(a, b, -product)  # type: ignore[attr-defined] # Python 3.13
+
+
 NUMPY = Primitives(
     where=np.where,
     sqrt=np.sqrt,
@@ -60,6 +94,9 @@ NUMPY = Primitives(
     cos=np.cos,
     exp=np.exp,
     atan2=np.arctan2,
+    frexp=np.frexp,
+    ldexp=np.ldexp,
+    two_product=_two_product,
     fixed=_itself,
 )
 
@@ -73,5 +110,8 @@ FLOAT = Primitives(
     cos=math.cos,
     exp=math.exp,
     atan2=math.atan2,
+    frexp=math.frexp,
+    ldexp=math.ldexp,
+    two_product=_fused_two_product if hasattr(math, "fma") else _two_product,
     fixed=_itself,
 )

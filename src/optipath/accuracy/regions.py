@@ -1,0 +1,182 @@
+"""Where methods fail: the regions of Fresnel's equations that tests, tables and charts share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Floats: TypeAlias = npt.NDArray[np.floating]
+
+
+class Samples(NamedTuple):
+    """Boundaries and angles, one a row; n + ik is relative to the medium in front."""
+
+    n: Floats
+    k: Floats
+    cos: Floats
+    sin: Floats
+
+    @property
+    def incidence(self) -> Floats:
+        """The angle of incidence in radians."""
+        return np.arctan2(self.sin, self.cos)
+
+
+Draw: TypeAlias = Callable[["_Dice"], tuple["Floats", "Floats", "Floats", "Floats"]]
+
+
+@dataclass(frozen=True)
+class Region:
+    """A part of the parameter space, drawn at random and always in the same way.
+
+    Attributes
+    ----------
+    name : str
+        In tables and charts.
+    draw : callable
+        Makes n, k, cos and sin from random numbers.
+    """
+
+    name: str
+    draw: Draw
+
+    def samples(self, count: int, dtype: str = "float64") -> Samples:
+        """Return boundaries and angles, rounded to a precision.
+
+        Examples
+        --------
+        >>> REGIONS[0].samples(3).n.shape
+        (3,)
+        """
+        dice = _Dice(count, self.name, np.finfo(dtype))
+        return Samples(*(np.broadcast_to(x, count).astype(dtype) for x in self.draw(dice)))
+
+
+class _Dice:
+    """Random numbers for one region."""
+
+    def __init__(self, count: int, name: str, precision: np.finfo) -> None:  # type: ignore[type-arg]
+        self.count = count
+        self.precision = precision
+        self._random = np.random.default_rng(list(name.encode()))
+
+    def even(self, low: float, high: float) -> Floats:
+        """Return numbers spread evenly."""
+        return self._random.uniform(low, high, self.count)
+
+    def decades(self, low: float, high: float) -> Floats:
+        """Return numbers whose logarithms are spread evenly."""
+        return 10.0 ** self.even(np.log10(low), np.log10(high))
+
+    def sign(self) -> Floats:
+        """Return -1 or 1."""
+        return np.where(self.even(0, 1) < 0.5, -1.0, 1.0)
+
+    def some(self, numbers: Floats) -> Floats:
+        """Return numbers, half of them replaced by 0."""
+        return np.where(self.even(0, 1) < 0.5, 0.0, numbers)
+
+    def extreme(self) -> Floats:
+        """Return numbers whose squares overflow or underflow, and whose inverses do not."""
+        reach = 0.97 * np.log10(float(self.precision.max))
+        return 10.0 ** (self.sign() * self.even(0.52 * reach, reach))
+
+
+def _at(angle: Floats | float) -> tuple[Floats, Floats]:
+    return np.cos(angle), np.sin(angle)
+
+
+def _below_90(degrees: Floats) -> tuple[Floats, Floats]:
+    return np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
+
+
+def _generic(dice: _Dice) -> tuple[Floats, ...]:
+    angle = np.radians(dice.even(1, 89))
+    return dice.even(0.1, 5), dice.some(dice.even(0.01, 8)), *_at(angle)
+
+
+def _beside(dice: _Dice, tangent: Floats) -> tuple[Floats, Floats]:
+    """Return cos and sin 1e-12 to 1e-1 rad beside the angle of a tangent."""
+    off = dice.sign() * dice.decades(1e-12, 1e-1)
+    t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
+    return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)
+
+
+def _brewster(dice: _Dice) -> tuple[Floats, ...]:
+    n = np.where(dice.sign() > 0, dice.even(1.05, 4), dice.even(0.25, 0.95))
+    return n, np.zeros(1), *_beside(dice, n)
+
+
+def _critical(dice: _Dice, k: Floats) -> tuple[Floats, ...]:
+    n = dice.even(0.2, 0.95)
+    return n, k, *_beside(dice, n / np.sqrt((1 - n) * (1 + n)))
+
+
+def _total(dice: _Dice, k: Floats) -> tuple[Floats, ...]:
+    n = dice.even(0.2, 0.95)
+    critical = np.arcsin(n)
+    return n, k, *_at(critical + (np.pi / 2 - critical) * dice.even(0.05, 0.95))
+
+
+def _inner(dice: _Dice) -> tuple[Floats, Floats]:
+    return _at(np.radians(dice.even(1, 89)))
+
+
+def _grazing(dice: _Dice) -> tuple[Floats, Floats]:
+    return _below_90(dice.decades(1e-12, 1e-1))
+
+
+def _nearly_one(dice: _Dice) -> Floats:
+    return 1.0 + dice.sign() * dice.decades(1e-14, 1e-3)
+
+
+def _alike(dice: _Dice) -> tuple[Floats, ...]:
+    n = _nearly_one(dice)
+    return n, np.abs(n - 1.0) * dice.decades(0.1, 10), *_inner(dice)
+
+
+def _large(dice: _Dice) -> tuple[Floats, Floats]:
+    size, phase = dice.decades(1e3, 1e8), dice.even(0.0, np.pi / 2)
+    return size * np.cos(phase), size * np.sin(phase)
+
+
+def _extreme(dice: _Dice) -> tuple[Floats, ...]:
+    size, phase = dice.extreme(), dice.even(0.1, 1.4)
+    k = dice.some(size * np.sin(phase))
+    return size * np.cos(phase), k, *_inner(dice)
+
+
+def _metal(dice: _Dice) -> tuple[Floats, Floats]:
+    return dice.even(0.05, 4), dice.even(1, 9)
+
+
+_NONE = np.zeros(1)
+
+REGIONS: tuple[Region, ...] = (
+    Region("generic", _generic),
+    Region("near the normal", lambda d: (*_generic(d)[:2], *_at(d.decades(1e-12, 1e-1)))),
+    Region("exactly normal", lambda d: (*_generic(d)[:2], np.ones(1), _NONE)),
+    Region("grazing", lambda d: (*_generic(d)[:2], *_grazing(d))),
+    Region("exactly 90 deg", lambda d: (*_generic(d)[:2], _NONE, np.ones(1))),
+    Region("near Brewster's angle", _brewster),
+    Region("near the critical angle", lambda d: _critical(d, _NONE)),
+    Region("k = 0, n > 1", lambda d: (d.even(1.01, 4), _NONE, *_inner(d))),
+    Region("k = 0, total reflection", lambda d: _total(d, _NONE)),
+    Region("tiny k, n > 1", lambda d: (d.even(1.01, 4), d.decades(1e-20, 1e-3), *_inner(d))),
+    Region("tiny k, total reflection", lambda d: _total(d, d.decades(1e-20, 1e-3))),
+    Region("tiny k, near the critical angle", lambda d: _critical(d, d.decades(1e-20, 1e-3))),
+    Region("n near 1, k = 0", lambda d: (_nearly_one(d), _NONE, *_inner(d))),
+    Region("n near 1, k like n - 1", _alike),
+    Region("n near 1, grazing", lambda d: (_nearly_one(d), _NONE, *_grazing(d))),
+    Region("metals", lambda d: (*_metal(d), *_inner(d))),
+    Region("|m| of 1e3 to 1e8", lambda d: (*_large(d), *_inner(d))),
+    Region("|m| of 1e3 to 1e8, grazing", lambda d: (*_large(d), *_grazing(d))),
+    Region("n near 0", lambda d: (d.decades(1e-12, 1e-2), d.some(d.decades(1e-12, 1)), *_inner(d))),
+    Region("extreme magnitudes", _extreme),
+)

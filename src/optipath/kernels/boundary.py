@@ -1,0 +1,144 @@
+"""The boundary of two media as light meets it: the wave in front and the wave behind."""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.primitives import Primitives
+
+
+class Boundary(NamedTuple):
+    """What reflection and transmission are made of.
+
+    Indices are divided by a power of two near the largest of them, so that no square
+    overflows; every result is a ratio in which it falls out.
+
+    Attributes
+    ----------
+    p : float
+        n1 cos, the wave in front along the normal.
+    a, b : float
+        The wave behind along the normal, g = a + ib = sqrt(m2^2 - (n1 sin)^2), a, b >= 0.
+    modulus : float
+        |g|.
+    D, v : float
+        m2^2 - n1^2 = D + iv.
+    z : float
+        n1 sin^2.
+    c : float
+        The cosine; z : c|g| is how r_p differs from r_s.
+    n1, n, k : float
+        The indices, divided.
+    """
+
+    p: Any
+    a: Any
+    b: Any
+    modulus: Any
+    D: Any
+    v: Any
+    z: Any
+    c: Any
+    n1: Any
+    n: Any
+    k: Any
+
+
+def near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> near_one(FLOAT)(1.0, 6.0)
+    (0.125, 0.75)
+    """
+    frexp, ldexp, maximum = xp.frexp, xp.ldexp, xp.maximum
+
+    def divided(*indices: Any) -> tuple[Any, ...]:
+        _, exponent = frexp(reduce(maximum, indices))
+        return tuple(ldexp(index, -exponent) for index in indices)
+
+    return divided
+
+
+def complex_root(xp: Primitives) -> Callable[[Any, Any], tuple[Any, Any, Any]]:
+    """Make ``(u, v) -> (a, b, |g|)`` with g = a + ib = sqrt(u + iv), for v >= 0.
+
+    The larger of a and b is a sum; the smaller is what 2ab = v leaves for it.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> complex_root(FLOAT)(-3.0, 4.0)[:2]
+    (1.0, 2.0)
+    """
+    sqrt, where, absolute, maximum, minimum = (
+        xp.sqrt,
+        xp.where,
+        xp.absolute,
+        xp.maximum,
+        xp.minimum,
+    )
+
+    def root(u: Any, v: Any) -> tuple[Any, Any, Any]:
+        size = absolute(u)
+        most = maximum(size, v)
+        share = minimum(size, v) / where(most > 0.0, most, 1.0)
+        squared = most * sqrt(1.0 + share * share)
+        larger = sqrt(0.5 * (size + squared))
+        smaller = 0.5 * v / where(larger > 0.0, larger, 1.0)
+        forward = u >= 0.0
+        return where(forward, larger, smaller), where(forward, smaller, larger), sqrt(squared)
+
+    return root
+
+
+def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
+    """Make ``(n1, n, k, cos, sin) -> Boundary``."""
+    divided, squared, root = near_one(xp), _squared_wave(xp), complex_root(xp)
+    absolute = xp.absolute
+
+    def boundary(n1: Any, n: Any, k: Any, c: Any, s: Any) -> Boundary:
+        # The absolute value makes -0 a 0.
+        n1, n, k = divided(n1, n, absolute(k))
+        p, y, contrast, u = squared(n1, n, k, c, s)
+        v = 2.0 * n * k
+        a, b, modulus = root(u, v)
+        return Boundary(p, a, b, modulus, contrast - k * k, v, s * y, c, n1, n, k)
+
+    return boundary
+
+
+def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
+    """Make ``(n1, n, cos, sin) -> Boundary``, for media that absorb nothing."""
+    divided, squared = near_one(xp), _squared_wave(xp)
+    sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
+
+    def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
+        n1, n = divided(n1, n)
+        p, y, contrast, u = squared(n1, n, 0.0, c, s)
+        size = sqrt(absolute(u))
+        forward = u >= 0.0
+        a, b = where(forward, size, 0.0), where(forward, 0.0, size)
+        return Boundary(p, a, b, size, contrast, 0.0, s * y, c, n1, n, 0.0)
+
+    return boundary
+
+
+def _squared_wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
+    where = xp.where
+
+    def squared(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any, Any]:
+        p = n1 * c
+        y = n1 * s
+        contrast = (n - n1) * (n + n1)
+        # Re g^2, from whichever of cos and sin is small: that one carries the digits.
+        u = where(c < s, contrast + p * p, (n - y) * (n + y)) - k * k
+        return p, y, contrast, u
+
+    return squared
