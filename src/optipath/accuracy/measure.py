@@ -63,14 +63,16 @@ def _references(region: Region, dtype: str, count: int, what: str) -> tuple[refe
 
 def exactly(number: Any) -> Any:
     """Return a float of any precision as a number of many digits."""
-    high = float(number)
-    return mpmath.mpf(high) + mpmath.mpf(float(number - type(number)(high)))
+    mantissa, exponent = np.frexp(number)
+    high = float(mantissa)
+    rest = float(mantissa - type(mantissa)(high))
+    return mpmath.ldexp(mpmath.mpf(high) + mpmath.mpf(rest), int(exponent))
 
 
 def errors(found: npt.NDArray[Any], exact: Any, dtype: str) -> Errors:
     """Return the errors of numbers against references."""
     eps = float(np.finfo(dtype).eps)
-    componentwise, normwise = np.empty(found.shape), np.empty(len(found))
+    componentwise, normwise = np.zeros(found.shape), np.zeros(len(found))
     for row, (numbers, (values, conditions)) in enumerate(zip(found, exact, strict=True)):
         off = [_distance(x, value) for x, value in zip(numbers, values, strict=True)]
         componentwise[row] = [

@@ -26,8 +26,7 @@ def amplitude_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     waves = _waves(xp)
 
     def reflect(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
-        m, m2, g = waves(n1, n, k, s)
-        del m
+        _, m2, g = waves(n1, n, k, s)
         second = (m2[0] * c, m2[1] * c)
         rs = _ratio(xp, (c - g[0], -g[1]), (c + g[0], g[1]))
         rp = _ratio(xp, (second[0] - g[0], second[1] - g[1]), (second[0] + g[0], second[1] + g[1]))
@@ -67,9 +66,9 @@ def _waves(xp: Primitives) -> Callable[..., tuple[Complex, Complex, Complex]]:
     def waves(n1: Any, n: Any, k: Any, s: Any) -> tuple[Complex, Complex, Complex]:
         """Return m, m^2 and g."""
         n, k = n / n1, xp.absolute(k / n1)
-        m2 = n * n - k * k, 2.0 * n * k
-        a, b, _ = root(m2[0] - s * s, m2[1])
-        return (n, k), m2, (a, b)
+        square = n * n - k * k
+        a, b, _ = root(square - s * s, n, k)
+        return (n, k), (square, 2.0 * n * k), (a, b)
 
     return waves
 

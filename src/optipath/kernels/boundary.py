@@ -27,10 +27,8 @@ class Boundary(NamedTuple):
         |g|.
     D, v : float
         m2^2 - n1^2 = D + iv.
-    z : float
-        n1 sin^2.
-    c : float
-        The cosine; z : c|g| is how r_p differs from r_s.
+    s, c : float
+        The sine and the cosine.
     n1, n, k : float
         The indices, divided.
     """
@@ -41,7 +39,7 @@ class Boundary(NamedTuple):
     modulus: Any
     D: Any
     v: Any
-    z: Any
+    s: Any
     c: Any
     n1: Any
     n: Any
@@ -66,32 +64,44 @@ def near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return divided
 
 
-def complex_root(xp: Primitives) -> Callable[[Any, Any], tuple[Any, Any, Any]]:
-    """Make ``(u, v) -> (a, b, |g|)`` with g = a + ib = sqrt(u + iv), for v >= 0.
-
-    The larger of a and b is a sum; the smaller is what 2ab = v leaves for it.
+def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
+    """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0, without squares that overflow or vanish.
 
     Examples
     --------
     >>> from optipath.kernels import FLOAT
-    >>> complex_root(FLOAT)(-3.0, 4.0)[:2]
+    >>> hypotenuse(FLOAT)(3e-200, 4e-200)
+    5e-200
+    """
+    sqrt, where, maximum, minimum = xp.sqrt, xp.where, xp.maximum, xp.minimum
+
+    def length(x: Any, y: Any) -> Any:
+        most = maximum(x, y)
+        share = minimum(x, y) / where(most > 0.0, most, 1.0)
+        return most * sqrt(1.0 + share * share)
+
+    return length
+
+
+def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, Any]]:
+    """Make ``(u, n, k) -> (a, b, |g|)`` with g = a + ib = sqrt(u + 2ink), a, b >= 0.
+
+    The larger of a and b is a sum; the smaller is what ab = nk leaves for it.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> complex_root(FLOAT)(-3.0, 2.0, 1.0)[:2]
     (1.0, 2.0)
     """
-    sqrt, where, absolute, maximum, minimum = (
-        xp.sqrt,
-        xp.where,
-        xp.absolute,
-        xp.maximum,
-        xp.minimum,
-    )
+    sqrt, where, absolute, length = xp.sqrt, xp.where, xp.absolute, hypotenuse(xp)
 
-    def root(u: Any, v: Any) -> tuple[Any, Any, Any]:
+    def root(u: Any, n: Any, k: Any) -> tuple[Any, Any, Any]:
         size = absolute(u)
-        most = maximum(size, v)
-        share = minimum(size, v) / where(most > 0.0, most, 1.0)
-        squared = most * sqrt(1.0 + share * share)
+        squared = length(size, 2.0 * n * k)
         larger = sqrt(0.5 * (size + squared))
-        smaller = 0.5 * v / where(larger > 0.0, larger, 1.0)
+        # In this order, since n k may underflow.
+        smaller = n / where(larger > 0.0, larger, 1.0) * k
         forward = u >= 0.0
         return where(forward, larger, smaller), where(forward, smaller, larger), sqrt(squared)
 
@@ -106,10 +116,9 @@ def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     def boundary(n1: Any, n: Any, k: Any, c: Any, s: Any) -> Boundary:
         # The absolute value makes -0 a 0.
         n1, n, k = divided(n1, n, absolute(k))
-        p, y, contrast, u = squared(n1, n, k, c, s)
-        v = 2.0 * n * k
-        a, b, modulus = root(u, v)
-        return Boundary(p, a, b, modulus, contrast - k * k, v, s * y, c, n1, n, k)
+        p, contrast, u = squared(n1, n, k, c, s)
+        a, b, modulus = root(u, n, k)
+        return Boundary(p, a, b, modulus, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
 
     return boundary
 
@@ -121,24 +130,24 @@ def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
 
     def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
         n1, n = divided(n1, n)
-        p, y, contrast, u = squared(n1, n, 0.0, c, s)
+        p, contrast, u = squared(n1, n, 0.0, c, s)
         size = sqrt(absolute(u))
         forward = u >= 0.0
         a, b = where(forward, size, 0.0), where(forward, 0.0, size)
-        return Boundary(p, a, b, size, contrast, 0.0, s * y, c, n1, n, 0.0)
+        return Boundary(p, a, b, size, contrast, 0.0, s, c, n1, n, 0.0)
 
     return boundary
 
 
-def _squared_wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
+def _squared_wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any]]:
     where = xp.where
 
-    def squared(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any, Any]:
+    def squared(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
         p = n1 * c
         y = n1 * s
         contrast = (n - n1) * (n + n1)
         # Re g^2, from whichever of cos and sin is small: that one carries the digits.
         u = where(c < s, contrast + p * p, (n - y) * (n + y)) - k * k
-        return p, y, contrast, u
+        return p, contrast, u
 
     return squared

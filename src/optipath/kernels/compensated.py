@@ -24,7 +24,8 @@ def _compensated(factory: Factory) -> Factory:
         kernel, sqrt = factory(twice(xp)), DoubleDouble.sqrt
 
         def rounded_once(*given: Any) -> tuple[Any, ...]:
-            *media, c, s = (DoubleDouble(xp, number) for number in given)
+            # Not a plain 0: the rest has the precision of the number.
+            *media, c, s = (DoubleDouble(xp, number, 0.0 * number) for number in given)
             # A cosine and a sine that are rounded belong to no angle; their ratio does.
             length = sqrt(c * c + s * s)
             numbers = kernel(*media, c / length, s / length)

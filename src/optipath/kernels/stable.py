@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.boundary import Boundary, absorbing_boundary, lossless_boundary
+from optipath.kernels.boundary import (
+    Boundary,
+    absorbing_boundary,
+    hypotenuse,
+    lossless_boundary,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,14 +44,15 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     fields just behind the boundary.
     """
     boundary, transmitted = absorbing_boundary(xp), _transmitted(xp)
-    sqrt, where = xp.sqrt, xp.where
+    sqrt, where, length = xp.sqrt, xp.where, hypotenuse(xp)
 
     def transmit(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         at = boundary(n1, n, k, c, s)
-        powers, (re, im), behind, inverse = transmitted(at)
-        size = at.n * at.n + at.k * at.k
-        share = powers[0] * inverse * sqrt(behind / where(size > 0.0, size, 1.0))
-        return *powers, share * (re * at.n + im * at.k), share * (im * at.n - re * at.k)
+        powers, (re, im), behind, q = transmitted(at)
+        size = length(at.n, at.k)
+        share = sqrt(behind) / q / where(size > 0.0, size, 1.0)
+        C, S = share * (re * at.n + im * at.k), share * (im * at.n - re * at.k)
+        return *powers, C * powers[0], S * powers[0]
 
     return transmit
 
@@ -72,23 +78,33 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
         P = (at.p + at.a) * (at.p + at.a) + at.b * at.b
         # P vanishes only at grazing incidence on an equal medium, which is no interface.
         there = P > 0.0
-        inverse = 1.0 / where(there, P, 1.0)
-        Ts = where(there, 4.0 * at.p * at.a * inverse, 1.0)
-        dr, di = at.D * inverse, at.v * inverse
-        return where(Ts < 0.5, 1.0 - Ts, dr * dr + di * di), Ts
+        P = where(there, P, 1.0)
+        Ts = where(there, 4.0 * at.p / P * at.a, 1.0)
+        re, im = at.D / P, at.v / P
+        return where(Ts < 0.6, 1.0 - Ts, re * re + im * im), Ts
 
     return first
 
 
-def _second(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
+class _Slant(NamedTuple):
+    """z / n1 = n1 sin^2, c a and c b, and |z + p g|^2 / n1^2, by which r_p differs from r_s."""
+
+    z: Any
+    ca: Any
+    cb: Any
+    there: Any
+    q: Any
+
+
+def _second(xp: Primitives) -> Callable[[Boundary], _Slant]:
     where = xp.where
 
-    def second(at: Boundary) -> tuple[Any, ...]:
-        """Return c a, c b, where z + p g is not 0, and n1^2 / |z + p g|^2."""
-        ca, cb = at.c * at.a, at.c * at.b
-        q = (at.z + ca) * (at.z + ca) + cb * cb
-        slanted = q > 0.0
-        return ca, cb, slanted, 1.0 / where(slanted, q, 1.0)
+    def second(at: Boundary) -> _Slant:
+        z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
+        q = (z + ca) * (z + ca) + cb * cb
+        # It vanishes, or underflows, at exactly normal and exactly grazing incidence only.
+        there = q > 0.0
+        return _Slant(z, ca, cb, there, where(there, q, 1.0))
 
     return second
 
@@ -98,17 +114,15 @@ def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
 
     def reflected(at: Boundary) -> tuple[Any, ...]:
         Fs, _ = first(at)
-        ca, cb, slanted, inverse = second(at)
-        f = Fs * inverse
-        B = 2.0 * f * at.z * ca
+        z, ca, cb, there, q = second(at)
+        f = Fs / q
+        # Factors that may be tiny come last: no digit is lost to an underflow before them.
+        parted = 2.0 * f * (at.s * at.s) * at.c
+        B, S = parted * at.a * at.n1, parted * at.b * at.n1
         # The difference is the better one unless it cancels, and exact in total reflection.
-        apart = at.z - ca
-        Fp = where(4.0 * B < Fs, Fs - 2.0 * B, f * (apart * apart + cb * cb))
+        Fp = where(4.0 * B < Fs, Fs - 2.0 * B, f * ((z - ca) * (z - ca) + cb * cb))
         root = at.c * at.modulus
-        # z + p g vanishes, or its square underflows, at normal and at grazing incidence only.
-        limit = where(at.c < at.z, Fs, -Fs)
-        C = where(slanted, f * (at.z - root) * (at.z + root), limit)
-        S = 2.0 * f * at.z * cb
+        C = where(there, f * (z - root) * (z + root), where(at.c < z, Fs, -Fs))
         return Fs, Fp, B, C, S
 
     return reflected
@@ -118,11 +132,11 @@ def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
     first, second = _first(xp), _second(xp)
 
     def transmitted(at: Boundary) -> tuple[Any, ...]:
-        """Return (Ts, Tp, B), z + p g, |g|^2 + z, and n1^2 / |z + p g|^2."""
+        """Return (Ts, Tp, B), (z + p g) / n1, |g|^2 + z, and |z + p g|^2 / n1^2."""
         Fs, Ts = first(at)
-        ca, cb, _, inverse = second(at)
-        behind = at.modulus * at.modulus + at.n1 * at.z
-        B = -2.0 * Fs * at.z * ca * inverse
-        return (Ts, Ts * behind * inverse, B), (at.z + ca, cb), behind, inverse
+        z, ca, cb, _, q = second(at)
+        behind = at.modulus * at.modulus + at.n1 * z
+        B = -2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
+        return (Ts, Ts * behind / q, B), (z + ca, cb), behind, q
 
     return transmitted
