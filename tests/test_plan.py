@@ -86,7 +86,7 @@ def test_a_plan_is_composed_once_and_run_with_other_values():
 def test_equal_values_are_evaluated_once():
     path = op.load_preset("fresnel-rhomb")
     kernels = [e.kernel.name for e in path.compose().program.evaluations]
-    assert kernels.count("Fresnel reflection (stable)") == 1
+    assert kernels.count("Fresnel reflection (stable, lossless)") == 1
     assert len(path.compose().program.steps) > len(kernels)
 
 
@@ -139,8 +139,10 @@ def test_values_that_cannot_be_are_refused_all_at_once(values, messages):
 
 
 def test_light_that_is_not_finite_is_refused():
-    with pytest.raises(op.ParameterError, match="not finite in float64"):
-        NPGR026.trace(n1=1e200)
+    plan = op.Composer(method="textbook").compose(NPGR026)
+    with pytest.raises(op.ParameterError, match="not finite in float64 by method 'textbook'"):
+        plan.run(n1=1e200)
+    assert NPGR026.trace(n1=1e200).intensity > 0.0
 
 
 def test_a_parameter_may_have_any_name():

@@ -13,6 +13,7 @@ ROOMS = [
     "frozen",
     "shapes",
     "units",
+    "precision",
     "kernels",
     "frames",
     "light",
@@ -26,6 +27,7 @@ ROOMS = [
     "elements",
     "program",
     "engines",
+    "execution",
     "explanation",
     "plan",
     "composer",
@@ -37,6 +39,7 @@ ROOMS = [
     "preset_reader",
     "presets",
     "drawing",
+    "accuracy",
     "cli",
 ]
 

@@ -45,7 +45,7 @@ from optipath.errors import (
     ValueFault,
 )
 from optipath.frames import Frame
-from optipath.fresnel import fresnel_reflection
+from optipath.fresnel import fresnel_reflection, fresnel_transmission
 from optipath.light import Light
 from optipath.materials import Material
 from optipath.mueller import Mueller
@@ -96,6 +96,7 @@ __all__ = [
     "UnitError",
     "ValueFault",
     "fresnel_reflection",
+    "fresnel_transmission",
     "load_preset",
     "preset_names",
 ]

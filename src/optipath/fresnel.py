@@ -1,18 +1,21 @@
-"""Fresnel reflection by itself, for those who need no path."""
+"""Fresnel reflection and transmission by themselves, for those who need no path."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.domains import Domain, IndexDomain
 from optipath.errors import ValueFault
-from optipath.kernels import BLOCK, NUMPY, REFLECTION
+from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION
+from optipath.precision import precision
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+    from optipath.kernels import KernelFamily
 
 _INDEX = IndexDomain("index of refraction")
 _COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
@@ -23,7 +26,8 @@ def fresnel_reflection(
     cos_incidence: npt.ArrayLike,
     sin_incidence: npt.ArrayLike,
     method: str = "stable",
-) -> tuple[npt.NDArray[np.float64], ...]:
+    dtype: str = "float64",
+) -> tuple[npt.NDArray[Any], ...]:
     """Return (A, B, C, S) of the Mueller matrix of a reflection.
 
     The matrix is ``[[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]`` in
@@ -36,8 +40,10 @@ def fresnel_reflection(
     cos_incidence, sin_incidence : array_like
         Of the angle of incidence. Both are taken, so that grazing and normal
         incidence keep their digits. They broadcast with the index.
-    method : {"stable", "textbook"}, optional
+    method : {"stable", "compensated", "amplitude", "textbook"}, optional
         How Fresnel's equations are computed.
+    dtype : {"float64", "float32", "longdouble"}, optional
+        The precision of the computation and of the result.
 
     Returns
     -------
@@ -51,22 +57,73 @@ def fresnel_reflection(
     ShapeError
         If the values do not broadcast.
     ComposerError
-        If there is no such method.
+        If there is no such method or precision.
 
     Examples
     --------
     >>> A, B, C, S = fresnel_reflection(1.5, 1.0, 0.0)
-    >>> float(A), float(B), float(S)
+    >>> float(A.round(12)), float(B), float(S)
     (0.04, 0.0, 0.0)
     """
+    return _fresnel(REFLECTION, index, cos_incidence, sin_incidence, method, dtype)
+
+
+def fresnel_transmission(
+    index: npt.ArrayLike,
+    cos_incidence: npt.ArrayLike,
+    sin_incidence: npt.ArrayLike,
+    method: str = "stable",
+    dtype: str = "float64",
+) -> tuple[npt.NDArray[Any], ...]:
+    """Return (A, B, C, S) of the Mueller matrix of the power that a boundary lets through.
+
+    The matrix has the form that `fresnel_reflection` gives; ``A + B`` and ``A - B`` are
+    1 less what is reflected, ``C = sqrt((A + B)(A - B))`` and ``S = 0``, and all four are 0
+    in total reflection. Behind the boundary of a medium that absorbs, C and S have the
+    phase between t_s and t_p of the field just there.
+
+    Parameters
+    ----------
+    index, cos_incidence, sin_incidence, method, dtype
+        As for `fresnel_reflection`.
+
+    Returns
+    -------
+    tuple of four ndarray
+        Of the broadcast shape.
+
+    Raises
+    ------
+    ValueFault, ShapeError, ComposerError
+        As `fresnel_reflection` does.
+
+    Examples
+    --------
+    >>> A, B, C, S = fresnel_transmission(1.5, 1.0, 0.0)
+    >>> float(A), float(B), float(C), float(S)
+    (0.96, 0.0, 0.96, 0.0)
+    """
+    return _fresnel(TRANSMISSION, index, cos_incidence, sin_incidence, method, dtype)
+
+
+def _fresnel(
+    family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: str
+) -> tuple[npt.NDArray[Any], ...]:
+    kernel, kind = family.by_method(method), precision(dtype)
     m = _INDEX.check("index", index)
-    c = _COSINE.check("cos_incidence", cos_incidence)
-    s = _COSINE.check("sin_incidence", sin_incidence)
+    c = _COSINE.check("cos_incidence", cos)
+    s = _COSINE.check("sin_incidence", sin)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
     shape = check_broadcast(shapes)
     if np.any(np.abs(np.hypot(c, s) - 1.0) > 1e-6):
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
-    reflect = REFLECTION.by_method(method).made_for(NUMPY)
-    numbers = reflect(1.0, m.real, m.imag + 0.0, c, s)
-    (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
-    return tuple(np.broadcast_to(number, shape).copy() for number in (A, B, C, S))
+    given = (np.ones(()), m.real, m.imag, c, s)
+    with np.errstate(all="ignore"):
+        kernel, left = kernel.leaving_out([np.asarray(x, kind) for x in given], _vanishes)
+        numbers = kernel.made_for(NUMPY)(*left)
+        (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
+    return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))
+
+
+def _vanishes(number: npt.NDArray[Any]) -> bool:
+    return not np.any(number)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import FrameError
+from optipath.errors import FrameError, ShapeError
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import turn_linear
@@ -29,39 +29,68 @@ class Light:
         a detector does not read is NaN.
     frame : Frame, optional
         The frame the components refer to; the unit frame by default.
+    exponent : int or array_like of int, shape (...), optional
+        Light too faint for a float is given as ``stokes`` times two to this power. The
+        attribute `stokes` is 0 then, but `normalized`, `dop` and `log10_intensity`
+        are right all the same, and `mantissa` keeps what was given.
 
     Raises
     ------
     ShapeError
-        If the last axis has not four elements.
+        If the last axis has not four elements, or the exponent is no integer.
 
     Examples
     --------
     >>> light = Light([1.0, 1.0, 0.0, 0.0])
     >>> light.in_frame(Frame().turned(np.pi / 4)).stokes.round(12)
     array([ 1.,  0., -1.,  0.])
+    >>> faint = Light([1.0, 0.6, 0.0, 0.8], exponent=-332193)
+    >>> print(faint.intensity, faint.log10_intensity.round(), faint.normalized)
+    0.0 -100000.0 [1.  0.6 0.  0.8]
     """
 
     stokes: Any
     frame: Frame = field(default_factory=Frame)
+    exponent: Any = 0
+    mantissa: Any = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         if not isinstance(self.frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {self.frame!r}")
-        stokes = real_array("a Stokes vector", self.stokes, (4,))
+        mantissa = real_array("a Stokes vector", self.stokes, (4,))
+        exponent = np.asarray(self.exponent)
+        if exponent.dtype.kind not in "iu":
+            raise ShapeError(f"the exponent of a light must be an integer, not {self.exponent!r}")
+        check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
+        # Under- and overflow are what the exponent is kept for.
+        with np.errstate(under="ignore", over="ignore"):
+            stokes = np.ldexp(mantissa, exponent[..., np.newaxis]) if exponent.any() else mantissa
+        object.__setattr__(self, "mantissa", mantissa)
         object.__setattr__(self, "stokes", stokes)
+        object.__setattr__(self, "exponent", exponent)
 
     @property
-    def intensity(self) -> npt.NDArray[np.float64]:
+    def intensity(self) -> npt.NDArray[Any]:
         """S0, of shape (...)."""
         return np.asarray(self.stokes[..., 0])
 
     @property
-    def dop(self) -> npt.NDArray[np.float64]:
-        """The degree of polarisation, of shape (...); 0 where there is no light."""
-        polarised = np.linalg.norm(self.stokes[..., 1:], axis=-1)
-        dark = self.intensity == 0.0
-        return np.asarray(np.where(dark, 0.0, polarised / np.where(dark, 1.0, self.intensity)))
+    def log10_intensity(self) -> npt.NDArray[Any]:
+        """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.log10(self.mantissa[..., 0]) + self.exponent * np.log10(2.0))
+
+    @property
+    def normalized(self) -> npt.NDArray[Any]:
+        """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
+        dark = self.mantissa[..., 0] == 0.0
+        lit = np.where(dark, 1.0, self.mantissa[..., 0])[..., np.newaxis]
+        return np.where(dark[..., np.newaxis], 0.0, self.mantissa / lit)
+
+    @property
+    def dop(self) -> npt.NDArray[Any]:
+        """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
+        return np.asarray(np.linalg.norm(self.normalized[..., 1:], axis=-1))
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.
@@ -73,20 +102,33 @@ class Light:
         """
         if isinstance(frame, Frame):
             check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
-        s0, s1, s2, s3 = np.moveaxis(self.stokes, -1, 0)
+        s0, s1, s2, s3 = np.moveaxis(self.mantissa, -1, 0)
         parts = (s0, *turn_linear(self.frame.turn_to(frame), s1, s2), s3)
-        return Light(np.stack(np.broadcast_arrays(*parts), axis=-1), frame)
+        return Light(np.stack(np.broadcast_arrays(*parts), axis=-1), frame, self.exponent)
 
     def __add__(self, other: object) -> Light:
         if not isinstance(other, Light):
             return NotImplemented
         shapes = {"light": self.stokes.shape[:-1], "other light": other.stokes.shape[:-1]}
         check_broadcast(shapes)
-        return Light(self.stokes + other.in_frame(self.frame).stokes, self.frame)
+        aligned = other.in_frame(self.frame)
+        # Dark light has no exponent of its own.
+        mine = np.where(self.mantissa[..., 0] == 0.0, aligned.exponent, self.exponent)
+        theirs = np.where(aligned.mantissa[..., 0] == 0.0, self.exponent, aligned.exponent)
+        power = np.maximum(mine, theirs)
+        return Light(self._over(power) + aligned._over(power), self.frame, power)
+
+    def _over(self, power: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        shift: npt.NDArray[Any] = self.exponent - power
+        return np.asarray(np.ldexp(self.mantissa, shift[..., np.newaxis]))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):
             return NotImplemented
-        return same(self.stokes, other.stokes) and self.frame == other.frame
+        return (
+            same(self.mantissa, other.mantissa)
+            and same(self.exponent, other.exponent)
+            and self.frame == other.frame
+        )
 
     __hash__ = None  # type: ignore[assignment]

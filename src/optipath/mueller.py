@@ -63,8 +63,9 @@ class Mueller:
         batch = self.matrix.shape[:-2]
         if isinstance(other, Light):
             check_broadcast({"matrix": batch, "light": other.stokes.shape[:-1]})
-            stokes = other.in_frame(self.frame_in).stokes
-            return Light((self.matrix @ stokes[..., np.newaxis])[..., 0], self.frame_out)
+            stokes = other.in_frame(self.frame_in).mantissa
+            product = (self.matrix @ stokes[..., np.newaxis])[..., 0]
+            return Light(product, self.frame_out, other.exponent)
         if isinstance(other, Mueller):
             check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
             turn = _turn_matrix(other.frame_out, self.frame_in)

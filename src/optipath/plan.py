@@ -5,19 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from optipath.engines import numpy_engine
 from optipath.errors import ParameterError, did_you_mean
+from optipath.execution import Execution
 from optipath.explanation import explanation
 from optipath.light import Light
 from optipath.mueller import Mueller
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
     from optipath.inputs import Inputs
-    from optipath.program import Program, Reading
+    from optipath.program import Program
 
 
 @dataclass(frozen=True)
@@ -34,9 +30,9 @@ class Plan:
         Ports whose light leaves the path unread.
     copied : tuple of str
         Ports whose light goes to several links, whole to each.
-    method, model, engine, dtype : str
+    method, model, engine, composing, dtype : str
         How Fresnel's equations are computed, what is carried along, what runs the
-        steps, and in which precision.
+        steps, whether as Stokes or as Jones vectors, and in which precision.
     """
 
     program: Program
@@ -46,6 +42,7 @@ class Plan:
     method: str
     model: str
     engine: str
+    composing: str
     dtype: str
 
     def run(self, /, **parameters: Any) -> Light:
@@ -78,11 +75,9 @@ class Plan:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        given, batch = self.inputs.resolve(parameters)
-        leaves = self._leaves(given)
-        lights = numpy_engine.run(self.program, leaves)
+        lights = self._execution(parameters).lights()
         return {
-            name: Light(self._stacked(lights[reading.light], batch, reading), reading.frame)
+            name: Light(lights[name].stokes, reading.frame, lights[name].exponent)
             for name, reading in self.program.readings.items()
         }
 
@@ -107,12 +102,9 @@ class Plan:
         begin = self._only("source", tuple(program.sources), "mueller(source, detector)", source)
         ends = tuple(program.readings if detector else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
-        given, batch = self.inputs.resolve(parameters)
-        lights = numpy_engine.run(program, self._leaves(given), columns_from=begin)
         reading = program.readings[end]
-        columns = self._stacked(lights[reading.light], (4, *batch), reading)
-        matrix = np.moveaxis(columns, 0, -1)
-        return Mueller(np.ascontiguousarray(matrix), program.sources[begin][1], reading.frame)
+        matrix = self._execution(parameters).matrix(begin, reading)
+        return Mueller(matrix, program.sources[begin][1], reading.frame)
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.
@@ -121,30 +113,20 @@ class Plan:
         --------
         >>> import optipath as op
         >>> print(op.Composer().compose(op.load_preset("malus")).explain().splitlines()[0])
-        1 source, 1 detector, 5 steps; method stable, model full, engine numpy, float64
+        1 source, 1 detector, 5 steps; method stable, model full, engine numpy, composing stokes, float64
         """
-        manner = f"method {self.method}, model {self.model}, engine {self.engine}, {self.dtype}"
+        manner = (
+            f"method {self.method}, model {self.model}, engine {self.engine}, "
+            f"composing {self.composing}, {self.dtype}"
+        )
         notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
         notes += [f"{port} feeds several links: each takes all its light" for port in self.copied]
         return explanation(self.program, self.inputs, manner, tuple(notes))
 
-    def _leaves(self, given: Any) -> list[npt.NDArray[Any]]:
-        dtype = np.dtype(self.dtype)
-        numbers = (view.numbers(given) for view in self.program.leaves)
-        return [n if n.dtype == bool else n.astype(dtype, copy=False) for n in numbers]
-
-    def _stacked(
-        self, components: Any, batch: tuple[int, ...], reading: Reading
-    ) -> npt.NDArray[Any]:
-        stokes = np.full((*batch, 4), np.nan, dtype=self.dtype)
-        for component in range(reading.components):
-            stokes[..., component] = components[component]
-        if not np.all(np.isfinite(stokes[..., : reading.components])):
-            raise ParameterError(
-                f"the light is not finite in {self.dtype}: a value is too extreme, such as an "
-                f"index of refraction of 1e77 or more; give values nearer to 1"
-            )
-        return stokes
+    def _execution(self, parameters: dict[str, Any]) -> Execution:
+        given, batch = self.inputs.resolve(parameters)
+        manner = {"composing": self.composing, "dtype": self.dtype, "method": self.method}
+        return Execution(self.program, given, batch, **manner)
 
     @staticmethod
     def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:

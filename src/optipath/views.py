@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 
 _COS, _SIN = cosine(NUMPY), sine(NUMPY)
+_DOUBLE = np.dtype(np.float64)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -42,14 +43,19 @@ class View:
         """Whether the value is known before the plan runs."""
         return not isinstance(self.value, Parameter) or self.value.bound
 
-    def numbers(self, given: Mapping[str, Resolved]) -> np.ndarray[Any, Any]:
-        """Return this part of the value, parameters being given."""
+    def numbers(
+        self, given: Mapping[str, Resolved], kind: np.dtype[Any] = _DOUBLE
+    ) -> np.ndarray[Any, Any]:
+        """Return this part of the value, parameters being given.
+
+        Cosines and sines are computed in the precision of `kind`.
+        """
         if not isinstance(self.value, Parameter):
-            return self._part_of(np.asarray(self.value))
+            return self._part_of(np.asarray(self.value), kind)
         if self.part == "present":
             return self.present(given)
         resolved = self._resolved(given).value
-        return self._part_of(-resolved if self.value.negative else resolved)
+        return self._part_of(-resolved if self.value.negative else resolved, kind)
 
     def present(self, given: Mapping[str, Resolved] | None = None) -> np.ndarray[Any, Any]:
         """Return where an optional parameter is there."""
@@ -67,7 +73,7 @@ class View:
         parameter: Parameter = self.value
         return parameter.resolve(parameter.default) if parameter.bound else given[parameter.name]
 
-    def _part_of(self, numbers: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    def _part_of(self, numbers: np.ndarray[Any, Any], kind: np.dtype[Any]) -> np.ndarray[Any, Any]:
         match self.part:
             case "real":
                 return np.real(numbers)
@@ -75,9 +81,9 @@ class View:
                 # Adding 0 turns -0 into 0: an index without absorption has one sign only.
                 return np.asarray(np.imag(numbers) + 0.0)
             case "cos":
-                return np.asarray(_COS(numbers))
+                return np.asarray(_COS(numbers.astype(kind)))
             case "sin":
-                return np.asarray(_SIN(numbers))
+                return np.asarray(_SIN(numbers.astype(kind)))
             case int(position):
                 flat = numbers.reshape(*numbers.shape[: -len(self.tail)], -1)
                 return np.asarray(flat[..., position])

@@ -7,19 +7,20 @@ from typing import Any, Protocol
 
 import networkx as nx
 
-from optipath.composer.lower import lower
+from optipath.composer.lower import lower, refuse_depolarizers
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import Wiring
 from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
 from optipath.plan import Plan
+from optipath.precision import precision
 
 _CHOICES = {
     "method": METHODS,
     "model": ("auto", "full"),
     "engine": ("auto", "numpy"),
-    "dtype": ("float64", "float32"),
+    "composing": ("stokes", "jones"),
 }
 
 
@@ -37,14 +38,18 @@ class Composer:
 
     Parameters
     ----------
-    method : {"stable", "textbook"}, optional
+    method : {"stable", "compensated", "amplitude", "textbook"}, optional
         How Fresnel's equations are computed.
     model : {"auto", "full"}, optional
         What is carried along: all four Stokes components.
     engine : {"auto", "numpy"}, optional
         What runs the steps.
-    dtype : {"float64", "float32"}, optional
-        The precision.
+    dtype : {"float64", "float32", "longdouble"}, optional
+        The precision; longdouble where the platform has it.
+    composing : {"stokes", "jones"}, optional
+        How light is carried along a path: as a Stokes vector, or as two Jones columns,
+        which no element may depolarise and whose light is never polarised by more than
+        100 %, however long the path.
     tolerance : None, optional
         Kept for approximations; only exact plans are made in this version.
 
@@ -65,6 +70,7 @@ class Composer:
     model: str = "auto"
     engine: str = "auto"
     dtype: str = "float64"
+    composing: str = "stokes"
     tolerance: None = None
 
     def __post_init__(self) -> None:
@@ -73,6 +79,10 @@ class Composer:
             value = getattr(self, option)
             if value not in choices:
                 faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
+        try:
+            precision(self.dtype)
+        except ComposerError as fault:
+            faults += fault.faults
         if self.tolerance is not None:
             faults.append("tolerance is not available in this version; leave it None")
         if faults:
@@ -90,19 +100,25 @@ class Composer:
         ------
         PathError
             With every fault of the path.
+        ComposerError
+            If an element may depolarise, and Jones columns are composed.
         """
         graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {path!r}")
         values, wiring = Values(graph), Wiring(graph)
         refuse_faults(values, wiring)
+        program = lower(wiring, self.method)
+        if self.composing == "jones":
+            refuse_depolarizers(program)
         return Plan(
-            program=lower(wiring, self.method),
+            program=program,
             inputs=values.inputs(),
             outlets=wiring.outlets,
             copied=wiring.copied,
             method=self.method,
             model="full",
             engine="numpy",
+            composing=self.composing,
             dtype=self.dtype,
         )

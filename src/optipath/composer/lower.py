@@ -10,6 +10,7 @@ import numpy as np
 from optipath.composer.placement import alignment, frame_at
 from optipath.composer.wiring import link_text
 from optipath.elements import Detector
+from optipath.errors import ComposerError
 from optipath.frames import Frame
 from optipath.parameters import Parameter
 from optipath.program import Evaluation, Program, Reading, Step
@@ -33,6 +34,28 @@ def lower(wiring: Wiring, method: str) -> Program:
     for port in nx.lexicographical_topological_sort(wiring.wanted):
         builder.add_port(port)
     return builder.program()
+
+
+def refuse_depolarizers(program: Program) -> None:
+    """Refuse elements that Jones columns cannot pass.
+
+    Raises
+    ------
+    ComposerError
+        Naming each of them.
+    """
+    faults = []
+    for step in program.steps:
+        if step.evaluation is None:
+            continue
+        structure = program.evaluations[step.evaluation].kernel.structure
+        if structure is not None and structure.jones is None:
+            faults.append(
+                f"'{step.label}' has a whole Mueller matrix, which may depolarise, and so no "
+                f"Jones matrix; compose with composing='stokes'"
+            )
+    if faults:
+        raise ComposerError(*faults)
 
 
 class _Builder:
@@ -115,9 +138,11 @@ class _Builder:
     def _step(
         self, label: str, inputs: tuple[int, ...], operation: Operation, presence: View | None
     ) -> int:
-        arguments = tuple(self._leaf(view_of(argument)) for argument in operation.arguments)
+        views = [view_of(argument) for argument in operation.arguments]
+        kernel, views = operation.kernel.by_method(self.method).leaving_out(views, _vanishes)
+        arguments = tuple(self._leaf(view) for view in views)
         there = None if presence is None else self._leaf(presence)
-        evaluation = Evaluation(operation.kernel.by_method(self.method), arguments, there)
+        evaluation = Evaluation(kernel, arguments, there)
         index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
         if index == len(self.evaluations):
             self.evaluations.append(evaluation)
@@ -146,6 +171,10 @@ class _Builder:
             for start, _, (leaves, _) in self.wiring.links_to[name, port]
         ]
         return next((frame for frame in arriving if frame is not None), Frame())
+
+
+def _vanishes(view: View) -> bool:
+    return view.known and not np.any(view.numbers({}))
 
 
 def _presence(operations: tuple[Operation, ...]) -> View | None:

@@ -4,6 +4,8 @@ Every kernel is a factory over `Primitives`; the names below bind the factories
 to the structure of what they return.
 """
 
+from typing import TypeAlias
+
 from optipath.kernels import emission, filters, rotation
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
 from optipath.kernels.carried import Carried, add, carry, stokes_of
@@ -14,8 +16,11 @@ from optipath.kernels.compensated import (
     compensated_reflection,
     compensated_transmission,
 )
+from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
+from optipath.kernels.plain import Plain
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
+from optipath.kernels.scaled import Scaled
 from optipath.kernels.stable import (
     lossless_reflection,
     lossless_transmission,
@@ -50,6 +55,8 @@ TRANSMISSION = _fresnel(
     amplitude=(amplitude_transmission, None),
     textbook=(textbook_transmission, None),
 )
+Way: TypeAlias = Plain | Scaled | Jones
+
 METHODS = tuple(REFLECTION.methods)
 
 TURN = Kernel("turn", ROTATION, rotation.turn)
@@ -90,10 +97,14 @@ __all__ = [
     "TURN_BACK",
     "UNPOLARIZED",
     "Carried",
+    "Jones",
     "Kernel",
     "KernelFamily",
+    "Plain",
     "Primitives",
+    "Scaled",
     "Structure",
+    "Way",
     "add",
     "carry",
     "cosine",

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 Carried: TypeAlias = tuple[Any, Any, Any, Any]
 
+_SEVERAL = 64.0
+"""How many roundings light may have gathered before they are taken back."""
+
 
 def carry(xp: Primitives, stokes: tuple[Any, ...]) -> Carried:
     """Return Stokes components as they are carried.
@@ -31,7 +34,7 @@ def carry(xp: Primitives, stokes: tuple[Any, ...]) -> Carried:
 
 
 def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
-    """Return an intensity, 0 where it is negative by no more than the rounding of a size.
+    """Return an intensity, 0 where it is negative by no more than the roundings of a size.
 
     Matrices of one's own may make light that cannot be; its negative intensities stay.
 
@@ -41,8 +44,29 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
     >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
     (0.0, -0.1)
     """
-    several = 16.0 * size
-    return xp.where((weak < 0.0) & (several + weak == several), 0.0, weak)
+    return xp.where((weak < 0.0) & xp.hidden(_SEVERAL * size, weak), 0.0, weak)
+
+
+def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
+    """Return light whose S1, S2, S3 are shortened where roundings made them longer than S0.
+
+    Matrices of one's own may make light that cannot be; it stays as it is.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))
+    (2.5000000000000003e-17, 1.0, 1e-08, 0.0)
+    """
+    weak, s1, s2, s3 = carried
+    size = xp.absolute(s1)
+    s0 = 2.0 * weak + size
+    # |S|^2 - S0^2, where S0 = 2 weak + |S1|.
+    excess = s2 * s2 + s3 * s3 - 4.0 * weak * (weak + size)
+    square = s0 * s0
+    rounding = (excess > 0.0) & xp.hidden(_SEVERAL * square, excess)
+    gap = xp.where(rounding, 0.5 * excess / xp.where(square > 0.0, square, 1.0), 0.0)
+    return weak + 0.5 * size * gap, s1 - s1 * gap, s2 - s2 * gap, s3 - s3 * gap
 
 
 def stokes_of(xp: Primitives, carried: Carried) -> tuple[Any, Any, Any, Any]:

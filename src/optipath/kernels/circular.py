@@ -47,12 +47,12 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
 
 
 def _without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    where, absolute, fixed = xp.where, xp.absolute, xp.fixed
+    where, absolute, hidden, fixed = xp.where, xp.absolute, xp.hidden, xp.fixed
 
     def rounded(angle: Any) -> Any:
         value = function(angle)
         # The value is taken away from itself, not replaced, so that its slope stays.
-        lost = (angle + value == angle) & (absolute(value) < _SMALL)
+        lost = hidden(angle, value) & (absolute(value) < _SMALL)
         return value - where(lost, fixed(value), 0.0)
 
     return rounded

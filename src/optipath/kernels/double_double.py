@@ -113,7 +113,7 @@ def twice(xp: Primitives) -> Primitives:
         frexp=lambda number: (number, xp.frexp(number.high)[1]),
         ldexp=ldexp,
         fixed=lambda number: number,
-        **{name: partial(_missing, name) for name in ("sin", "cos", "exp", "atan2", "two_product")},
+        **{name: partial(_missing, name) for name in ("sin", "cos", "exp", "atan2", "two_product", "hidden")},
     )
 
 

@@ -26,7 +26,8 @@ class Primitives:
     ``where`` may evaluate both of its branches, so kernels keep both free of
     division by zero and of roots of negative numbers. ``fixed`` is a value without its
     slope, where an engine takes gradients, and the value itself elsewhere.
-    ``two_product`` gives a product and what its rounding has lost.
+    ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
+    a number is no more than the rounding of a larger one, in double precision at most.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -41,6 +42,7 @@ class Primitives:
     frexp: Callable[[Any], tuple[Any, Any]]
     ldexp: Callable[[Any, Any], Any]
     two_product: Callable[[Any, Any], tuple[Any, Any]]
+    hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
 
 
@@ -52,6 +54,17 @@ def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
 
 def _itself(value: Any) -> Any:
     return value
+
+
+def _is_hidden(larger: Any, number: Any) -> Any:
+    return larger + number == larger
+
+
+def _hidden_in_arrays(larger: Any, number: Any) -> Any:
+    if np.result_type(larger) == np.longdouble:
+        # Angles come as doubles, whatever they are computed with.
+        return _is_hidden(larger.astype(np.float64), number.astype(np.float64))
+    return _is_hidden(larger, number)
 
 
 def _two_product(a: Any, b: Any) -> tuple[Any, Any]:
@@ -97,6 +110,7 @@ NUMPY = Primitives(
     frexp=np.frexp,
     ldexp=np.ldexp,
     two_product=_two_product,
+    hidden=_hidden_in_arrays,
     fixed=_itself,
 )
 
@@ -113,5 +127,6 @@ FLOAT = Primitives(
     frexp=math.frexp,
     ldexp=math.ldexp,
     two_product=_fused_two_product if hasattr(math, "fma") else _two_product,
+    hidden=_is_hidden,
     fixed=_itself,
 )

@@ -136,7 +136,7 @@ def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
         Fs, Ts = first(at)
         z, ca, cb, _, q = second(at)
         behind = at.modulus * at.modulus + at.n1 * z
-        B = -2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
+        B = 0.0 - 2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
         return (Ts, Ts * behind / q, B), (z + ca, cb), behind, q
 
     return transmitted

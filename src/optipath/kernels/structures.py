@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.carried import Carried, along_axes, carry, not_below_rounding, stokes_of
+from optipath.kernels.jones_actions import Columns, block_jones, rotation_jones, scale_jones
 from optipath.kernels.primitives import made
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 
 Numbers: TypeAlias = Sequence[Any]
 Action: TypeAlias = Callable[[Numbers, Carried], Carried]
+JonesAction: TypeAlias = Callable[[Numbers, Columns], Columns]
 Row: TypeAlias = tuple[Any, Any, Any, Any]
 
 
@@ -35,16 +37,26 @@ class Structure:
         ``action(primitives)`` makes ``act(numbers, carried) -> carried``.
     rows : callable
         ``rows(primitives, numbers)`` gives the four rows of the matrix.
+    jones : callable, optional
+        ``jones(primitives)`` makes ``act(numbers, columns) -> columns`` for two Jones
+        columns; None for a shape that may depolarise.
     """
 
     name: str
     identity: tuple[float, ...]
     action: Callable[[Primitives], Action]
     rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
+    jones: Callable[[Primitives], JonesAction] | None = None
 
     def made_for(self, primitives: Primitives) -> Action:
         """Return the action in terms of these primitives, made once and kept."""
         action: Action = made(self.action, primitives)
+        return action
+
+    def jones_for(self, primitives: Primitives) -> JonesAction:
+        """Return the action on Jones columns, made once and kept."""
+        assert self.jones is not None  # noqa: S101 - the composer refuses what may depolarise
+        action: JonesAction = made(self.jones, primitives)
         return action
 
 
@@ -133,13 +145,13 @@ def _full_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     return m[0:4], m[4:8], m[8:12], m[12:16]
 
 
-SCALE = Structure("scale", (1.0,), _scale, _scale_rows)
+SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_jones)
 """One number t: t times the unit matrix."""
 
-ROTATION = Structure("rotation", (1.0, 0.0), _rotation, _rotation_rows)
+ROTATION = Structure("rotation", (1.0, 0.0), _rotation, _rotation_rows, rotation_jones)
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
-BLOCK = Structure("retarding diattenuator", (1.0, 1.0, 0.0, 1.0, 0.0), _block, _block_rows)
+BLOCK = Structure("retarding diattenuator", (1.0, 1.0, 0.0, 1.0, 0.0), _block, _block_rows, block_jones)
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
 
 Fs = A + B and Fp = A - B act along x and y; each of the three keeps digits that the

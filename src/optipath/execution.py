@@ -1,0 +1,146 @@
+"""Execution: a program run by an engine, in the way of carrying light that it needs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.engines import numpy_engine
+from optipath.errors import ParameterError
+from optipath.kernels import NUMPY, Jones, Plain, Scaled, carry
+from optipath.precision import wide
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+    from optipath.kernels import Carried, Way
+    from optipath.parameters import Resolved
+    from optipath.program import Program, Reading
+
+_LONG = 16
+_PLAIN, _SCALED, _JONES = Plain(NUMPY), Scaled(NUMPY), Jones(NUMPY)
+
+# Fully polarised and unpolarised lights of which every Stokes vector is a difference.
+_STATES = np.array([[1.0, 0, 0, 0], [1, 1, 0, 0], [1, 0, 1, 0], [1, 0, 0, 1]])
+
+
+class Found(NamedTuple):
+    """The light at an end: its Stokes vectors, times two to the power of an exponent."""
+
+    stokes: npt.NDArray[Any]
+    exponent: npt.NDArray[Any]
+
+
+class Execution:
+    """One run of a program.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    given : mapping of str to Resolved
+        The values of the open parameters.
+    batch : tuple of int
+        The shape that they broadcast to.
+    composing, dtype, method : str
+        How light is carried, in which precision, and how Fresnel's equations are
+        computed (for what is said when a number is not finite).
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        given: Mapping[str, Resolved],
+        batch: tuple[int, ...],
+        *,
+        composing: str,
+        dtype: str,
+        method: str,
+    ) -> None:
+        self.program = program
+        self.batch = batch
+        self.composing = composing
+        self.dtype = np.dtype(dtype)
+        self.method = method
+        numbers = (view.numbers(given, wide(self.dtype)) for view in program.leaves)
+        self._leaves = [n if n.dtype == bool else n.astype(self.dtype, copy=False) for n in numbers]
+
+    def lights(self) -> dict[str, Found]:
+        """Return the light at every detector and dump.
+
+        Raises
+        ------
+        ParameterError
+            If it is not finite.
+        """
+        way = self._way()
+        found = self._run(way)
+        if way is _PLAIN and any(np.any(self._faint(f.stokes[..., 0])) for f in found.values()):
+            found = self._run(_SCALED)
+        return {name: self._unscaled(light) for name, light in found.items()}
+
+    def matrix(self, source: str, reading: Reading) -> npt.NDArray[Any]:
+        """Return the Mueller matrix from a source to a reading.
+
+        Raises
+        ------
+        ParameterError
+            If it is not finite.
+        """
+        way = self._way()
+        # Jones columns carry only light that can be; its differences are the columns then.
+        states = _STATES if way is _JONES else np.eye(4)
+        dimensions = max((leaf.ndim for leaf in self._leaves), default=0)
+        columns = states.astype(self.dtype).reshape(4, 4, *[1] * dimensions)
+        dark = carry(NUMPY, (self.dtype.type(0.0),) * 4)
+        emitted: dict[int, Carried] = {step: dark for step, _ in self.program.sources.values()}
+        begin, _ = self.program.sources[source]
+        emitted[begin] = carry(NUMPY, tuple(columns[:, component] for component in range(4)))
+        components, exponent = numpy_engine.run(self.program, self._leaves, way, emitted)[
+            reading.light
+        ]
+        found = self._stacked(components, exponent, (4, *self.batch), reading)
+        matrix = np.moveaxis(np.ldexp(found.stokes, found.exponent[..., np.newaxis]), 0, -1)
+        if way is _JONES:
+            matrix[..., 1:] -= matrix[..., :1]
+        return np.ascontiguousarray(matrix)
+
+    def _way(self) -> Way:
+        if self.composing == "jones":
+            return _JONES
+        return _SCALED if len(self.program.steps) > _LONG else _PLAIN
+
+    def _run(self, way: Way) -> dict[str, Found]:
+        lights = numpy_engine.run(self.program, self._leaves, way)
+        return {
+            name: self._stacked(*lights[reading.light], self.batch, reading)
+            for name, reading in self.program.readings.items()
+        }
+
+    def _stacked(
+        self, components: Any, exponent: Any, batch: tuple[int, ...], reading: Reading
+    ) -> Found:
+        stokes = np.full((*batch, 4), np.nan, dtype=self.dtype)
+        for component in range(reading.components):
+            stokes[..., component] = components[component]
+        if not np.all(np.isfinite(stokes[..., : reading.components])):
+            raise ParameterError(
+                f"the light is not finite in {self.dtype} by method '{self.method}': a value is "
+                f"too extreme; give values nearer to 1, or use method 'stable'"
+            )
+        return Found(stokes, np.broadcast_to(exponent, batch))
+
+    def _faint(self, intensity: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
+        # Below this, what underflows on the way may be seen in what is left.
+        least = np.finfo(self.dtype).tiny * 2.0**60
+        return np.asarray(intensity < least)
+
+    def _unscaled(self, light: Found) -> Found:
+        """Return a light with no exponent wherever floats can hold it."""
+        plain = np.ldexp(light.stokes, light.exponent[..., np.newaxis])
+        faint = self._faint(plain[..., 0]) & (light.stokes[..., 0] > 0.0)
+        stokes = np.where(faint[..., np.newaxis], light.stokes, plain)
+        return Found(stokes, np.where(faint, light.exponent, 0))

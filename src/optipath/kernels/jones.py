@@ -1,0 +1,95 @@
+"""Light carried as two Jones columns: two fully polarised lights that add incoherently.
+
+What comes out is never polarised by more than
+100 %, however long the path; but S1 is the difference of the intensities along x and y, and a
+matrix that depolarises has no place here.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from optipath.kernels.carried import Carried, along_axes, at_most_polarised
+from optipath.kernels.jones_actions import Column, Columns
+from optipath.kernels.scaled import Scaled
+
+if TYPE_CHECKING:
+    from optipath.kernels.primitives import Primitives
+    from optipath.kernels.structures import Numbers, Structure
+
+JonesState: TypeAlias = tuple[Columns, Any]
+"""The fields are the first times two to the power of the second."""
+
+
+class Jones:
+    """The way of two Jones columns, with an integer exponent.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT, SCALE
+    >>> way = Jones(FLOAT)
+    >>> carried, exponent = way.read(way.act(SCALE, (0.25,), way.emit((0.5, 0.0, 0.0, 1.0))))
+    >>> [round(x * 2.0**exponent, 12) for x in carried]
+    [0.125, 0.0, 0.0, 0.25]
+    """
+
+    def __init__(self, xp: Primitives) -> None:
+        self.xp = xp
+        self._incoherent = Scaled(xp)
+
+    def emit(self, carried: Carried) -> JonesState:
+        """Return the columns of a light: the Cholesky factor of its coherency matrix."""
+        return self._settled(_columns(self.xp, carried), 0)
+
+    def act(self, structure: Structure, numbers: Numbers, state: JonesState) -> JonesState:
+        """Return the state behind an element."""
+        columns, exponent = state
+        return self._settled(structure.jones_for(self.xp)(numbers, columns), exponent)
+
+    def add(self, first: JonesState, second: JonesState) -> JonesState:
+        """Return the state of two lights together, incoherently."""
+        carried, exponent = self._incoherent.add(self.read(first), self.read(second))
+        # Fields have half the exponent of intensities, which is made even.
+        odd = exponent % 2
+        carried = tuple(self.xp.ldexp(component, odd) for component in carried)
+        return self._settled(_columns(self.xp, carried), (exponent - odd) // 2)
+
+    def read(self, state: JonesState) -> tuple[Carried, Any]:
+        """Return the light, and the exponent of the power of two that it is to be taken times."""
+        columns, exponent = state
+        x, y, s2, s3 = (sum(parts) for parts in zip(*map(_pure, columns), strict=True))
+        carried = self.xp.minimum(x, y), x - y, s2, s3
+        return at_most_polarised(self.xp, carried), 2 * exponent
+
+    def _settled(self, columns: Columns, exponent: Any) -> JonesState:
+        xp = self.xp
+        size = reduce(xp.maximum, (xp.absolute(part) for column in columns for part in column))
+        _, shift = xp.frexp(size)
+        first, second = (tuple(xp.ldexp(part, -shift) for part in column) for column in columns)
+        return (first, second), exponent + shift  # type: ignore[return-value]
+
+
+def _pure(column: Column) -> tuple[Any, ...]:
+    """Return the intensities along x and y, and S2 and S3, of one column."""
+    a, b, c, d = column
+    return a * a + b * b, c * c + d * d, 2.0 * (a * c + b * d), 2.0 * (a * d - b * c)
+
+
+def _columns(xp: Primitives, carried: Carried) -> Columns:
+    sqrt, where = xp.sqrt, xp.where
+    x, y = along_axes(xp, carried)
+    _, _, s2, s3 = carried
+    re, im = 0.5 * s2, 0.5 * s3
+    along_x = x >= y
+    strong = sqrt(where(along_x, x, y))
+    divisor = where(strong > 0.0, strong, 1.0)
+    re, im = re / divisor, im / divisor
+    rest = sqrt(xp.maximum(where(along_x, y, x) - (re * re + im * im), 0.0))
+    first = (
+        where(along_x, strong, re),
+        where(along_x, 0.0, -im),
+        where(along_x, re, strong),
+        where(along_x, im, 0.0),
+    )
+    return first, (where(along_x, 0.0, rest), 0.0, where(along_x, rest, 0.0), 0.0)
