@@ -82,6 +82,6 @@ def _evaluate(evaluation: Evaluation, leaves: Sequence[np.ndarray[Any, Any]]) ->
     structure = evaluation.kernel.structure
     if evaluation.presence is None or structure is None:
         return numbers
-    present = leaves[evaluation.presence]
+    present, kind = leaves[evaluation.presence], leaves[evaluation.arguments[0]].dtype
     pairs = zip(numbers, structure.identity, strict=True)
-    return tuple(np.where(present, number, nothing) for number, nothing in pairs)
+    return tuple(np.where(present, number, nothing).astype(kind) for number, nothing in pairs)

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 Carried: TypeAlias = tuple[Any, Any, Any, Any]
 
-_SEVERAL = 64.0
-"""How many roundings light may have gathered before they are taken back."""
+_SEVERAL, _MANY = 64.0, 1024.0
+"""How many roundings a negative intensity, and a DoP above 1, may come from."""
 
 
 def carry(xp: Primitives, stokes: tuple[Any, ...]) -> Carried:
@@ -64,7 +64,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     # |S|^2 - S0^2, where S0 = 2 weak + |S1|.
     excess = s2 * s2 + s3 * s3 - 4.0 * weak * (weak + size)
     square = s0 * s0
-    rounding = (excess > 0.0) & xp.hidden(_SEVERAL * square, excess)
+    rounding = (excess > 0.0) & xp.hidden(_MANY * square, excess)
     gap = xp.where(rounding, 0.5 * excess / xp.where(square > 0.0, square, 1.0), 0.0)
     return weak + 0.5 * size * gap, s1 - s1 * gap, s2 - s2 * gap, s3 - s3 * gap
 

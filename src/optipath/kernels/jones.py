@@ -92,4 +92,6 @@ def _columns(xp: Primitives, carried: Carried) -> Columns:
         where(along_x, re, strong),
         where(along_x, im, 0.0),
     )
-    return first, (where(along_x, 0.0, rest), 0.0, where(along_x, rest, 0.0), 0.0)
+    # Not a plain 0, which has no precision of its own.
+    none = 0.0 * rest
+    return first, (where(along_x, none, rest), none, where(along_x, rest, none), none)

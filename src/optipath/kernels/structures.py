@@ -85,10 +85,10 @@ def _rotation(xp: Primitives) -> Action:
         weak, s1, s2, s3 = carried
         t1, t2 = turn_linear(numbers, s1, s2)
         # |s1| - |t1| without a difference: 1 - |cos| is sin^2 / (1 + |cos|).
-        sign = where(t1 >= 0.0, 1.0, -1.0)
+        forward = t1 >= 0.0
         larger = 1.0 + absolute(c)
-        share = where(sign * c * s1 >= 0.0, s * s / larger, larger)
-        turned = weak + 0.5 * (absolute(s1) * share - sign * s * s2)
+        share = where(forward == (c * s1 >= 0.0), s * s / larger, larger)
+        turned = weak + 0.5 * (absolute(s1) * share - where(forward, s * s2, -s * s2))
         return not_below_rounding(xp, turned, absolute(s1) + absolute(s2)), t1, t2, s3
 
     return act
