@@ -16,6 +16,7 @@ ROOMS = [
     "precision",
     "kernels",
     "frames",
+    "incidence",
     "light",
     "mueller",
     "materials",

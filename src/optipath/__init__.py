@@ -46,6 +46,7 @@ from optipath.errors import (
 )
 from optipath.frames import Frame
 from optipath.fresnel import fresnel_reflection, fresnel_transmission
+from optipath.incidence import PlaneOfIncidence, plane_of_incidence
 from optipath.light import Light
 from optipath.materials import Material
 from optipath.mueller import Mueller
@@ -85,6 +86,7 @@ __all__ = [
     "PathError",
     "PathGraph",
     "Plan",
+    "PlaneOfIncidence",
     "Polarizer",
     "PresetError",
     "Real",
@@ -98,5 +100,6 @@ __all__ = [
     "fresnel_reflection",
     "fresnel_transmission",
     "load_preset",
+    "plane_of_incidence",
     "preset_names",
 ]

@@ -50,7 +50,7 @@ class Frame:
         y: npt.ArrayLike = (0.0, 1.0, 0.0),
         z: npt.ArrayLike = (0.0, 0.0, 1.0),
     ) -> None:
-        axes = {"x": _vectors("x", x), "y": _vectors("y", y), "z": _vectors("z", z)}
+        axes = {name: vectors(f"axis {name} of a frame", axis) for name, axis in zip("xyz", (x, y, z), strict=True)}
         try:
             together = np.broadcast_arrays(*axes.values())
         except ValueError:
@@ -80,8 +80,8 @@ class Frame:
         >>> Frame.from_direction(z=(0, 0, 2), x=(3, 0, 5)).x
         array([1., 0., 0.])
         """
-        along = _unit("z", _vectors("z", z))
-        towards = _unit("x", _vectors("x", x))
+        along = _unit("z", vectors("axis z of a frame", z))
+        towards = _unit("x", vectors("axis x of a frame", x))
         across = towards
         for _ in range(2):  # The second time mends what the first rounds, where x is near z.
             across = across - np.sum(across * along, axis=-1, keepdims=True) * along
@@ -190,10 +190,22 @@ class Frame:
         raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
 
 
-def _vectors(name: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    array = _floats(f"axis {name} of a frame", value)
+def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return vectors of three finite components.
+
+    Raises
+    ------
+    FrameError
+        If they are none.
+
+    Examples
+    --------
+    >>> vectors("a normal", [0, 0, 1])
+    array([0., 0., 1.])
+    """
+    array = _floats(what, value)
     if array.ndim == 0 or array.shape[-1] != 3:
-        raise FrameError(f"axis {name} of a frame must have shape (..., 3), not {array.shape}")
+        raise FrameError(f"{what} must have shape (..., 3), not {array.shape}")
     return array
 
 

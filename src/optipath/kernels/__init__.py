@@ -16,6 +16,7 @@ from optipath.kernels.compensated import (
     compensated_reflection,
     compensated_transmission,
 )
+from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
 from optipath.kernels.plain import Plain
@@ -97,6 +98,7 @@ __all__ = [
     "TURN_BACK",
     "UNPOLARIZED",
     "Carried",
+    "DoubleDouble",
     "Jones",
     "Kernel",
     "KernelFamily",
