@@ -1,12 +1,68 @@
-"""mpmath, or the sentence that says how to get it."""
+"""Numbers of many digits: mpmath, exact floats, exact right angles, and kernels in them."""
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
+
 from optipath.errors import MissingExtraError
+from optipath.kernels import Primitives
 
 try:
     import mpmath
-except ImportError:  # pragma: no cover - the tests bring it
+except ImportError:
     raise MissingExtraError("50-digit references", "mpmath", "chart") from None
 
-__all__ = ["mpmath"]
+DIGITS = 50
+WORKING_DIGITS = 2 * DIGITS
+
+
+def exactly(number: Any) -> Any:
+    """Return a float of any precision as a number of many digits.
+
+    Examples
+    --------
+    >>> with mpmath.workdps(30):
+    ...     print(exactly(np.float64(0.1)))
+    0.100000000000000005551115123126
+    """
+    mantissa, exponent = np.frexp(number)
+    high = float(mantissa)
+    rest = float(mantissa - type(mantissa)(high))
+    return mpmath.ldexp(mpmath.mpf(high) + mpmath.mpf(rest), int(exponent))
+
+
+def exact_angle(angle: float) -> Any:
+    """Return an angle; the float nearest to a multiple of 45 degrees is that multiple.
+
+    Examples
+    --------
+    >>> print(mpmath.nstr(mpmath.cos(exact_angle(np.pi / 2)), 5))
+    0.0
+    """
+    with mpmath.workdps(WORKING_DIGITS):
+        eighth = mpmath.pi / 4
+        multiple = mpmath.nint(mpmath.mpf(angle) / eighth) * eighth
+        return multiple if float(multiple) == angle else mpmath.mpf(angle)
+
+
+MANY_DIGITS = Primitives(
+    where=lambda condition, yes, no: yes if condition else no,
+    sqrt=mpmath.sqrt,
+    absolute=abs,
+    maximum=max,
+    minimum=min,
+    sin=mpmath.sin,
+    cos=mpmath.cos,
+    exp=mpmath.exp,
+    atan2=mpmath.atan2,
+    frexp=mpmath.frexp,
+    ldexp=mpmath.ldexp,
+    two_product=lambda a, b: (a * b, mpmath.mpf(0)),
+    hidden=lambda larger, number: float(larger) + float(number) == float(larger),
+    fixed=lambda value: value,
+)
+"""For elements of one's own, whose formulas are the only ones there are."""
+
+__all__ = ["DIGITS", "MANY_DIGITS", "WORKING_DIGITS", "exact_angle", "exactly", "mpmath"]

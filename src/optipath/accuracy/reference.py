@@ -8,12 +8,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.accuracy.many_digits import mpmath
+from optipath.accuracy.many_digits import DIGITS, WORKING_DIGITS, mpmath
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-DIGITS = 50
 
 
 class Exact(NamedTuple):
@@ -99,7 +97,7 @@ def _transmitted(m: Any, c: Any, s: Any) -> tuple[Any, ...]:
 
 def _exact(function: Callable[..., tuple[Any, ...]], *given: float) -> Exact:
     spread = sum(abs(int(mpmath.log10(x))) for x in map(mpmath.mpf, given) if x)
-    with mpmath.workdps(2 * DIGITS + 4 * spread):
+    with mpmath.workdps(WORKING_DIGITS + 4 * spread):
         n, k, c, s, n1 = map(mpmath.mpf, given)
         m = mpmath.mpc(n, k) / n1
         values = _cleaned(function, m, c, s)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -46,25 +46,25 @@ class Region:
     name: str
     draw: Draw
 
-    def samples(self, count: int, dtype: str = "float64") -> Samples:
-        """Return boundaries and angles, rounded to a precision.
+    def samples(self, count: int, dtype: str = "float64", seed: int = 0) -> Samples:
+        """Return boundaries and angles, rounded to a precision; others for another seed.
 
         Examples
         --------
         >>> REGIONS[0].samples(3).n.shape
         (3,)
         """
-        dice = _Dice(count, self.name, np.finfo(dtype))
+        dice = _Dice(count, [seed, *self.name.encode()], np.finfo(dtype))
         return Samples(*(np.broadcast_to(x, count).astype(dtype) for x in self.draw(dice)))
 
 
 class _Dice:
     """Random numbers for one region."""
 
-    def __init__(self, count: int, name: str, precision: np.finfo) -> None:  # type: ignore[type-arg]
+    def __init__(self, count: int, seed: list[int], precision: Any) -> None:
         self.count = count
         self.precision = precision
-        self._random = np.random.default_rng(list(name.encode()))
+        self._random = np.random.default_rng(seed)
 
     def even(self, low: float, high: float) -> Floats:
         """Return numbers spread evenly."""
@@ -102,8 +102,9 @@ def _generic(dice: _Dice) -> tuple[Floats, ...]:
 
 
 def _beside(dice: _Dice, tangent: Floats) -> tuple[Floats, Floats]:
-    """Return cos and sin 1e-12 to 1e-1 rad beside the angle of a tangent."""
-    off = dice.sign() * dice.decades(1e-12, 1e-1)
+    """Return cos and sin 1e-12 (or some roundings) to 1e-1 rad beside the angle of a tangent."""
+    least = max(1e-12, 64.0 * float(dice.precision.eps))
+    off = dice.sign() * dice.decades(least, 1e-1)
     t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
     return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)
 

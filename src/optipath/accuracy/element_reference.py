@@ -1,0 +1,180 @@
+"""The reference for elements: their Jones matrices in many digits, written for nothing else."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+
+from optipath.accuracy.many_digits import MANY_DIGITS, exact_angle, exactly, mpmath
+from optipath.accuracy.reference import amplitudes
+from optipath.elements import (
+    Attenuator,
+    BeamSplitter,
+    Combiner,
+    Element,
+    Interface,
+    Polarizer,
+    Retarder,
+    Rotator,
+)
+from optipath.kernels import REFLECTION
+from optipath.materials import Material
+from optipath.views import View, view_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.elements import Coupling
+    from optipath.parameters import Resolved
+
+Jones: TypeAlias = tuple[tuple[Any, Any], tuple[Any, Any]]
+
+
+class Reader:
+    """Reads the values of a path as numbers of many digits, and moves one angle a little.
+
+    Parameters
+    ----------
+    given : mapping of str to Resolved
+        The values of the open parameters.
+    batch : tuple of int
+        The shape of all values together.
+    at : tuple of int
+        Which of the batch.
+    moved : int, optional
+        Which angle, in the order in which they are read, is moved.
+    by : mpf, optional
+        The relative change of its tangent.
+    """
+
+    def __init__(
+        self,
+        given: Mapping[str, Resolved],
+        batch: tuple[int, ...],
+        at: tuple[int, ...],
+        moved: int = -1,
+        by: Any = 0,
+    ) -> None:
+        self.given = given
+        self.batch = batch
+        self.at = at
+        self.moved = moved
+        self.by = by
+        self.count = 0
+
+    def pick(self, numbers: Any) -> Any:
+        """Return that one of the batch."""
+        return np.broadcast_to(numbers, self.batch)[self.at]
+
+    def real(self, value: Any, part: str = "") -> Any:
+        """Return a number."""
+        view = View(value, part) if part else view_of(value)
+        return exactly(self.pick(view.numbers(self.given)))
+
+    def index(self, value: Any) -> Any:
+        """Return an index of refraction."""
+        if isinstance(value, Material):
+            return mpmath.mpc(self.real(value.n), self.real(value.k))
+        return mpmath.mpc(self.real(value, "real"), self.real(value, "imag"))
+
+    def angle(self, value: Any, turns: int = 1) -> Any:
+        """Return an angle; its tangent, or that of `turns` times it, is what may be moved."""
+        return self.move(exact_angle(float(self.pick(view_of(value).numbers(self.given)))), turns)
+
+    def move(self, angle: Any, turns: int) -> Any:
+        """Return an angle, moved if it is the one."""
+        self.count += 1
+        if self.count - 1 != self.moved:
+            return angle
+        return angle + self.by * mpmath.sin(2 * turns * angle) / (2 * turns)
+
+
+def turn(angle: Any) -> Jones:
+    """Return what a turn of the frame does to the field."""
+    c, s = mpmath.cos(angle), mpmath.sin(angle)
+    return (c, s), (-s, c)
+
+
+@singledispatch
+def jones(element: Element, leaves: str, read: Reader) -> Jones | None:
+    """Return the Jones matrix of the way to an out-port; None where only Mueller's will do."""
+    del element, leaves, read
+    return None
+
+
+@jones.register
+def _(element: Interface, leaves: str, read: Reader) -> Jones:
+    del leaves
+    m = read.index(element.index) / read.index(element.outside).real
+    theta = read.angle(element.incidence)
+    rs, rp, _ = amplitudes(m, mpmath.cos(theta), mpmath.sin(theta))
+    return _diagonal(rs, rp)
+
+
+@jones.register
+def _(element: Polarizer, leaves: str, read: Reader) -> Jones:
+    del leaves
+    along, across = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
+    return _turned(_diagonal(along, across), read.angle(element.angle, 2))
+
+
+@jones.register
+def _(element: Retarder, leaves: str, read: Reader) -> Jones:
+    del leaves
+    # The field is exp(-iwt): what falls behind gains a positive phase.
+    slow = mpmath.expj(read.angle(element.retardance))
+    return _turned(_diagonal(1, slow), read.angle(element.angle, 2))
+
+
+@jones.register
+def _(element: Rotator, leaves: str, read: Reader) -> Jones:
+    del leaves
+    return turn(-read.angle(element.angle, 2))
+
+
+@jones.register
+def _(element: Attenuator, leaves: str, read: Reader) -> Jones:
+    del leaves
+    root = mpmath.sqrt(read.real(element.transmittance))
+    return _diagonal(root, root)
+
+
+@jones.register
+def _(element: BeamSplitter, leaves: str, read: Reader) -> Jones:
+    reflectance = read.real(element.reflectance)
+    root = mpmath.sqrt(reflectance if leaves == "reflected" else 1 - reflectance)
+    return _diagonal(root, -root if leaves == "reflected" else root)
+
+
+@jones.register
+def _(element: Combiner, leaves: str, read: Reader) -> Jones:
+    del element, leaves, read
+    return _diagonal(1, 1)
+
+
+def mueller(coupling: Coupling, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of a way through an element of one's own."""
+    matrix = mpmath.eye(4)
+    for operation in coupling.operations:
+        kernel = operation.kernel.by_method(next(iter(REFLECTION.methods)))
+        numbers = kernel.made_for(MANY_DIGITS)(*map(read.real, operation.arguments))
+        assert kernel.structure is not None  # noqa: S101 - only sources have none
+        matrix = mpmath.matrix(kernel.structure.rows(MANY_DIGITS, numbers)) * matrix
+    return matrix.tolist()  # type: ignore[no-any-return]
+
+
+def _diagonal(x: Any, y: Any) -> Jones:
+    return (x, 0), (0, y)
+
+
+def _turned(matrix: Jones, angle: Any) -> Jones:
+    return times(turn(-angle), times(matrix, turn(angle)))
+
+
+def times(first: Jones, second: Jones) -> Jones:
+    """Return the product of two matrices."""
+    (a, b), (c, d) = first
+    (e, f), (g, h) = second
+    return (a * e + b * g, a * f + b * h), (c * e + d * g, c * f + d * h)
