@@ -47,6 +47,13 @@ class Reader:
         Which angle, in the order in which they are read, is moved.
     by : mpf, optional
         The relative change of its tangent.
+
+    Attributes
+    ----------
+    count : int
+        How many angles have been read.
+    decades : int
+        How far the numbers that have been read are from 1, all together.
     """
 
     def __init__(
@@ -63,6 +70,7 @@ class Reader:
         self.moved = moved
         self.by = by
         self.count = 0
+        self.decades = 0
 
     def pick(self, numbers: Any) -> Any:
         """Return that one of the batch."""
@@ -71,7 +79,9 @@ class Reader:
     def real(self, value: Any, part: str = "") -> Any:
         """Return a number."""
         view = View(value, part) if part else view_of(value)
-        return exactly(self.pick(view.numbers(self.given)))
+        number = exactly(self.pick(view.numbers(self.given)))
+        self.decades += abs(int(mpmath.log10(number))) if number > 0 else 0
+        return number
 
     def index(self, value: Any) -> Any:
         """Return an index of refraction."""

@@ -25,8 +25,8 @@ class Errors(NamedTuple):
     componentwise : ndarray, shape (samples, 4)
         In ulp of each, divided by 1 + its condition number: ulp*.
     normwise : ndarray, shape (samples,)
-        The largest, in units of the rounding of the first (A or S0), divided by 1 + the
-        largest condition in the same units.
+        The largest, in ulp of the first (A or S0), divided by 1 + the largest condition
+        against that.
     """
 
     componentwise: npt.NDArray[np.float64]
@@ -51,7 +51,6 @@ def errors(found: npt.NDArray[Any], exact: Iterable[Any], dtype: str) -> Errors:
     >>> off.componentwise[0], off.normwise
     (array([1., 0., 0., 0.]), array([1.]))
     """
-    eps = float(np.finfo(dtype).eps)
     componentwise, normwise = np.zeros(found.shape), np.zeros(len(found))
     with mpmath.workdps(WORKING_DIGITS):
         for row, (numbers, (values, conditions)) in enumerate(zip(found, exact, strict=True)):
@@ -62,7 +61,8 @@ def errors(found: npt.NDArray[Any], exact: Iterable[Any], dtype: str) -> Errors:
             ]
             size = abs(values[0])
             shares = [abs(v) * c for v, c in zip(values, conditions, strict=True)]
-            normwise[row] = _share(max(off), size) / eps / (1.0 + _share(max(shares), size))
+            most = float(max(shares) / size) if size else 0.0
+            normwise[row] = _in_ulp(max(off), size, dtype) / (1.0 + most)
     return Errors(componentwise, normwise)
 
 
@@ -70,14 +70,9 @@ def _distance(number: Any, value: Any) -> Any:
     return abs(exactly(number) - value) if np.isfinite(number) else mpmath.inf
 
 
-def _share(part: Any, whole: Any) -> float:
-    if not part:
-        return 0.0
-    return float(part / whole) if whole else np.inf
-
-
 def _in_ulp(distance: Any, value: Any, dtype: str) -> float:
     if not distance:
         return 0.0
-    about = np.dtype(dtype).type(mpmath.nstr(abs(value), 25))
-    return float(distance / exactly(np.spacing(about)))
+    kind = np.finfo(dtype)
+    binade = int(mpmath.frexp(value)[1]) - 1 if value else kind.minexp
+    return float(distance / mpmath.ldexp(1, max(binade, kind.minexp) - kind.nmant))

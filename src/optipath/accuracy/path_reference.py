@@ -86,10 +86,13 @@ def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str,
 def _exact(
     wiring: Wiring, given: Mapping[str, Resolved], batch: tuple[int, ...], at: tuple[int, ...]
 ) -> dict[str, ExactLight]:
-    with mpmath.workdps(WORKING_DIGITS):
+    scout = Reader(given, batch, at)
+    _Walk(wiring, scout).stokes()
+    # Numbers far from 1 need digits for what they leave of each other.
+    with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):
         reader = Reader(given, batch, at)
         values = _Walk(wiring, reader).stokes()
-        step = mpmath.mpf(10) ** -(DIGITS // 2)
+        step = mpmath.mpf(10) ** -(DIGITS // 2 + scout.decades)
         conditions = {name: [0.0] * 4 for name in values}
         for angle in range(reader.count):
             moved = _Walk(wiring, Reader(given, batch, at, angle, step)).stokes()
@@ -196,5 +199,5 @@ def _stokes(light: Jones) -> tuple[Any, ...]:
     xx, yy, yx = (mpmath.mpmathify(part) for part in (xx, yy, yx))
     values = (xx.real + yy.real, xx.real - yy.real, 2 * yx.real, 2 * yx.imag)
     # What cancels exactly leaves the rounding of the last digit.
-    least = (xx.real + yy.real) * mpmath.mpf(10) ** -(WORKING_DIGITS - 10)
+    least = (xx.real + yy.real) * mpmath.mpf(10) ** -(mpmath.mp.dps - 10)
     return tuple(value if abs(value) > least else mpmath.mpf(0) for value in values)

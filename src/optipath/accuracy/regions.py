@@ -25,7 +25,7 @@ class Samples(NamedTuple):
     @property
     def incidence(self) -> Floats:
         """The angle of incidence in radians."""
-        return np.arctan2(self.sin, self.cos)
+        return np.arctan2(self.sin.astype(np.float64), self.cos.astype(np.float64))
 
 
 Draw: TypeAlias = Callable[["_Dice"], tuple["Floats", "Floats", "Floats", "Floats"]]
@@ -68,7 +68,9 @@ class _Dice:
 
     def even(self, low: float, high: float) -> Floats:
         """Return numbers spread evenly."""
-        return self._random.uniform(low, high, self.count)
+        numbers: Floats = self._random.uniform(low, high, self.count)
+        # What is computed from them has the digits of the precision, if that is more.
+        return numbers.astype(np.result_type(self.precision.dtype, np.float64))
 
     def decades(self, low: float, high: float) -> Floats:
         """Return numbers whose logarithms are spread evenly."""
@@ -84,7 +86,8 @@ class _Dice:
 
     def extreme(self) -> Floats:
         """Return numbers whose squares overflow or underflow, and whose inverses do not."""
-        reach = 0.97 * np.log10(float(self.precision.max))
+        # Drawn as doubles, whatever they are rounded to.
+        reach = 0.97 * float(min(np.log10(self.precision.max), 308.0))
         return 10.0 ** (self.sign() * self.even(0.52 * reach, reach))
 
 

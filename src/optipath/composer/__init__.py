@@ -1,11 +1,12 @@
 """The composer: validate, lower, plan; one stage a file."""
 
-from optipath.composer.composer import Composer
+from optipath.composer.composer import CHOICES, Composer
 from optipath.composer.validate import partial_faults, validate
 from optipath.composer.values import parameters_of, value_faults
 from optipath.composer.wiring import Wiring
 
 __all__ = [
+    "CHOICES",
     "Composer",
     "Wiring",
     "parameters_of",

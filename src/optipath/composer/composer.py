@@ -16,7 +16,7 @@ from optipath.kernels import METHODS
 from optipath.plan import Plan
 from optipath.precision import precision
 
-_CHOICES = {
+CHOICES = {
     "method": METHODS,
     "model": ("auto", "full"),
     "engine": ("auto", "numpy"),
@@ -75,7 +75,7 @@ class Composer:
 
     def __post_init__(self) -> None:
         faults = []
-        for option, choices in _CHOICES.items():
+        for option, choices in CHOICES.items():
             value = getattr(self, option)
             if value not in choices:
                 faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
