@@ -50,7 +50,10 @@ class Frame:
         y: npt.ArrayLike = (0.0, 1.0, 0.0),
         z: npt.ArrayLike = (0.0, 0.0, 1.0),
     ) -> None:
-        axes = {name: vectors(f"axis {name} of a frame", axis) for name, axis in zip("xyz", (x, y, z), strict=True)}
+        axes = {
+            name: vectors(f"axis {name} of a frame", axis)
+            for name, axis in zip("xyz", (x, y, z), strict=True)
+        }
         try:
             together = np.broadcast_arrays(*axes.values())
         except ValueError:

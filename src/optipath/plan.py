@@ -113,11 +113,10 @@ class Plan:
         --------
         >>> import optipath as op
         >>> print(op.Composer().compose(op.load_preset("malus")).explain().splitlines()[0])
-        1 source, 1 detector, 5 steps; method stable, model full, engine numpy, composing stokes, float64
+        1 source, 1 detector, 5 steps; method stable, model full, engine numpy, float64
         """
-        manner = (
-            f"method {self.method}, model {self.model}, engine {self.engine}, "
-            f"composing {self.composing}, {self.dtype}"
+        manner = f"method {self.method}, model {self.model}, engine {self.engine}, {self.dtype}" + (
+            ", composing Jones columns" if self.composing == "jones" else ""
         )
         notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
         notes += [f"{port} feeds several links: each takes all its light" for port in self.copied]

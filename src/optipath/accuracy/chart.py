@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 from collections import Counter
+from functools import partial
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -18,7 +20,7 @@ from optipath.accuracy.many_paths import many_paths
 from optipath.accuracy.operations import kernel_operations, operations
 from optipath.accuracy.path_errors import path_errors, trials, worst_and_median
 from optipath.accuracy.regions import REGIONS
-from optipath.errors import ComposerError
+from optipath.errors import ComposerError, OptipathError
 from optipath.kernels import REFLECTION
 
 if TYPE_CHECKING:
@@ -89,12 +91,13 @@ def path_chart(
         )
     graph, values = many_paths(path, PATHS)
     plans = [runner.composer.compose(graph) for runner in runners]
-    _time(found, [lambda plan=plan: plan.run_all(**values) for plan in plans], effort, progress)
+    _time(found, [partial(plan.run_all, **values) for plan in plans], effort, progress)
     program = Contender().composer.compose(graph).program
     given, _ = plans[0].inputs.resolve(values)
     arrays = sum(view.numbers(given).size > 1 for view in program.leaves)
     least = limits(arrays + 4 * len(program.readings), operations(program))
-    return _chart(title, found, least)
+    words = {name: p.text(p.default) for name, p in path.parameters.items()}
+    return {"parameters": words, **_chart(title, found, least)}
 
 
 def interface_chart(
@@ -113,7 +116,8 @@ def interface_chart(
         What `draw` draws.
     """
     runners = contenders(("stokes",))
-    found, actions = [], []
+    found: list[dict[str, Any]] = []
+    actions: list[Callable[[], Any]] = []
     for number, runner in enumerate(runners):
         progress("50-digit references and errors", 0.8 * number / len(runners))
         kernel = REFLECTION.by_method(runner.method)
@@ -123,10 +127,28 @@ def interface_chart(
         }
         found.append(_entry(runner, off))
         samples = REGIONS[0].samples(PATHS, runner.dtype)
-        actions.append(lambda kernel=kernel, samples=samples: matrix_numbers(kernel, samples))
+        actions.append(partial(matrix_numbers, kernel, samples))
     _time(found, actions, effort, progress)
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
     return _chart("one interface", found, least)
+
+
+def read_chart(text: str, name: str) -> dict[str, Any]:
+    """Return a chart that was written as JSON.
+
+    Raises
+    ------
+    OptipathError
+        If it is none, or one of another form.
+    """
+    cure = "give a file that 'optipath chart --data' wrote"
+    try:
+        chart = json.loads(text)
+    except ValueError:
+        raise OptipathError(f"'{name}' is no JSON; {cure}") from None
+    if not isinstance(chart, dict) or chart.get("format") != FORMAT:
+        raise OptipathError(f"'{name}' is no chart of this version; {cure}")
+    return chart
 
 
 def _composes(runner: Contender, path: PathGraph) -> bool:

@@ -42,7 +42,7 @@ def operations(program: Program) -> dict[str, int]:
     --------
     >>> import optipath as op
     >>> operations(op.load_preset("malus").compose().program)["sqrt"]
-    4
+    2
     """
     counts: Counter[str] = Counter(sqrt=0, div=0)
     for evaluation in program.evaluations:

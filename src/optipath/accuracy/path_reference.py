@@ -145,7 +145,9 @@ class _Walk:
                 found.append(self._emitted(coupling))
             elif (name, coupling.enters) in self.at:
                 light = self.at[name, coupling.enters]
-                found.append(light if self._absent(element) else self._through(coupling, element, light))
+                found.append(
+                    light if self._absent(element) else self._through(coupling, element, light)
+                )
         return found
 
     def _emitted(self, coupling: Coupling) -> Jones:
@@ -162,9 +164,7 @@ class _Walk:
 
     def _absent(self, element: Element) -> bool:
         optional = [p for p in element.parameters() if p.optional]
-        resolved = (
-            p.resolve(p.default) if p.bound else self.read.given[p.name] for p in optional
-        )
+        resolved = (p.resolve(p.default) if p.bound else self.read.given[p.name] for p in optional)
         return not all(self.read.pick(value.present) for value in resolved)
 
 

@@ -28,7 +28,7 @@ class Samples(NamedTuple):
         return np.arctan2(self.sin.astype(np.float64), self.cos.astype(np.float64))
 
 
-Draw: TypeAlias = Callable[["_Dice"], tuple["Floats", "Floats", "Floats", "Floats"]]
+Draw: TypeAlias = Callable[["_Dice"], tuple["Floats", ...]]
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from optipath.presets import load_preset
 
 
 def _explain(
-    preset: str, case: str | None, values: dict[str, Any], method: str, *, as_json: bool
+    preset: str, case: str | None, values: dict[str, Any], *, method: str, as_json: bool
 ) -> None:
     text = Composer(method=method).compose(load_preset(preset, case=case, **values)).explain()
     click.echo(json.dumps({"preset": preset, "plan": text.splitlines()}) if as_json else text)

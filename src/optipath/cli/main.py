@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from optipath.cli.accuracy import accuracy
+from optipath.cli.chart import chart
 from optipath.cli.explain import explain
 from optipath.cli.presets import presets
 from optipath.cli.run import run
@@ -33,6 +35,8 @@ cli.add_command(presets)
 cli.add_command(show)
 cli.add_command(run)
 cli.add_command(explain)
+cli.add_command(chart)
+cli.add_command(accuracy)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -11,12 +11,19 @@ from optipath.kernels import METHODS
 from optipath.presets import load_preset, preset_names
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from optipath.parameters import Parameter
     from optipath.path_graph import PathGraph
 
-RESERVED = ("case", "json", "as_json", "method", "help", "h")
+METHOD = click.Option(
+    ["--method"],
+    type=click.Choice(METHODS),
+    default=METHODS[0],
+    show_default=True,
+    help="How Fresnel's equations are computed.",
+)
+JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
 
 
 class PresetGroup(click.Group):
@@ -25,17 +32,26 @@ class PresetGroup(click.Group):
     Parameters
     ----------
     action : callable
-        ``action(preset, case, values, method, as_json=...)``.
+        ``action(preset, case, values, **options)``.
+    options : sequence of click.Option, optional
+        What can be given besides the parameters and the case.
     """
 
-    def __init__(self, name: str, action: Callable[..., None], **keywords: Any) -> None:
+    def __init__(
+        self,
+        name: str,
+        action: Callable[..., None],
+        options: Sequence[click.Option] = (METHOD, JSON),
+        **keywords: Any,
+    ) -> None:
         keywords.setdefault("subcommand_metavar", "PRESET [OPTIONS]")
         super().__init__(name, **keywords)
         self.action = action
+        self.options = tuple(options)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Refuse a command without a preset."""
-        if not args and not ctx.resilient_parsing:
+        if not args and not ctx.resilient_parsing and not self.invoke_without_command:
             names = ", ".join(preset_names())
             raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
         return super().parse_args(ctx, args)
@@ -49,33 +65,32 @@ class PresetGroup(click.Group):
         """Return the command of a preset, with its parameters as options."""
         del ctx
         path = load_preset(cmd_name)
-        taken = sorted(set(path.parameters) & set(RESERVED))
+        taken = sorted(set(path.parameters) & self._reserved())
         if taken:
             raise PresetError(
                 f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
                 f"command line; rename it in the file"
             )
 
-        def callback(*, case: str | None, method: str, as_json: bool, **texts: Any) -> None:
-            values = _parsed(path, cmd_name, case, texts)
-            self.action(cmd_name, case, values, method, as_json=as_json)
+        names = {option.name for option in self.options}
+
+        def callback(*, case: str | None, **given: Any) -> None:
+            texts = {name: text for name, text in given.items() if name not in names}
+            chosen = {name: value for name, value in given.items() if name in names}
+            self.action(cmd_name, case, _parsed(path, cmd_name, case, texts), **chosen)
 
         options: list[click.Parameter] = [
             _option(parameter) for parameter in path.parameters.values() if not parameter.bound
         ]
-        names = ", ".join(path.cases) or "none in this preset"
-        options += [
-            click.Option(["--case"], metavar="NAME", help=f"Named set of values: {names}."),
-            click.Option(
-                ["--method"],
-                type=click.Choice(METHODS),
-                default=METHODS[0],
-                show_default=True,
-                help="How Fresnel's equations are computed.",
-            ),
-            click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object."),
-        ]
+        cases = ", ".join(path.cases) or "none in this preset"
+        help_ = f"Named set of values: {cases}."
+        options += [click.Option(["--case"], metavar="NAME", help=help_), *self.options]
         return click.Command(cmd_name, callback=callback, params=options, help=path.description)
+
+    def _reserved(self) -> set[str]:
+        flags = {flag.lstrip("-") for option in self.options for flag in option.opts}
+        names = {option.name or "" for option in self.options}
+        return flags | names | {"case", "help", "h"}
 
 
 def _parsed(

@@ -52,7 +52,7 @@ class Result:
 
 
 def _run(
-    preset: str, case: str | None, values: dict[str, Any], method: str, *, as_json: bool
+    preset: str, case: str | None, values: dict[str, Any], *, method: str, as_json: bool
 ) -> None:
     path = load_preset(preset, case=case, **values)
     plan = Composer(method=method).compose(path)

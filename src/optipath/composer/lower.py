@@ -139,8 +139,8 @@ class _Builder:
         self, label: str, inputs: tuple[int, ...], operation: Operation, presence: View | None
     ) -> int:
         views = [view_of(argument) for argument in operation.arguments]
-        kernel, views = operation.kernel.by_method(self.method).leaving_out(views, _vanishes)
-        arguments = tuple(self._leaf(view) for view in views)
+        kernel, left = operation.kernel.by_method(self.method).leaving_out(views, _vanishes)
+        arguments = tuple(self._leaf(view) for view in left)
         there = None if presence is None else self._leaf(presence)
         evaluation = Evaluation(kernel, arguments, there)
         index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))

@@ -54,7 +54,7 @@ def run(
             states[light] = way.emit(emitted[light])
             continue
         arriving = [states[source] for source in step.inputs]
-        state = reduce(way.add, arriving) if arriving else None
+        state: Any = reduce(way.add, arriving) if arriving else None
         if step.evaluation is not None:
             index = step.evaluation
             if index not in numbers:

@@ -8,12 +8,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
 from optipath.kernels.primitives import Primitives
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,10 +45,10 @@ class DoubleDouble:
         return self._of(-self.high, -self.low)
 
     def __sub__(self, other: Any) -> DoubleDouble:
-        return self + -other
+        return self.__add__(-other)
 
     def __rsub__(self, other: Any) -> DoubleDouble:
-        return -self + other
+        return self.__neg__().__add__(other)
 
     def __mul__(self, other: Any) -> DoubleDouble:
         if not isinstance(other, DoubleDouble):
@@ -113,7 +110,10 @@ def twice(xp: Primitives) -> Primitives:
         frexp=lambda number: (number, xp.frexp(number.high)[1]),
         ldexp=ldexp,
         fixed=lambda number: number,
-        **{name: partial(_missing, name) for name in ("sin", "cos", "exp", "atan2", "two_product", "hidden")},
+        **{
+            name: partial(_missing, name)
+            for name in ("sin", "cos", "exp", "atan2", "two_product", "hidden")
+        },
     )
 
 

@@ -67,7 +67,7 @@ class Jones:
         size = reduce(xp.maximum, (xp.absolute(part) for column in columns for part in column))
         _, shift = xp.frexp(size)
         first, second = (tuple(xp.ldexp(part, -shift) for part in column) for column in columns)
-        return (first, second), exponent + shift  # type: ignore[return-value]
+        return (first, second), exponent + shift
 
 
 def _pure(column: Column) -> tuple[Any, ...]:

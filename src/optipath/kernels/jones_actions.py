@@ -27,7 +27,7 @@ def scale_jones(xp: Primitives) -> Act:
     def act(numbers: Sequence[Any], columns: Columns) -> Columns:
         r = sqrt(numbers[0])
         first, second = (tuple(r * part for part in column) for column in columns)
-        return first, second  # type: ignore[return-value]
+        return first, second
 
     return act
 

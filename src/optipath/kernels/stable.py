@@ -120,7 +120,7 @@ def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
         parted = 2.0 * f * (at.s * at.s) * at.c
         B, S = parted * at.a * at.n1, parted * at.b * at.n1
         # The difference is the better one unless it cancels, and exact in total reflection.
-        Fp = where(4.0 * B < Fs, Fs - 2.0 * B, f * ((z - ca) * (z - ca) + cb * cb))
+        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * ((z - ca) * (z - ca) + cb * cb))
         root = at.c * at.modulus
         C = where(there, f * (z - root) * (z + root), where(at.c < z, Fs, -Fs))
         return Fs, Fp, B, C, S

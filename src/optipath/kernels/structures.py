@@ -151,7 +151,9 @@ SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_jones)
 ROTATION = Structure("rotation", (1.0, 0.0), _rotation, _rotation_rows, rotation_jones)
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
-BLOCK = Structure("retarding diattenuator", (1.0, 1.0, 0.0, 1.0, 0.0), _block, _block_rows, block_jones)
+BLOCK = Structure(
+    "retarding diattenuator", (1.0, 1.0, 0.0, 1.0, 0.0), _block, _block_rows, block_jones
+)
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
 
 Fs = A + B and Fp = A - B act along x and y; each of the three keeps digits that the

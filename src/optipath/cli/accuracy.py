@@ -1,0 +1,47 @@
+"""``optipath accuracy``: how far each method is from 50 digits, region by region."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+
+def _style(cell: str) -> str:
+    return "bold red" if cell.startswith("**") else ""
+
+
+@click.command()
+@click.option(
+    "--samples",
+    type=click.IntRange(1, 100_000),
+    default=200,
+    show_default=True,
+    help="How many boundaries and angles are drawn in each region.",
+)
+@click.option(
+    "--write",
+    "file",
+    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    help="Put the tables into this file, between the lines that mark their place.",
+)
+def accuracy(samples: int, file: Path | None) -> None:
+    """Tell how far each method is from 50-digit references, region by region."""
+    from optipath.accuracy.tables import put_tables, tables  # noqa: PLC0415 - an extra
+
+    if file is not None:
+        try:
+            file.write_text(put_tables(file.read_text("utf-8"), tables(samples)), "utf-8")
+        except OSError as error:
+            raise click.ClickException(f"'{file}' cannot be written: {error.strerror}") from None
+        click.echo(f"wrote {file}")
+        return
+    console = Console()
+    for table in tables(samples):
+        shown = Table(*table.header, title=table.title, box=None, header_style="bold")
+        for row in table.rows:
+            shown.add_row(*(Text(cell.strip("*"), _style(cell)) for cell in row))
+        console.print(shown)

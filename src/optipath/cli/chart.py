@@ -1,0 +1,125 @@
+"""``optipath chart``: speed against accuracy, measured on this machine."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+from optipath.cli.preset_command import PresetGroup
+from optipath.presets import load_preset, preset_names
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+OUT = click.Option(
+    ["--out"],
+    type=click.Path(dir_okay=False, path_type=Path),
+    default="chart.png",
+    show_default=True,
+    help="Draw into this file; its ending says in which form (png, svg, pdf).",
+)
+DATA = click.Option(
+    ["--data"],
+    type=click.Path(dir_okay=False, path_type=Path),
+    help="Write what was measured into this file, as JSON.",
+)
+INTERFACE = click.Option(
+    ["--interface"], is_flag=True, help="Measure one interface instead of a path."
+)
+REDRAW = click.Option(
+    ["--from", "source"],
+    type=click.Path(dir_okay=False, exists=True, path_type=Path),
+    help="Draw what was measured before: a file that --data wrote.",
+)
+
+
+def _chart(
+    preset: str, case: str | None, values: dict[str, Any], *, out: Path, data: Path | None
+) -> None:
+    path = load_preset(preset, case=case, **values)
+    title = preset + (f", case {case}" if case else "")
+
+    def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
+        from optipath.accuracy.chart import path_chart  # noqa: PLC0415 - an extra
+
+        return path_chart(path, title, progress=progress)
+
+    _measure_and_draw(measure, out, data)
+
+
+def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Path | None) -> None:
+    context = click.get_current_context()
+    if context.invoked_subcommand is not None:
+        if interface or source:
+            raise click.UsageError("--interface and --from stand for the preset; leave it out")
+        _refuse_early_options(context)
+        return
+    if interface == (source is not None):
+        names = ", ".join(preset_names())
+        raise click.UsageError(
+            f"PRESET is missing; give a file, one of {names}, --interface, or --from"
+        )
+
+    def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
+        from optipath.accuracy.chart import interface_chart, read_chart  # noqa: PLC0415 - ditto
+
+        if source:
+            return read_chart(source.read_text("utf-8"), str(source))
+        return interface_chart(progress=progress)
+
+    _measure_and_draw(measure, out, data)
+
+
+def _refuse_early_options(context: click.Context) -> None:
+    default = click.core.ParameterSource.DEFAULT
+    for name in ("out", "data"):
+        if context.get_parameter_source(name) is not default:
+            raise click.UsageError(f"--{name} stands behind the preset; move it there")
+
+
+def _measure_and_draw(
+    measure: Callable[[Callable[[str, float], object]], Mapping[str, Any]],
+    out: Path,
+    data: Path | None,
+) -> None:
+    from optipath.accuracy.drawing import check_form, draw  # noqa: PLC0415 - an extra
+
+    check_form(out)
+    for file in (out, data):
+        if file is not None and not file.absolute().parent.is_dir():
+            raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
+    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+    console = Console(stderr=True)
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        task = bar.add_task("", total=1.0)
+        chart = measure(lambda what, done: bar.update(task, description=what, completed=done))
+    if data is not None:
+        _write(data, lambda: data.write_text(json.dumps(chart, indent=1) + "\n", "utf-8"))
+    _write(out, lambda: draw(chart, out))
+
+
+def _write(file: Path, action: Callable[[], object]) -> None:
+    try:
+        action()
+    except OSError as error:
+        raise click.ClickException(f"'{file}' cannot be written: {error.strerror}") from None
+    click.echo(f"wrote {file}")
+
+
+chart = PresetGroup(
+    "chart",
+    action=_chart,
+    options=(OUT, DATA),
+    callback=_without_preset,
+    params=[INTERFACE, REDRAW, OUT, DATA],
+    invoke_without_command=True,
+    subcommand_metavar="[PRESET] [OPTIONS]",
+    help="Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it.",
+)
