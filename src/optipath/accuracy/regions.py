@@ -87,7 +87,7 @@ class _Dice:
     def extreme(self) -> Floats:
         """Return numbers whose squares overflow or underflow, and whose inverses do not."""
         # Drawn as doubles, whatever they are rounded to.
-        reach = 0.97 * float(min(np.log10(self.precision.max), 308.0))
+        reach = 0.93 * float(min(np.log10(self.precision.max), 308.0))
         return 10.0 ** (self.sign() * self.even(0.52 * reach, reach))
 
 

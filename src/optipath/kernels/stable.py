@@ -52,7 +52,9 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         size = length(at.n, at.k)
         share = sqrt(behind) / q / where(size > 0.0, size, 1.0)
         C, S = share * (re * at.n + im * at.k), share * (im * at.n - re * at.k)
-        return *powers, C * powers[0], S * powers[0]
+        absorbs = at.k > 0.0
+        C = where(absorbs, C * powers[0], _lossless(where, powers[0], at, re))
+        return *powers, C, where(absorbs, S * powers[0], 0.0)
 
     return transmit
 
@@ -65,9 +67,14 @@ def lossless_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     def transmit(n1: Any, n: Any, c: Any, s: Any) -> tuple[Any, ...]:
         at = boundary(n1, n, c, s)
         powers, (re, _), _, _ = transmitted(at)
-        return *powers, powers[0] * at.n / where(re > 0.0, re, 1.0), 0.0
+        return *powers, _lossless(where, powers[0], at, re), 0.0
 
     return transmit
+
+
+def _lossless(where: Callable[..., Any], Ts: Any, at: Boundary, re: Any) -> Any:
+    """Return C = sqrt(Ts Tp) where nothing absorbs: n1 n2 Ts / (z + p a)."""
+    return Ts * at.n / where(re > 0.0, re, 1.0)
 
 
 def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
@@ -81,7 +88,9 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
         P = where(there, P, 1.0)
         Ts = where(there, 4.0 * at.p / P * at.a, 1.0)
         re, im = at.D / P, at.v / P
-        return where(Ts < 0.6, 1.0 - Ts, re * re + im * im), Ts
+        small = re * re + im * im
+        # The smaller of the two carries the digits of both.
+        return where(Ts < 0.6, 1.0 - Ts, small), where(Ts < 0.6, Ts, 1.0 - small)
 
     return first
 
