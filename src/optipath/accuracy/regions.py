@@ -88,7 +88,12 @@ class _Dice:
         """Return numbers whose squares overflow or underflow, and whose inverses do not."""
         # Drawn as doubles, whatever they are rounded to.
         reach = 0.93 * float(min(np.log10(self.precision.max), 308.0))
-        return 10.0 ** (self.sign() * self.even(0.52 * reach, reach))
+        # The smallest are so small that what is in proportion to their squares is nothing.
+        return np.where(
+            self.sign() > 0,
+            10.0 ** self.even(0.52 * reach, reach),
+            10.0 ** self.even(-reach, -0.65 * reach),
+        )
 
 
 def _at(angle: Floats | float) -> tuple[Floats, Floats]:

@@ -17,6 +17,10 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 
+_LEAST = 2.0**-52
+"""What it takes to nothing has lost digits to an underflow already."""
+
+
 def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
 
@@ -111,8 +115,9 @@ def _second(xp: Primitives) -> Callable[[Boundary], _Slant]:
     def second(at: Boundary) -> _Slant:
         z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
         q = (z + ca) * (z + ca) + cb * cb
-        # It vanishes, or underflows, at exactly normal and exactly grazing incidence only.
-        there = q > 0.0
+        # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
+        # where the limits are known; at 90 degrees they are exact.
+        there = (_LEAST * q > 0.0) & (at.c > 0.0)
         return _Slant(z, ca, cb, there, where(there, q, 1.0))
 
     return second
