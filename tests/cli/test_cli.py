@@ -253,3 +253,55 @@ def test_without_arguments_it_says_what_it_can_do(capsys):
     status, out, _ = run(capsys)
     assert status == 0
     assert "presets" in out
+
+
+def test_chart_measures_draws_and_draws_again(tmp_path, capsys):
+    out, data, again = (tmp_path / name for name in ("a.svg", "a.json", "b.svg"))
+    assert main(["chart", "malus", "--angle", "20", "--out", str(out), "--data", str(data)]) == 0
+    measured = json.loads(data.read_text("utf-8"))
+    assert measured["parameters"]["angle"] == "20 deg"
+    assert main(["chart", "--from", str(data), "--out", str(again)]) == 0
+    assert out.read_text("utf-8").count("<path") == again.read_text("utf-8").count("<path")
+    assert "wrote" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["chart"], "PRESET is missing"),
+        (["chart", "--interface", "malus"], "leave it out"),
+        (["chart", "--out", "x.png", "malus"], "behind the preset"),
+        (["chart", "malus", "--out", "x.docx"], "ending"),
+        (["chart", "malus", "--out", "nowhere/x.png"], "no such folder"),
+        (["chart", "malus", "--angle", "north"], "angle"),
+        (["chart", "--from", "nothing.json"], "nothing.json"),
+        (["accuracy", "--samples", "0"], "samples"),
+        (["accuracy", "--write", "nothing.md"], "nothing.md"),
+    ],
+)
+def test_chart_and_accuracy_refuse_in_one_line(arguments, message, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert main(arguments) == 2
+    captured = capsys.readouterr()
+    assert captured.err.count("\n") == 1
+    assert message in captured.err
+
+
+def test_accuracy_prints_its_tables_and_writes_them_into_their_place(tmp_path, capsys):
+    document = tmp_path / "accuracy.md"
+    document.write_text("a <!-- tables: optipath accuracy --> b <!-- end of tables --> c", "utf-8")
+    assert main(["accuracy", "--samples", "1", "--write", str(document)]) == 0
+    text = document.read_text("utf-8")
+    assert text.startswith("a <!-- tables")
+    assert text.endswith("of tables --> c")
+    assert "| exactly 90 deg | 0 | 0 | 0 |" in text
+    assert main(["accuracy", "--samples", "1"]) == 0
+    assert "exactly 90 deg" in capsys.readouterr().out
+
+
+def test_a_feature_whose_extra_is_missing_says_which(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "mpmath", None)
+    for name in [name for name in sys.modules if name.startswith("optipath.accuracy")]:
+        monkeypatch.delitem(sys.modules, name)
+    assert main(["accuracy", "--samples", "1"]) == 2
+    assert "pip install 'optipath[chart]'" in capsys.readouterr().err

@@ -146,9 +146,27 @@ def read_chart(text: str, name: str) -> dict[str, Any]:
         chart = json.loads(text)
     except ValueError:
         raise OptipathError(f"'{name}' is no JSON; {cure}") from None
-    if not isinstance(chart, dict) or chart.get("format") != FORMAT:
-        raise OptipathError(f"'{name}' is no chart of this version; {cure}")
+    if not isinstance(chart, dict) or chart.get("format") != FORMAT or not _is_whole(chart):
+        raise OptipathError(f"'{name}' is no whole chart of this version; {cure}")
     return chart
+
+
+def _is_whole(chart: Mapping[str, Any]) -> bool:
+    """Tell whether everything is there that is drawn."""
+    try:
+        numbers = [chart["fails_above"], *chart["limits_ns"].values()]
+        for entry in chart["contenders"]:
+            words = [entry[word] for word in ("method", "dtype", "engine", "composing")]
+            numbers += [entry["eps"], entry["ns"]["least"]]
+            for kind in Errors._fields:
+                for error in entry["errors"][kind].values():
+                    numbers += [error["worst"], error["median"]]
+            if not all(isinstance(word, str) for word in words):
+                return False
+    except (KeyError, TypeError, AttributeError):
+        return False
+    floats = all(isinstance(number, (int, float)) for number in numbers)
+    return floats and bool(chart["contenders"]) and isinstance(chart.get("title"), str)
 
 
 def _composes(runner: Contender, path: PathGraph) -> bool:

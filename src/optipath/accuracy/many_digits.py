@@ -36,16 +36,17 @@ def exactly(number: Any) -> Any:
 def exact_angle(angle: float) -> Any:
     """Return an angle; the float nearest to a multiple of 45 degrees is that multiple.
 
+    To the digits that mpmath works with.
+
     Examples
     --------
     >>> with mpmath.workdps(WORKING_DIGITS):
     ...     bool(abs(mpmath.cos(exact_angle(np.pi / 2))) < 1e-99)
     True
     """
-    with mpmath.workdps(WORKING_DIGITS):
-        eighth = mpmath.pi / 4
-        multiple = mpmath.nint(mpmath.mpf(angle) / eighth) * eighth
-        return multiple if float(multiple) == angle else mpmath.mpf(angle)
+    eighth = +mpmath.pi / 4
+    multiple = mpmath.nint(mpmath.mpf(angle) / eighth) * eighth
+    return multiple if float(multiple) == angle else mpmath.mpf(angle)
 
 
 MANY_DIGITS = Primitives(

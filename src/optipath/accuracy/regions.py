@@ -184,8 +184,8 @@ REGIONS: tuple[Region, ...] = (
     Region("n near 1, k like n - 1", _alike),
     Region("n near 1, grazing", lambda d: (_nearly_one(d), _NONE, *_grazing(d))),
     Region("metals", lambda d: (*_metal(d), *_inner(d))),
-    Region("|m| of 1e3 to 1e8", lambda d: (*_large(d), *_inner(d))),
-    Region("|m| of 1e3 to 1e8, grazing", lambda d: (*_large(d), *_grazing(d))),
+    Region("index of 1e3 to 1e8", lambda d: (*_large(d), *_inner(d))),
+    Region("index of 1e3 to 1e8, grazing", lambda d: (*_large(d), *_grazing(d))),
     Region("n near 0", lambda d: (d.decades(1e-12, 1e-2), d.some(d.decades(1e-12, 1)), *_inner(d))),
     Region("extreme magnitudes", _extreme),
 )

@@ -1,0 +1,137 @@
+"""The chart: what is measured, what is drawn, and that the one can be had without the other."""
+
+import json
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.accuracy.chart import Effort, interface_chart, path_chart, read_chart
+from optipath.accuracy.contenders import contenders
+from optipath.accuracy.drawing import check_form, draw
+from optipath.accuracy.many_paths import many_paths
+from optipath.accuracy.operations import kernel_operations
+from optipath.accuracy.path_errors import AS_GIVEN
+from optipath.accuracy.region_path import in_region
+from optipath.accuracy.regions import REGIONS
+from optipath.kernels import REFLECTION
+
+LITTLE = Effort(samples=2, rounds=1)
+
+
+@pytest.fixture(scope="module")
+def chart():
+    steps = []
+    path = op.load_preset("npgr026", case="8")
+    found = path_chart(path, "npgr026", LITTLE, lambda *step: steps.append(step))
+    return found, steps
+
+
+def worst(contender, kind="componentwise"):
+    return max(error["worst"] for error in contender["errors"][kind].values())
+
+
+def by_words(chart, *words):
+    for contender in chart["contenders"]:
+        if (contender["method"], contender["dtype"], contender["composing"]) == words:
+            return contender
+    raise AssertionError(words)
+
+
+def test_every_way_to_compute_the_path_is_there(chart):
+    found = chart[0]["contenders"]
+    assert len(found) == len(contenders())
+    regions = {AS_GIVEN, *(region.name for region in REGIONS)}
+    for contender in found:
+        assert set(contender["errors"]["componentwise"]) == regions
+        assert contender["ns"]["median"] >= contender["ns"]["least"] > 0
+
+
+def test_stable_holds_and_textbook_fails_on_the_path(chart):
+    assert worst(by_words(chart[0], "stable", "float64", "stokes")) <= 100
+    assert not worst(by_words(chart[0], "textbook", "float64", "stokes")) <= 1e6
+    assert worst(by_words(chart[0], "stable", "float64", "jones"), "normwise") <= 100
+
+
+def test_progress_is_told_from_the_beginning_to_the_end(chart):
+    shares = [share for _, share in chart[1]]
+    assert shares == sorted(shares)
+    assert {what for what, _ in chart[1]} == {"50-digit references", "errors", "times"}
+    assert 0 < shares[0] < 0.1
+    assert shares[-1] <= 1
+
+
+def test_the_limits_of_the_machine_are_below_what_was_measured(chart):
+    limits = chart[0]["limits_ns"]
+    assert set(limits) == {"sqrt and division", "memory"}
+    assert all(
+        0 < ns < min(c["ns"]["least"] for c in chart[0]["contenders"]) for ns in limits.values()
+    )
+
+
+def test_json_can_be_drawn_again_without_measuring(chart, tmp_path):
+    text = json.dumps(chart[0])
+    again = read_chart(text, "chart.json")
+    for name, found in (("a.svg", chart[0]), ("b.svg", again)):
+        draw(found, tmp_path / name)
+    a, b = ((tmp_path / name).read_text("utf-8") for name in ("a.svg", "b.svg"))
+    assert len(a) > 10_000
+    assert a.count("<path") == b.count("<path")
+
+
+def test_the_chart_of_one_interface_has_all_methods(tmp_path):
+    found = interface_chart(LITTLE)
+    assert {c["method"] for c in found["contenders"]} == set(REFLECTION.methods)
+    assert worst(by_words(found, "compensated", "float64", "stokes")) <= 1.5
+    draw(found, tmp_path / "chart.png")
+    assert (tmp_path / "chart.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+def test_every_preset_can_be_charted(name):
+    found = path_chart(op.load_preset(name), name, Effort(samples=1, rounds=1))
+    # By Jones columns: Stokes vectors lose a light that is nearly extinguished, as here.
+    assert worst(by_words(found, "stable", "float64", "jones"), "normwise") <= 100
+
+
+def test_a_path_with_an_own_matrix_is_charted_without_jones():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source())
+    lamp >> path.add("foil", op.MuellerElement(np.eye(4))) >> path.add("eye", op.Detector())
+    found = path_chart(path, "foil", LITTLE)
+    assert {c["composing"] for c in found["contenders"]} == {"stokes"}
+
+
+@pytest.mark.parametrize("text", ["", "[]", '{"format": 99}', '{"format": 1}', "nonsense"])
+def test_what_is_no_chart_is_refused(text):
+    with pytest.raises(op.OptipathError, match="optipath chart --data"):
+        read_chart(text, "x.json")
+
+
+def test_a_form_that_cannot_be_drawn_is_refused(tmp_path):
+    with pytest.raises(op.OptipathError, match="ending"):
+        check_form(tmp_path / "chart.docx")
+
+
+def test_interfaces_in_world_frames_keep_their_incidence():
+    meets = op.plane_of_incidence((1, 0, -1), (0, 0, 1))
+    frames = {"in": meets.arriving, "reflected": meets.reflected}
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), frames={"out": meets.arriving})
+    path.add("glass", op.Interface(1.5, float(meets.incidence)), frames=frames)
+    path["lamp"] >> path["glass"] >> path.add("eye", op.Detector())
+    graph = in_region(path, REGIONS[0], 4, "float64")
+    assert graph.nodes["glass"]["element"].incidence == float(meets.incidence)
+    assert op.Composer().compose(graph).run().stokes.shape == (4, 4)
+
+
+def test_a_path_is_made_many_for_timing():
+    graph, values = many_paths(op.load_preset("npgr026"), 6)
+    light = op.Composer().compose(graph).run(**values)
+    assert light.stokes.shape == (6, 4)
+
+
+def test_roots_and_divisions_of_a_kernel_are_counted():
+    lossless = REFLECTION.by_method("stable").without[1]
+    assert kernel_operations(lossless, 4)["sqrt"] == 1
+    assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 3

@@ -1,0 +1,58 @@
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from optipath.kernels import FLOAT, NUMPY, DoubleDouble
+
+NUMBERS = st.floats(1e-20, 1e20)
+PAIRS = st.tuples(NUMBERS, st.floats(-0.4, 0.4)).map(lambda p: (p[0], p[1] * 2.0**-53 * p[0]))
+UNIT = 2.0**-53
+
+
+def exactly(number):
+    return mpmath.mpf(float(number.high)) + mpmath.mpf(float(number.low))
+
+
+def off(number, exact):
+    with mpmath.workdps(80):
+        return float(abs(exactly(number) / exact - 1))
+
+
+@pytest.mark.parametrize("xp", [FLOAT, NUMPY], ids=["float", "numpy"])
+@given(first=PAIRS, second=PAIRS)
+def test_sums_products_quotients_and_roots_have_twice_the_digits(xp, first, second):
+    kind = float if xp is FLOAT else np.float64
+    a, b = (DoubleDouble(xp, *map(kind, pair)) for pair in (first, second))
+    with mpmath.workdps(80):
+        x, y = exactly(a), exactly(b)
+        results = [(a + b, x + y), (a * b, x * y), (a / b, x / y), (a.sqrt(), mpmath.sqrt(x))]
+    for found, exact in results:
+        assert off(found, exact) <= 16 * UNIT * UNIT
+
+
+@given(a=NUMBERS)
+def test_what_a_difference_leaves_is_exact(a):
+    one = DoubleDouble(FLOAT, 1.0)
+    part = one / DoubleDouble(FLOAT, a)
+    assert abs((part * DoubleDouble(FLOAT, a) - 1.0).high) <= 8 * UNIT * UNIT
+
+
+def test_the_root_of_nothing_is_nothing():
+    assert DoubleDouble(FLOAT, 0.0).sqrt().high == 0.0
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64", "longdouble"])
+def test_a_product_and_its_rounding_are_exact_in_every_precision(dtype):
+    rng = np.random.default_rng(0)
+    a, b = rng.uniform(0.5, 2, (2, 1000)).astype(dtype)
+    product, rest = NUMPY.two_product(a, b)
+    assert product.dtype == rest.dtype == np.dtype(dtype)
+    with mpmath.workdps(60):
+        for i in range(1000):
+            x, y, p, r = (
+                mpmath.mpf(np.format_float_positional(v, unique=False, precision=80))
+                for v in (a[i], b[i], product[i], rest[i])
+            )
+            assert p + r == x * y

@@ -1,0 +1,141 @@
+"""Paths of many elements, and light too faint for a float."""
+
+import mpmath
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.accuracy.path_reference import exact_lights
+
+TURNED = {"azimuth": 0.3}
+ELEMENTS = {
+    "total reflection": op.Interface(1 / 1.5, 0.9, **TURNED),
+    "glass": op.Interface(1.5, 0.7, **TURNED),
+    "metal": op.Interface(0.2 + 3.4j, 1.1, **TURNED),
+}
+POLARISED = (1.0, 0.48, 0.6, 0.64)
+
+
+def chain(elements, state=POLARISED):
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source(stokes=state))
+    for number, element in enumerate(elements):
+        node = node >> path.add(f"e{number}", element)
+    node >> path.add("eye", op.Detector())
+    return path
+
+
+def excess(light):
+    """DoP - 1 of what was computed, without rounding of its own."""
+    s0, *rest = map(mpmath.mpf, light.mantissa.astype(float).tolist())
+    with mpmath.workdps(40):
+        return float(mpmath.sqrt(sum(part * part for part in rest)) / s0 - 1)
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("count", [10, 300, 3000])
+@pytest.mark.parametrize("kind", ELEMENTS)
+def test_no_path_polarises_by_more_than_100_percent(kind, count, dtype, composing):
+    path = chain([ELEMENTS[kind]] * count)
+    light = op.Composer(dtype=dtype, composing=composing).compose(path).run()
+    assert light.mantissa[0] > 0.0
+    assert light.intensity >= 0.0
+    assert excess(light) <= np.finfo(dtype).eps
+
+
+def test_a_hundred_thousand_total_reflections_keep_the_light_and_its_polarisation():
+    count = 100_000
+    # One after another about one axis: a retarder of as many times the angle.
+    element = op.Interface(1 / 1.5, 0.9)
+    path = chain([element] * count)
+    _, _, c, s = op.fresnel_reflection(1 / 1.5, np.cos(0.9), np.sin(0.9), "compensated")
+    phase = count * np.arctan2(s, c)
+    turned = (POLARISED[2] + 1j * POLARISED[3]) * np.exp(-1j * phase)
+    light = path.trace()
+    expected = [1.0, POLARISED[1], turned.real, turned.imag]
+    np.testing.assert_allclose(light.stokes, expected, atol=1e-10)
+    assert excess(light) <= 1e-12
+
+
+def test_light_of_1e_minus_100000_has_its_polarisation():
+    path = chain([op.Attenuator(1e-250)] * 400 + [op.Rotator(0.2)])
+    light = path.trace()
+    assert light.log10_intensity == pytest.approx(-100_000, abs=1e-6)
+    assert light.intensity == 0.0
+    c, s = np.cos(0.4), np.sin(0.4)
+    turned = [1.0, c * 0.48 - s * 0.6, s * 0.48 + c * 0.6, 0.64]
+    np.testing.assert_allclose(light.normalized, turned, rtol=1e-14)
+    assert light.dop == pytest.approx(1.0, abs=1e-15)
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_a_faint_path_of_glass_agrees_with_50_digits(composing):
+    rng = np.random.default_rng(4)
+    angles = rng.uniform((0, -3), (1.5, 3), (8, 2))
+    dark = [op.Attenuator(1e-200)] * 2
+    path = chain([*dark, *(op.Interface(1.5, i, azimuth=a) for i, a in angles.tolist())])
+    exact = exact_lights(path)["eye"].stokes
+    light = op.Composer(composing=composing).compose(path).run()
+    assert light.log10_intensity == pytest.approx(float(mpmath.log10(exact[0])), rel=1e-14)
+    expected = [float(part / exact[0]) for part in exact]
+    np.testing.assert_allclose(light.normalized, expected, rtol=0, atol=1e-13)
+
+
+def test_two_steps_are_enough_to_be_too_faint():
+    light = chain([op.Attenuator(1e-200)] * 2).trace()
+    assert light.intensity == 0.0
+    np.testing.assert_allclose(light.normalized, POLARISED, rtol=1e-15)
+
+
+def test_a_batch_may_be_faint_in_part():
+    light = chain([op.Attenuator([0.5, 1e-300, 0.0])] * 2).trace()
+    np.testing.assert_allclose(light.log10_intensity, [np.log10(0.25), -600, -np.inf])
+    np.testing.assert_array_equal(light.exponent == 0, [True, False, True])
+    np.testing.assert_allclose(light.stokes[0], np.multiply(POLARISED, 0.25))
+    np.testing.assert_allclose(light.dop, [1.0, 1.0, 0.0], atol=1e-15)
+
+
+def test_faint_light_adds_to_faint_light():
+    path = op.PathGraph()
+    for name, state in (("a", (1.0, 1.0, 0, 0)), ("b", (1.0, -1.0, 0, 0))):
+        node = path.add(name, op.Source(stokes=state))
+        for number in range(2):
+            node = node >> path.add(f"{name}{number}", op.Attenuator(1e-200))
+        node >> (path["sum"] if name == "b" else path.add("sum", op.Combiner()))
+    path["sum"] >> path.add("eye", op.Detector())
+    for composing in ("stokes", "jones"):
+        light = op.Composer(composing=composing).compose(path).run()
+        np.testing.assert_allclose(light.normalized, [1, 0, 0, 0], atol=1e-15)
+        assert light.log10_intensity == pytest.approx(-400 + np.log10(2), abs=1e-10)
+
+
+def test_no_intensity_is_negative_in_float32():
+    rng = np.random.default_rng(5)
+    batch = 2000
+    elements = [
+        op.Interface(
+            rng.uniform(0.5, 3, batch) + 1j * rng.uniform(0, 3, batch) * rng.integers(0, 2, batch),
+            rng.uniform(0, np.pi / 2, batch),
+            azimuth=rng.uniform(-4, 4, batch),
+        )
+        for _ in range(8)
+    ]
+    crossed = [op.Polarizer(0.4), op.Polarizer(0.4 + np.pi / 2)]
+    for composing in ("stokes", "jones"):
+        for path in (chain([*elements, *crossed]), chain([*crossed, *elements])):
+            light = op.Composer(dtype="float32", composing=composing).compose(path).run()
+            assert light.stokes.dtype == np.float32
+            assert np.all(light.mantissa[..., 0] >= 0.0)
+
+
+def test_s1_near_the_normal_keeps_its_law_where_amplitude_loses_all_of_it():
+    path = chain([op.Interface(1.5, op.Parameter("theta"))], (1.0, 0, 0, 0))
+    theta = 10.0 ** np.linspace(-12, -3, 10)
+    found = {
+        method: op.Composer(method=method).compose(path).run(theta=theta).stokes[:, 1]
+        for method in ("stable", "amplitude")
+    }
+    exact = [float(exact_lights(path, theta=t)["eye"].stokes[1]) for t in theta.tolist()]
+    np.testing.assert_allclose(found["stable"], exact, rtol=2e-15)
+    assert np.all(np.abs(found["amplitude"][:4] / exact[:4] - 1) > 0.5)
