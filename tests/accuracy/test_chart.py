@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.chart import Effort, interface_chart, path_chart, read_chart
+from optipath.accuracy.chart import Effort, chart_text, interface_chart, path_chart, read_chart
 from optipath.accuracy.contenders import contenders
 from optipath.accuracy.drawing import check_form, draw
 from optipath.accuracy.many_paths import many_paths
@@ -70,7 +70,8 @@ def test_the_limits_of_the_machine_are_below_what_was_measured(chart):
 
 
 def test_json_can_be_drawn_again_without_measuring(chart, tmp_path):
-    text = json.dumps(chart[0])
+    text = chart_text(chart[0])
+    assert json.loads(text)["title"] == "npgr026"
     again = read_chart(text, "chart.json")
     for name, found in (("a.svg", chart[0]), ("b.svg", again)):
         draw(found, tmp_path / name)

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
 import platform
 from collections import Counter
+from collections.abc import Mapping
 from functools import partial
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -24,7 +24,7 @@ from optipath.errors import ComposerError, OptipathError
 from optipath.kernels import REFLECTION
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from optipath.path_graph import PathGraph
 
@@ -133,6 +133,21 @@ def interface_chart(
     return _chart("one interface", found, least)
 
 
+def chart_text(chart: Mapping[str, Any]) -> str:
+    """Return a chart as JSON, which has no infinity: an infinite error is null."""
+    return json.dumps(_rounded(chart), indent=1, allow_nan=False) + "\n"
+
+
+def _rounded(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _rounded(entry) for name, entry in value.items()}
+    if isinstance(value, list):
+        return [_rounded(entry) for entry in value]
+    if isinstance(value, float):
+        return float(f"{value:.4g}") if np.isfinite(value) else None
+    return value
+
+
 def read_chart(text: str, name: str) -> dict[str, Any]:
     """Return a chart that was written as JSON.
 
@@ -146,9 +161,18 @@ def read_chart(text: str, name: str) -> dict[str, Any]:
         chart = json.loads(text)
     except ValueError:
         raise OptipathError(f"'{name}' is no JSON; {cure}") from None
+    chart = _with_infinities(chart)
     if not isinstance(chart, dict) or chart.get("format") != FORMAT or not _is_whole(chart):
         raise OptipathError(f"'{name}' is no whole chart of this version; {cure}")
     return chart
+
+
+def _with_infinities(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {name: _with_infinities(entry) for name, entry in value.items()}
+    if isinstance(value, list):
+        return [_with_infinities(entry) for entry in value]
+    return np.inf if value is None else value
 
 
 def _is_whole(chart: Mapping[str, Any]) -> bool:
@@ -214,7 +238,7 @@ def _chart(title: str, found: list[dict[str, Any]], least: Mapping[str, float]) 
         "limits_ns": dict(least),
         "fails_above": LIMIT,
         "paths": PATHS,
-        "machine": {"platform": platform.platform(), "cpus": os.cpu_count()},
+        "machine": {"system": platform.system(), "processor": platform.machine()},
         "versions": {
             "python": platform.python_version(),
             **{name: version(name) for name in ("optipath", "numpy")},

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -87,7 +86,8 @@ def _measure_and_draw(
     out: Path,
     data: Path | None,
 ) -> None:
-    from optipath.accuracy.drawing import check_form, draw  # noqa: PLC0415 - an extra
+    from optipath.accuracy.chart import chart_text  # noqa: PLC0415 - an extra
+    from optipath.accuracy.drawing import check_form, draw  # noqa: PLC0415 - ditto
 
     check_form(out)
     for file in (out, data):
@@ -101,7 +101,7 @@ def _measure_and_draw(
         task = bar.add_task("", total=1.0)
         chart = measure(lambda what, done: bar.update(task, description=what, completed=done))
     if data is not None:
-        _write(data, lambda: data.write_text(json.dumps(chart, indent=1) + "\n", "utf-8"))
+        _write(data, lambda: data.write_text(chart_text(chart), "utf-8"))
     _write(out, lambda: draw(chart, out))
 
 

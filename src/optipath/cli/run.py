@@ -92,9 +92,13 @@ def _as_json(result: Result) -> dict[str, Any]:
 
 
 def _reading(result: Result, name: str) -> dict[str, Any]:
-    published = result.published(name)
-    stokes = _plain(result.lights[name].stokes.tolist(), "")
-    return {"stokes": stokes} | ({"published": list(published)} if published else {})
+    published, light = result.published(name), result.lights[name]
+    found = {"stokes": _plain(light.stokes.tolist(), "")}
+    if np.any(light.exponent):
+        # Too faint for the numbers above: they are 0, and these are not.
+        found["log10_intensity"] = _plain(light.log10_intensity.tolist(), "")
+        found["normalized"] = _plain(light.normalized.tolist(), "")
+    return found | ({"published": list(published)} if published else {})
 
 
 def _plain(value: Any, unit: str) -> Any:
@@ -107,8 +111,9 @@ def _plain(value: Any, unit: str) -> Any:
         return {"n": value.real, "k": value.imag}
     if isinstance(value, (str, NoneType)):
         return value
-    # JSON has no NaN: what is not read is null. Adding 0 turns -0 into 0.
-    return None if math.isnan(value) else in_unit(value, unit) + 0.0
+    # JSON has no NaN: what is not read is null, and so is the logarithm of the dark. Adding 0
+    # turns -0 into 0.
+    return None if not math.isfinite(value) else in_unit(value, unit) + 0.0
 
 
 def _print(result: Result) -> None:
@@ -141,6 +146,10 @@ def _light_table(result: Result, name: str) -> Table:
     for position, component in enumerate(stokes.tolist()):
         row = [f"S{position}", _shown(component)]
         table.add_row(*map(Text, [*row, *([f"{published[position]:g}"] if published else [])]))
+    light = result.lights[name]
+    if light.exponent:
+        table.add_row("log10 S0", f"{light.log10_intensity:.12g}")
+        table.add_row("over S0", ", ".join(_shown(part) for part in light.normalized.tolist()))
     return table
 
 
