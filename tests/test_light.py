@@ -1,3 +1,5 @@
+import pickle
+
 import numpy as np
 import pytest
 
@@ -64,3 +66,32 @@ def test_what_is_no_frame_is_refused(make):
 def test_what_is_no_stokes_vector_is_refused(stokes):
     with pytest.raises(op.ShapeError, match=r"\(\.\.\., 4\)"):
         op.Light(stokes)
+
+
+def test_faint_light_keeps_all_but_its_plain_numbers():
+    light = op.Light([[2.0, 1.2, 0.0, 1.6], [0.0, 0.0, 0.0, 0.0]], exponent=[-5000, 0])
+    np.testing.assert_array_equal(light.stokes, 0.0)
+    np.testing.assert_allclose(light.normalized, [[1.0, 0.6, 0.0, 0.8], [0, 0, 0, 0]])
+    np.testing.assert_allclose(light.dop, [1.0, 0.0])
+    np.testing.assert_allclose(light.log10_intensity, [-4999 * np.log10(2), -np.inf])
+
+
+def test_faint_lights_add_turn_and_pass_matrices():
+    faint = op.Light([1.0, 1.0, 0.0, 0.0], exponent=-5000)
+    crossed = op.Light([2.0, -2.0, 0.0, 0.0], exponent=-5001)
+    np.testing.assert_allclose((faint + crossed).normalized, [1.0, 0.0, 0.0, 0.0])
+    np.testing.assert_allclose((faint + op.Light([0.0] * 4)).normalized, [1.0, 1.0, 0.0, 0.0])
+    np.testing.assert_array_equal((faint + op.Light([1.0, 0, 0, 0])).stokes, [1.0, 0, 0, 0])
+    turned = faint.in_frame(op.Frame().turned(np.pi / 4))
+    np.testing.assert_allclose(turned.normalized, [1.0, 0.0, -1.0, 0.0], atol=1e-15)
+    halved = op.Mueller(np.diag([0.5] * 4)) @ faint
+    assert halved.log10_intensity == pytest.approx(-5001 * np.log10(2))
+    assert pickle.loads(pickle.dumps(faint)) == faint
+    assert faint != op.Light([1.0, 1.0, 0.0, 0.0])
+
+
+def test_an_exponent_is_an_integer_and_fits():
+    with pytest.raises(op.ShapeError, match="integer"):
+        op.Light([1.0, 0, 0, 0], exponent=0.5)
+    with pytest.raises(op.ShapeError, match="exponent"):
+        op.Light(np.ones((3, 4)), exponent=[1, 2])

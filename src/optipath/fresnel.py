@@ -117,7 +117,8 @@ def _fresnel(
     shape = check_broadcast(shapes)
     if np.any(np.abs(np.hypot(c, s) - 1.0) > 1e-6):
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
-    given = (np.ones(()), m.real, m.imag, c, s)
+    # Adding 0 turns -0 into 0.
+    given = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))
     with np.errstate(all="ignore"):
         kernel, left = kernel.leaving_out([np.asarray(x, kind) for x in given], _vanishes)
         numbers = kernel.made_for(NUMPY)(*left)

@@ -79,6 +79,8 @@ def plane_of_incidence(
     lengths = _length(k) * _length(n)
     sin, cos = _length(across) / lengths, np.abs(along) / lengths
     parallel = sin < _PARALLEL
+    if keep is not None and not isinstance(keep, Frame):
+        raise FrameError(f"keep must be the Frame that the light has, not {keep!r}")
     x = _axis(across, k, parallel, keep)
     z = k / _length(k)[..., np.newaxis]
     unit = n / _length(n)[..., np.newaxis]
@@ -101,8 +103,9 @@ def _axis(across: Any, k: Any, parallel: Any, keep: Frame | None) -> npt.NDArray
             "keep=, the frame whose x it keeps"
         )
     check_broadcast({"direction": k.shape[:-1], "keep": keep.z.shape[:-1]})
-    kept = Frame.from_direction(k, keep.x)
-    # Only the frame of this very light says what is kept.
+    # Only the frame of this very light says what is kept; the others keep nothing.
+    z = np.where(parallel[..., np.newaxis], k, keep.z)
+    kept = Frame.from_direction(z, keep.x)
     keep.turn_to(kept)
     return np.where(parallel[..., np.newaxis], kept.x, x)
 

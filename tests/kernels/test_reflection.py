@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels import FLOAT, METHODS, NUMPY, REFLECTION
+from optipath.kernels import FLOAT, METHODS, NUMPY, REFLECTION, TRANSMISSION
 
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 8.0))
@@ -155,3 +155,74 @@ def test_b_never_exceeds_a_next_to_brewsters_angle(n, off):
     angle = np.arctan(n) + off
     A, B, _, _ = op.fresnel_reflection(n, np.cos(angle), np.sin(angle))
     assert abs(B) <= A
+
+
+@pytest.mark.parametrize("method", ["stable", "compensated"])
+@pytest.mark.parametrize("family", [REFLECTION, TRANSMISSION], ids=["reflection", "transmission"])
+@given(n=INDICES, outside=st.floats(0.5, 3.0), angle=ANGLES)
+def test_the_cheaper_kernel_for_lossless_media_gives_the_same_bits(
+    family, method, n, outside, angle
+):
+    whole = family.by_method(method)
+    c, s = float(np.cos(angle)), float(np.sin(angle))
+    cheaper, given_ = whole.leaving_out((outside, n, 0.0, c, s), lambda number: number == 0.0)
+    assert len(given_) == 4
+    one, other = (
+        kernel.made_for(FLOAT)(*arguments)
+        for kernel, arguments in ((whole, (outside, n, 0.0, c, s)), (cheaper, given_))
+    )
+    assert [float(number) for number in one] == [float(number) for number in other]
+
+
+def test_an_index_that_absorbs_nothing_takes_the_cheaper_kernel():
+    path = op.PathGraph()
+    glass = path.add("glass", op.Interface([1.4, 1.5], 0.3))
+    path.add("lamp", op.Source()) >> glass >> path.add("metal", op.Interface(0.2 + 3j, 0.4))
+    path["metal"] >> path.add("eye", op.Detector())
+    names = [evaluation.kernel.name for evaluation in path.compose().program.evaluations]
+    assert "Fresnel reflection (stable, lossless)" in names
+    assert "Fresnel reflection (stable)" in names
+
+
+@pytest.mark.parametrize("method", METHODS)
+@given(n=INDICES, k=EXTINCTIONS, angle=st.floats(0.0, 1.5))
+def test_what_is_let_through_and_what_is_reflected_is_all_the_light(method, n, k, angle):
+    given_ = (complex(n, k), np.cos(angle), np.sin(angle), method)
+    (A, B, C, S), (TA, TB, TC, TS) = (
+        function(*given_) for function in (op.fresnel_reflection, op.fresnel_transmission)
+    )
+    # The two old methods lose some digits here already.
+    slack = 1e-13 if method in {"stable", "compensated"} else 1e-6
+    assert pytest.approx(1.0, abs=slack) == A + TA
+    assert pytest.approx(0.0, abs=slack) == B + TB
+    assert TC**2 + TS**2 == pytest.approx((TA + TB) * (TA - TB), abs=slack)
+
+
+def test_transmission_into_glass_is_as_in_the_books():
+    # Born & Wolf, sec. 1.5.3, at Brewster's angle: T_p = 1, T_s = 1 - (1-n^2)^2/(1+n^2)^2.
+    norm = np.hypot(1.0, 1.5)
+    A, B, C, S = op.fresnel_transmission(1.5, 1.0 / norm, 1.5 / norm)
+    Ts = 1 - (1.25 / 3.25) ** 2
+    assert pytest.approx(1.0, abs=1e-15) == A - B
+    assert pytest.approx(Ts, abs=1e-15) == A + B
+    assert pytest.approx(np.sqrt(Ts), abs=1e-15) == C
+    assert S == 0.0
+
+
+def test_nothing_passes_in_total_reflection():
+    found = op.fresnel_transmission(0.5, [0.6, 0.0], [0.8, 1.0])
+    np.testing.assert_array_equal(found, np.zeros((4, 2)))
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("method", METHODS)
+def test_the_result_has_the_precision_that_was_asked_for(method, dtype):
+    for function in (op.fresnel_reflection, op.fresnel_transmission):
+        for index in (1.5, [1.5, 0.2 + 3j]):
+            found = function(index, 0.8, 0.6, method, dtype)
+            assert {number.dtype for number in found} == {np.dtype(dtype)}
+
+
+def test_an_unknown_precision_is_refused_with_a_suggestion():
+    with pytest.raises(op.ComposerError, match="did you mean 'float64'"):
+        op.fresnel_reflection(1.5, 1.0, 0.0, dtype="flaot64")

@@ -20,7 +20,7 @@ from optipath.accuracy.many_paths import many_paths
 from optipath.accuracy.operations import kernel_operations, operations
 from optipath.accuracy.path_errors import path_errors, trials, worst_and_median
 from optipath.accuracy.regions import REGIONS
-from optipath.errors import ComposerError, OptipathError
+from optipath.errors import ComposerError, OptipathError, ParameterError
 from optipath.kernels import REFLECTION
 
 if TYPE_CHECKING:
@@ -66,7 +66,8 @@ def path_chart(
     dict
         What `draw` draws, ready to be written as JSON.
     """
-    runners = [runner for runner in contenders() if _composes(runner, path)]
+    _refuse_batches(path)
+    runners = _different(path)
     # Longdouble is given the numbers of float64, and so has its references.
     rounded = {"float64": "float64", "float32": "float32", "longdouble": "float64"}
     drawn = dict.fromkeys(rounded[dtype] for dtype in available_dtypes())
@@ -159,12 +160,12 @@ def read_chart(text: str, name: str) -> dict[str, Any]:
     cure = "give a file that 'optipath chart --data' wrote"
     try:
         chart = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         raise OptipathError(f"'{name}' is no JSON; {cure}") from None
     chart = _with_infinities(chart)
-    if not isinstance(chart, dict) or chart.get("format") != FORMAT or not _is_whole(chart):
+    if not _is_whole(chart):
         raise OptipathError(f"'{name}' is no whole chart of this version; {cure}")
-    return chart
+    return dict(chart)
 
 
 def _with_infinities(value: Any) -> Any:
@@ -175,30 +176,55 @@ def _with_infinities(value: Any) -> Any:
     return np.inf if value is None else value
 
 
-def _is_whole(chart: Mapping[str, Any]) -> bool:
+def _is_whole(chart: Any) -> bool:
     """Tell whether everything is there that is drawn."""
     try:
-        numbers = [chart["fails_above"], *chart["limits_ns"].values()]
+        words, sizes, off = [chart["title"]], [chart["fails_above"]], []
+        sizes += chart["limits_ns"].values()
         for entry in chart["contenders"]:
-            words = [entry[word] for word in ("method", "dtype", "engine", "composing")]
-            numbers += [entry["eps"], entry["ns"]["least"]]
+            words += [entry[word] for word in ("method", "dtype", "engine", "composing")]
+            sizes += [entry["eps"], entry["ns"]["least"]]
             for kind in Errors._fields:
-                for error in entry["errors"][kind].values():
-                    numbers += [error["worst"], error["median"]]
-            if not all(isinstance(word, str) for word in words):
-                return False
+                errors = list(entry["errors"][kind].values())
+                off += [error[which] for error in errors for which in ("worst", "median")]
+                if not errors:
+                    return False
+        return bool(
+            type(chart["format"]) is int
+            and chart["format"] == FORMAT
+            and chart["contenders"]
+            and all(isinstance(word, str) for word in words)
+            and all(_is_number(size) and 0 < size < np.inf for size in sizes)
+            and all(_is_number(error) and error >= 0 for error in off)
+        )
     except (KeyError, TypeError, AttributeError):
         return False
-    floats = all(isinstance(number, (int, float)) for number in numbers)
-    return floats and bool(chart["contenders"]) and isinstance(chart.get("title"), str)
 
 
-def _composes(runner: Contender, path: PathGraph) -> bool:
-    try:
-        runner.composer.compose(path)
-    except ComposerError:
-        return False
-    return True
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _refuse_batches(path: PathGraph) -> None:
+    _, batch = path.compose().inputs.resolve({})
+    if batch:
+        raise ParameterError(
+            f"a chart is of one path, and this is a batch of shape {batch}; give single values"
+        )
+
+
+def _different(path: PathGraph) -> list[Contender]:
+    """Return the contenders that can compute a path, and each computation once."""
+    found: dict[Any, Contender] = {}
+    for runner in contenders():
+        try:
+            plan = runner.composer.compose(path)
+            plan.run_all()
+        except (ComposerError, ParameterError):
+            continue
+        kernels = tuple(evaluation.kernel for evaluation in plan.program.evaluations)
+        found.setdefault((kernels, runner.dtype, runner.engine, runner.composing), runner)
+    return list(found.values())
 
 
 def _entry(runner: Contender, off: Mapping[str, Errors]) -> dict[str, Any]:

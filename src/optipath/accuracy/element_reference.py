@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.accuracy.many_digits import MANY_DIGITS, exact_angle, exactly, mpmath
+from optipath.accuracy.many_digits import MANY_DIGITS, cos_sin, exact_angle, exactly, mpmath
 from optipath.accuracy.reference import amplitudes
 from optipath.elements import (
     Attenuator,
@@ -103,7 +103,7 @@ class Reader:
 
 def turn(angle: Any) -> Jones:
     """Return what a turn of the frame does to the field."""
-    c, s = mpmath.cos(angle), mpmath.sin(angle)
+    c, s = cos_sin(angle)
     return (c, s), (-s, c)
 
 
@@ -118,8 +118,7 @@ def jones(element: Element, leaves: str, read: Reader) -> Jones | None:
 def _(element: Interface, leaves: str, read: Reader) -> Jones:
     del leaves
     m = read.index(element.index) / read.index(element.outside).real
-    theta = read.angle(element.incidence)
-    rs, rp, _ = amplitudes(m, mpmath.cos(theta), mpmath.sin(theta))
+    rs, rp, _ = amplitudes(m, *cos_sin(read.angle(element.incidence)))
     return _diagonal(rs, rp)
 
 
@@ -134,7 +133,7 @@ def _(element: Polarizer, leaves: str, read: Reader) -> Jones:
 def _(element: Retarder, leaves: str, read: Reader) -> Jones:
     del leaves
     # The field is exp(-iwt): what falls behind gains a positive phase.
-    slow = mpmath.expj(read.angle(element.retardance))
+    slow = mpmath.mpc(*cos_sin(read.angle(element.retardance)))
     return _turned(_diagonal(1, slow), read.angle(element.angle, 2))
 
 

@@ -33,7 +33,9 @@ class Errors(NamedTuple):
     normwise: npt.NDArray[np.float64]
 
 
-def errors(found: npt.NDArray[Any], exact: Iterable[Any], dtype: str) -> Errors:
+def errors(
+    found: npt.NDArray[Any], exact: Iterable[Any], dtype: str, *, against_first: bool = False
+) -> Errors:
     """Return the errors of computed numbers.
 
     Parameters
@@ -44,6 +46,9 @@ def errors(found: npt.NDArray[Any], exact: Iterable[Any], dtype: str) -> Errors:
         The references, four values and four condition numbers each.
     dtype : str
         The precision whose ulp is the unit.
+    against_first : bool, optional
+        Take the error of a component that is exactly 0 in ulp of the first, rather than
+        in ulp of nothing.
 
     Examples
     --------
@@ -55,11 +60,12 @@ def errors(found: npt.NDArray[Any], exact: Iterable[Any], dtype: str) -> Errors:
     with mpmath.workdps(WORKING_DIGITS):
         for row, (numbers, (values, conditions)) in enumerate(zip(found, exact, strict=True)):
             off = [_distance(x, value) for x, value in zip(numbers, values, strict=True)]
+            size = abs(values[0])
+            instead = size if against_first else 0
             componentwise[row] = [
-                _in_ulp(d, value, dtype) / (1.0 + condition)
+                _in_ulp(d, value or instead, dtype) / (1.0 + condition)
                 for d, value, condition in zip(off, values, conditions, strict=True)
             ]
-            size = abs(values[0])
             shares = [abs(v) * c for v, c in zip(values, conditions, strict=True)]
             most = float(max(shares) / size) if size else 0.0
             normwise[row] = _in_ulp(max(off), size, dtype) / (1.0 + most)

@@ -64,7 +64,8 @@ def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
         What `operations` has counted.
     """
     unit = throughput()
-    return {
+    found = {
         "sqrt and division": counts["sqrt"] * unit["sqrt"] + counts["div"] * unit["div"],
         "memory": 8 * numbers * unit["byte"],
     }
+    return {name: ns for name, ns in found.items() if ns > 0.0}

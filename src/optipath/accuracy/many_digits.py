@@ -16,6 +16,7 @@ except ImportError:
 
 DIGITS = 50
 WORKING_DIGITS = 2 * DIGITS
+_HUGE = 1e9
 
 
 def exactly(number: Any) -> Any:
@@ -46,7 +47,24 @@ def exact_angle(angle: float) -> Any:
     """
     eighth = +mpmath.pi / 4
     multiple = mpmath.nint(mpmath.mpf(angle) / eighth) * eighth
-    return multiple if float(multiple) == angle else mpmath.mpf(angle)
+    # Of angles so huge that their rounding is a turn, every one is nearest to some multiple.
+    near = float(multiple) == angle and abs(angle) < _HUGE
+    return multiple if near else mpmath.mpf(angle)
+
+
+def cos_sin(angle: Any) -> tuple[Any, Any]:
+    """Return the cosine and the sine; what is less than the working precision is 0.
+
+    Examples
+    --------
+    >>> cos_sin(exact_angle(np.pi / 2))
+    (mpf('0.0'), mpf('1.0'))
+    """
+    least = mpmath.mpf(10) ** -(mpmath.mp.dps - 5)
+    c, s = mpmath.cos(angle), mpmath.sin(angle)
+    if abs(c) < least:
+        return mpmath.mpf(0), mpmath.sign(s)
+    return (mpmath.sign(c), mpmath.mpf(0)) if abs(s) < least else (c, s)
 
 
 MANY_DIGITS = Primitives(
@@ -67,4 +85,4 @@ MANY_DIGITS = Primitives(
 )
 """For elements of one's own, whose formulas are the only ones there are."""
 
-__all__ = ["DIGITS", "MANY_DIGITS", "WORKING_DIGITS", "exact_angle", "exactly", "mpmath"]
+__all__ = ["DIGITS", "MANY_DIGITS", "WORKING_DIGITS", "cos_sin", "exact_angle", "exactly", "mpmath"]

@@ -29,7 +29,7 @@ class _Counted:
         return self
 
     __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = _same
-    __neg__ = __and__ = __rand__ = __or__ = __ror__ = _same
+    __neg__ = __pos__ = __abs__ = __pow__ = __rpow__ = __and__ = __rand__ = __or__ = __ror__ = _same
     __lt__ = __le__ = __gt__ = __ge__ = __eq__ = __ne__ = _same  # type: ignore[assignment]
     __truediv__ = __rtruediv__ = _divided
     __hash__ = None  # type: ignore[assignment]

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import networkx as nx
+    import numpy.typing as npt
 
     from optipath.accuracy.path_reference import ExactLight
     from optipath.accuracy.regions import Region
@@ -78,8 +79,21 @@ def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
     exact = [_over(light, int(power)) for light, power in zip(exact, powers, strict=True)]
     # A component that a detector does not read has no error.
     unread = np.isnan(found)
-    off = errors(np.where(unread, 0, found), exact, dtype)
-    return Errors(np.where(unread, 0.0, off.componentwise), off.normwise)
+    found = np.where(unread, 0, found)
+    exact = [_without(light, row) for light, row in zip(exact, unread, strict=True)]
+    off = errors(found, exact, dtype, against_first=True)
+    # Light that a precision cannot hold is lost, however small the step of its last place.
+    least = np.finfo(dtype).tiny
+    lost = [
+        not row[0] and 0 < light.stokes[0] < least for row, light in zip(found, exact, strict=True)
+    ]
+    off.componentwise[lost] = off.normwise[lost] = np.inf
+    return off
+
+
+def _without(light: ExactLight, unread: npt.NDArray[np.bool_]) -> ExactLight:
+    kept = zip(light.stokes, unread.tolist(), strict=True)
+    return light._replace(stokes=tuple(mpmath.mpf(0) if gone else part for part, gone in kept))
 
 
 def _over(light: ExactLight, power: int) -> ExactLight:

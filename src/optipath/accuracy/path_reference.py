@@ -12,7 +12,8 @@ from optipath.accuracy.many_digits import DIGITS, WORKING_DIGITS, exactly, mpmat
 from optipath.composer import Wiring
 from optipath.composer.placement import azimuth_of, frame_at
 from optipath.composer.values import Values
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, PathError
+from optipath.path_graph import PathGraph
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
     from optipath.elements import Coupling, Element
     from optipath.frames import Frame
     from optipath.parameters import Resolved
-    from optipath.path_graph import PathGraph
 
 
 class ExactLight(NamedTuple):
@@ -61,6 +61,8 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     >>> [float(component) for component in lights["eye"].stokes]
     [0.5, 0.5, 0.0, 0.0]
     """
+    if not isinstance(path, PathGraph):
+        raise PathError(f"a reference is of a PathGraph, not of {path!r}")
     given, batch = path.compose().inputs.resolve(parameters)
     if batch:
         raise ParameterError(f"a reference takes single values, not a batch of shape {batch}")

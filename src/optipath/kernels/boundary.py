@@ -23,8 +23,8 @@ class Boundary(NamedTuple):
         n1 cos, the wave in front along the normal.
     a, b : float
         The wave behind along the normal, g = a + ib = sqrt(m2^2 - (n1 sin)^2), a, b >= 0.
-    modulus : float
-        |g|.
+    squared : float
+        |g|^2.
     D, v : float
         m2^2 - n1^2 = D + iv.
     s, c : float
@@ -36,7 +36,7 @@ class Boundary(NamedTuple):
     p: Any
     a: Any
     b: Any
-    modulus: Any
+    squared: Any
     D: Any
     v: Any
     s: Any
@@ -84,7 +84,7 @@ def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
 
 
 def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, Any]]:
-    """Make ``(u, n, k) -> (a, b, |g|)`` with g = a + ib = sqrt(u + 2ink), a, b >= 0.
+    """Make ``(u, n, k) -> (a, b, |g|^2)`` with g = a + ib = sqrt(u + 2ink), a, b >= 0.
 
     The larger of a and b is a sum; the smaller is what ab = nk leaves for it.
 
@@ -103,46 +103,47 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
         # In this order, since n k may underflow.
         smaller = n / where(larger > 0.0, larger, 1.0) * k
         forward = u >= 0.0
-        return where(forward, larger, smaller), where(forward, smaller, larger), sqrt(squared)
+        return where(forward, larger, smaller), where(forward, smaller, larger), squared
 
     return root
 
 
 def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     """Make ``(n1, n, k, cos, sin) -> Boundary``."""
-    divided, squared, root = near_one(xp), _squared_wave(xp), complex_root(xp)
+    divided, wave, root = near_one(xp), _wave(xp), complex_root(xp)
     absolute = xp.absolute
 
     def boundary(n1: Any, n: Any, k: Any, c: Any, s: Any) -> Boundary:
         # The absolute value makes -0 a 0.
         n1, n, k = divided(n1, n, absolute(k))
-        p, contrast, u = squared(n1, n, k, c, s)
-        a, b, modulus = root(u, n, k)
-        return Boundary(p, a, b, modulus, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
+        p, contrast, u = wave(n1, n, k, c, s)
+        a, b, squared = root(u, n, k)
+        return Boundary(p, a, b, squared, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
 
     return boundary
 
 
 def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
     """Make ``(n1, n, cos, sin) -> Boundary``, for media that absorb nothing."""
-    divided, squared = near_one(xp), _squared_wave(xp)
+    divided, wave = near_one(xp), _wave(xp)
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
     def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
         n1, n = divided(n1, n)
-        p, contrast, u = squared(n1, n, 0.0, c, s)
-        size = sqrt(absolute(u))
+        p, contrast, u = wave(n1, n, 0.0, c, s)
+        squared = absolute(u)
+        size = sqrt(squared)
         forward = u >= 0.0
         a, b = where(forward, size, 0.0), where(forward, 0.0, size)
-        return Boundary(p, a, b, size, contrast, 0.0, s, c, n1, n, 0.0)
+        return Boundary(p, a, b, squared, contrast, 0.0, s, c, n1, n, 0.0)
 
     return boundary
 
 
-def _squared_wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any]]:
+def _wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any]]:
     where = xp.where
 
-    def squared(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
+    def wave(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
         p = n1 * c
         y = n1 * s
         contrast = (n - n1) * (n + n1)
@@ -150,4 +151,4 @@ def _squared_wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any]]:
         u = where(c < s, contrast + p * p, (n - y) * (n + y)) - k * k
         return p, contrast, u
 
-    return squared
+    return wave

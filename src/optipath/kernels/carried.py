@@ -44,7 +44,11 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
     >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
     (0.0, -0.1)
     """
-    return xp.where((weak < 0.0) & xp.hidden(_SEVERAL * size, weak), 0.0, weak)
+    return xp.where((weak < 0.0) & _vanishes(weak, _SEVERAL * size), 0.0, weak)
+
+
+def _vanishes(number: Any, beside: Any) -> Any:
+    return beside + number == beside
 
 
 def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
@@ -64,7 +68,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     # |S|^2 - S0^2, where S0 = 2 weak + |S1|.
     excess = s2 * s2 + s3 * s3 - 4.0 * weak * (weak + size)
     square = s0 * s0
-    rounding = (excess > 0.0) & xp.hidden(_MANY * square, excess)
+    rounding = (excess > 0.0) & _vanishes(excess, _MANY * square)
     gap = xp.where(rounding, 0.5 * excess / xp.where(square > 0.0, square, 1.0), 0.0)
     return weak + 0.5 * size * gap, s1 - s1 * gap, s2 - s2 * gap, s3 - s3 * gap
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.double_double import DoubleDouble, twice
@@ -19,9 +20,14 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 
-def _compensated(factory: Factory) -> Factory:
-    def make(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-        kernel, sqrt = factory(twice(xp)), DoubleDouble.sqrt
+@dataclass(frozen=True)
+class _Compensated:
+    """Makes a kernel that computes in twice the precision; a class, so that plans can be pickled."""
+
+    factory: Factory
+
+    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        kernel, sqrt = self.factory(twice(xp)), DoubleDouble.sqrt
 
         def rounded_once(*given: Any) -> tuple[Any, ...]:
             # Not a plain 0: the rest has the precision of the number.
@@ -33,10 +39,8 @@ def _compensated(factory: Factory) -> Factory:
 
         return rounded_once
 
-    return make
 
-
-compensated_reflection = _compensated(stable_reflection)
-compensated_transmission = _compensated(stable_transmission)
-compensated_lossless_reflection = _compensated(lossless_reflection)
-compensated_lossless_transmission = _compensated(lossless_transmission)
+compensated_reflection = _Compensated(stable_reflection)
+compensated_transmission = _Compensated(stable_transmission)
+compensated_lossless_reflection = _Compensated(lossless_reflection)
+compensated_lossless_transmission = _Compensated(lossless_transmission)

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 
-_LEAST = 2.0**-52
-"""What it takes to nothing has lost digits to an underflow already."""
+_LOST, _LEAST = 2.0**-52, 2.0**-970
+"""What the first takes to 0 has lost digits; what is below the second has too large an inverse."""
 
 
 def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
@@ -54,11 +54,12 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         at = boundary(n1, n, k, c, s)
         powers, (re, im), behind, q = transmitted(at)
         size = length(at.n, at.k)
-        share = sqrt(behind) / q / where(size > 0.0, size, 1.0)
-        C, S = share * (re * at.n + im * at.k), share * (im * at.n - re * at.k)
+        n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
+        share = powers[0] * sqrt(behind / q) / sqrt(q)
         absorbs = at.k > 0.0
-        C = where(absorbs, C * powers[0], _lossless(where, powers[0], at, re))
-        return *powers, C, where(absorbs, S * powers[0], 0.0)
+        C = where(absorbs, share * (re * n + im * k), _lossless(where, powers[0], at, re))
+        # Adding 0 turns -0 into 0.
+        return *powers, C, where(absorbs, share * (im * n - re * k), 0.0) + 0.0
 
     return transmit
 
@@ -86,7 +87,7 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
 
     def first(at: Boundary) -> tuple[Any, Any]:
         """Return Fs and Ts."""
-        P = (at.p + at.a) * (at.p + at.a) + at.b * at.b
+        P = at.p * at.p + (2.0 * at.p * at.a + at.squared)
         # P vanishes only at grazing incidence on an equal medium, which is no interface.
         there = P > 0.0
         P = where(there, P, 1.0)
@@ -100,11 +101,16 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
 
 
 class _Slant(NamedTuple):
-    """z / n1 = n1 sin^2, c a and c b, and |z + p g|^2 / n1^2, by which r_p differs from r_s."""
+    """How r_p differs from r_s: by z and p g, all of it divided by n1.
+
+    `z2` and `g2` are the squares of z = n1 sin^2 and of c|g|, and `q` is |z + p g|^2.
+    """
 
     z: Any
     ca: Any
     cb: Any
+    z2: Any
+    g2: Any
     there: Any
     q: Any
 
@@ -114,11 +120,12 @@ def _second(xp: Primitives) -> Callable[[Boundary], _Slant]:
 
     def second(at: Boundary) -> _Slant:
         z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
-        q = (z + ca) * (z + ca) + cb * cb
+        z2, g2 = z * z, at.c * at.c * at.squared
+        q = z2 + (2.0 * z * ca + g2)
         # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
         # where the limits are known; at 90 degrees they are exact.
-        there = (_LEAST * q > 0.0) & (at.c > 0.0)
-        return _Slant(z, ca, cb, there, where(there, q, 1.0))
+        there = (_LOST * q > 0.0) & (q > _LEAST) & (at.c > 0.0)
+        return _Slant(z, ca, cb, z2, g2, there, where(there, q, 1.0))
 
     return second
 
@@ -128,15 +135,14 @@ def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
 
     def reflected(at: Boundary) -> tuple[Any, ...]:
         Fs, _ = first(at)
-        z, ca, cb, there, q = second(at)
+        z, ca, cb, z2, g2, there, q = second(at)
         f = Fs / q
         # Factors that may be tiny come last: no digit is lost to an underflow before them.
         parted = 2.0 * f * (at.s * at.s) * at.c
         B, S = parted * at.a * at.n1, parted * at.b * at.n1
         # The difference is the better one unless it cancels, and exact in total reflection.
         Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * ((z - ca) * (z - ca) + cb * cb))
-        root = at.c * at.modulus
-        C = where(there, f * (z - root) * (z + root), where(at.c < z, Fs, -Fs))
+        C = where(there, f * (z2 - g2), where(at.c < z, Fs, -Fs))
         return Fs, Fp, B, C, S
 
     return reflected
@@ -148,9 +154,10 @@ def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
     def transmitted(at: Boundary) -> tuple[Any, ...]:
         """Return (Ts, Tp, B), (z + p g) / n1, |g|^2 + z, and |z + p g|^2 / n1^2."""
         Fs, Ts = first(at)
-        z, ca, cb, _, q = second(at)
-        behind = at.modulus * at.modulus + at.n1 * z
-        B = 0.0 - 2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
-        return (Ts, Ts * behind / q, B), (z + ca, cb), behind, q
+        slant = second(at)
+        behind = at.squared + at.n1 * slant.z
+        B = 0.0 - 2.0 * Fs / slant.q * (at.s * at.s) * at.c * at.a * at.n1
+        powers = Ts, Ts * (behind / slant.q), B
+        return powers, (slant.z + slant.ca, slant.cb), behind, slant.q
 
     return transmitted
