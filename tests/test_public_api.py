@@ -17,6 +17,7 @@ ROOMS = [
     "kernels",
     "frames",
     "incidence",
+    "faint",
     "light",
     "mueller",
     "materials",

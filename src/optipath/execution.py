@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.engines import numpy_engine
 from optipath.errors import ParameterError
+from optipath.faint import folded, is_faint, times_two_to
 from optipath.kernels import NUMPY, Jones, Plain, Scaled, carry
 from optipath.precision import wide
 
@@ -66,7 +67,10 @@ class Execution:
         self.dtype = np.dtype(dtype)
         self.method = method
         numbers = (view.numbers(given, wide(self.dtype)) for view in program.leaves)
-        self._leaves = [n if n.dtype == bool else n.astype(self.dtype, copy=False) for n in numbers]
+        with np.errstate(over="ignore", under="ignore"):  # What is not finite is told later.
+            self._leaves = [
+                n if n.dtype == bool else n.astype(self.dtype, copy=False) for n in numbers
+            ]
 
     def lights(self) -> dict[str, Found]:
         """Return the light at every detector and dump.
@@ -78,9 +82,9 @@ class Execution:
         """
         way = self._way()
         found = self._run(way)
-        if way is _PLAIN and any(np.any(self._faint(f.stokes[..., 0])) for f in found.values()):
+        if way is _PLAIN and any(np.any(is_faint(f.stokes[..., 0])) for f in found.values()):
             found = self._run(_SCALED)
-        return {name: self._unscaled(light) for name, light in found.items()}
+        return {name: Found(*folded(*light)) for name, light in found.items()}
 
     def matrix(self, source: str, reading: Reading) -> npt.NDArray[Any]:
         """Return the Mueller matrix from a source to a reading.
@@ -103,7 +107,7 @@ class Execution:
             reading.light
         ]
         found = self._stacked(components, exponent, (4, *self.batch), reading)
-        matrix = np.moveaxis(np.ldexp(found.stokes, found.exponent[..., np.newaxis]), 0, -1)
+        matrix = np.moveaxis(times_two_to(*found), 0, -1)
         if way is _JONES:
             matrix[..., 1:] -= matrix[..., :1]
         return np.ascontiguousarray(matrix)
@@ -129,18 +133,7 @@ class Execution:
         if not np.all(np.isfinite(stokes[..., : reading.components])):
             raise ParameterError(
                 f"the light is not finite in {self.dtype} by method '{self.method}': a value is "
-                f"too extreme; give values nearer to 1, or use method 'stable'"
+                f"too extreme; give values nearer to 1"
+                + ("" if self.method == "stable" else ", or use method 'stable'")
             )
         return Found(stokes, np.broadcast_to(exponent, batch))
-
-    def _faint(self, intensity: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
-        # Below this, what underflows on the way may be seen in what is left.
-        least = np.finfo(self.dtype).tiny * 2.0**60
-        return np.asarray(intensity < least)
-
-    def _unscaled(self, light: Found) -> Found:
-        """Return a light with no exponent wherever floats can hold it."""
-        plain = np.ldexp(light.stokes, light.exponent[..., np.newaxis])
-        faint = self._faint(plain[..., 0]) & (light.stokes[..., 0] > 0.0)
-        stokes = np.where(faint[..., np.newaxis], light.stokes, plain)
-        return Found(stokes, np.where(faint, light.exponent, 0))

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import FrameError, ShapeError
+from optipath.faint import times_two_to
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import turn_linear
@@ -15,6 +16,8 @@ from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+_LARGEST = 2.0**40
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,12 +62,16 @@ class Light:
             raise FrameError(f"the frame of a light must be a Frame, not {self.frame!r}")
         mantissa = real_array("a Stokes vector", self.stokes, (4,))
         exponent = np.asarray(self.exponent)
-        if exponent.dtype.kind not in "iu":
-            raise ShapeError(f"the exponent of a light must be an integer, not {self.exponent!r}")
-        check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
-        # Under- and overflow are what the exponent is kept for.
-        with np.errstate(under="ignore", over="ignore"):
-            stokes = np.ldexp(mantissa, exponent[..., np.newaxis]) if exponent.any() else mantissa
+        if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
+            raise ShapeError(
+                f"the exponent of a light must be an integer within -2^40 .. 2^40, not "
+                f"{self.exponent!r}"
+            )
+        batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
+        exponent = np.broadcast_to(exponent.astype(np.int64), batch)
+        if mantissa.shape[:-1] != batch:
+            mantissa = np.broadcast_to(mantissa, (*batch, 4)).copy()
+        stokes = times_two_to(mantissa, exponent) if exponent.any() else mantissa
         object.__setattr__(self, "mantissa", mantissa)
         object.__setattr__(self, "stokes", stokes)
         object.__setattr__(self, "exponent", exponent)
@@ -77,7 +84,7 @@ class Light:
     @property
     def log10_intensity(self) -> npt.NDArray[Any]:
         """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
-        with np.errstate(divide="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(np.log10(self.mantissa[..., 0]) + self.exponent * np.log10(2.0))
 
     @property
@@ -116,17 +123,15 @@ class Light:
         mine = np.where(self.mantissa[..., 0] == 0.0, aligned.exponent, self.exponent)
         theirs = np.where(aligned.mantissa[..., 0] == 0.0, self.exponent, aligned.exponent)
         power = np.maximum(mine, theirs)
-        return Light(self._over(power) + aligned._over(power), self.frame, power)
-
-    def _over(self, power: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        shift: npt.NDArray[Any] = self.exponent - power
-        return np.asarray(np.ldexp(self.mantissa, shift[..., np.newaxis]))
+        parts = (times_two_to(x.mantissa, x.exponent - power) for x in (self, aligned))
+        return Light(sum(parts), self.frame, power)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):
             return NotImplemented
+        # What a detector does not read is equal to itself.
         return (
-            same(self.mantissa, other.mantissa)
+            np.array_equal(self.mantissa, other.mantissa, equal_nan=True)
             and same(self.exponent, other.exponent)
             and self.frame == other.frame
         )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from optipath.errors import FrameError
+from optipath.faint import folded, near_one
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.kernels import NUMPY, ROTATION
@@ -63,9 +64,12 @@ class Mueller:
         batch = self.matrix.shape[:-2]
         if isinstance(other, Light):
             check_broadcast({"matrix": batch, "light": other.stokes.shape[:-1]})
-            stokes = other.in_frame(self.frame_in).mantissa
+            aligned = other.in_frame(self.frame_in)
+            stokes, exponent = near_one(aligned.mantissa, aligned.exponent)
             product = (self.matrix @ stokes[..., np.newaxis])[..., 0]
-            return Light(product, self.frame_out, other.exponent)
+            exponent = np.broadcast_to(exponent, product.shape[:-1])
+            stokes, exponent = folded(product, exponent)
+            return Light(stokes, self.frame_out, exponent)
         if isinstance(other, Mueller):
             check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
             turn = _turn_matrix(other.frame_out, self.frame_in)

@@ -86,6 +86,8 @@ class Plan:
     ) -> Mueller:
         """Return the Mueller matrix from one source to one detector.
 
+        Entries too small for a float are 0; `run` keeps light however faint.
+
         Parameters
         ----------
         source, detector : str, optional

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,6 +29,7 @@ _PANELS = {
 }
 _COLOURS = {"numpy": "#1f6fb4", "numba": "#d9730d", "jax": "#3a8f3a"}
 _SHAPES = {"float64": "o", "float32": "s", "longdouble": "D"}
+_FORMS = (".png", ".svg", ".pdf")
 _SIDES = (
     (6, 4, "left"),
     (-6, 4, "right"),
@@ -47,9 +49,8 @@ def check_form(out: Path) -> None:
     OptipathError
         Naming the forms that there are.
     """
-    forms = FigureCanvasAgg.filetypes
-    if out.suffix.removeprefix(".").lower() not in forms:
-        known = ", ".join(sorted(forms))
+    if out.suffix.lower() not in _FORMS:
+        known = ", ".join(_FORMS)
         raise OptipathError(f"'{out}' has an ending that cannot be drawn; use one of: {known}")
 
 
@@ -63,6 +64,13 @@ def draw(chart: Mapping[str, Any], out: Path) -> None:
     out : Path
         Such as ``chart.png`` or ``chart.svg``.
     """
+    with warnings.catch_warnings():
+        # A title may have letters that the font lacks; they are drawn as boxes.
+        warnings.filterwarnings("ignore", message="Glyph")
+        _figure(chart).savefig(out)
+
+
+def _figure(chart: Mapping[str, Any]) -> Figure:
     figure = Figure(figsize=(13.5, 8.0), dpi=120, layout="constrained")
     FigureCanvasAgg(figure)
     figure.suptitle(f"Speed against accuracy: {chart['title']}", fontsize=14, color=_INK)
@@ -77,7 +85,7 @@ def draw(chart: Mapping[str, Any], out: Path) -> None:
     figure.draw_without_rendering()
     for axes, kind in zip(panels, _PANELS, strict=True):
         _label_markers(axes, chart, kind)
-    figure.savefig(out)
+    return figure
 
 
 def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
@@ -91,7 +99,7 @@ def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
     low = min([worst for _, worst, *_ in held] + [c["eps"] for c in chart["contenders"]]) / 30
     high = max([worst for _, worst, *_ in held] + [c["eps"] for c in chart["contenders"]])
     times = [c["ns"]["least"] for c in chart["contenders"]]
-    axes.set_xlim(min([*times, *chart["limits_ns"].values()]) / 1.6, max(times) * 12)
+    axes.set_xlim(min([*times, *chart["limits_ns"].values()]) / 1.6, max(times) * 8)
     _failing_band(axes, [(c, fails) for c, *_, fails in found if fails], low, high * 30)
     _limits(axes, chart, low, high * 30)
     axes.grid(visible=True, which="major", color="#ececec", linewidth=0.8)
@@ -103,9 +111,9 @@ def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
 
 def _worst(contender: Mapping[str, Any], kind: str) -> tuple[float, float]:
     errors, eps = contender["errors"][kind].values(), contender["eps"]
-    # An error of nothing has no place on a logarithmic axis.
-    worst = max(1e-2, *(error["worst"] for error in errors))
-    return worst * eps, max(float(np.median([e["median"] for e in errors])), 1e-2) * eps
+    # An error of nothing has no place on a logarithmic axis: it stands at a tenth of eps.
+    worst = max(0.1, *(error["worst"] for error in errors))
+    return worst * eps, max(float(np.median([e["median"] for e in errors])), 0.1) * eps
 
 
 def _failures(contender: Mapping[str, Any], kind: str, chart: Mapping[str, Any]) -> int:
@@ -114,10 +122,10 @@ def _failures(contender: Mapping[str, Any], kind: str, chart: Mapping[str, Any])
 
 
 def _marker(axes: Axes, contender: Mapping[str, Any], worst: float, median: float) -> None:
-    x, colour = contender["ns"]["least"], _COLOURS[contender["engine"]]
+    x, colour = contender["ns"]["least"], _COLOURS.get(contender["engine"], _INK)
     axes.plot([x, x], [median, worst], color=colour, linewidth=0.8, alpha=0.6)
     axes.plot(x, median, marker="_", color=colour, markersize=7)
-    axes.plot(x, worst, marker=_SHAPES[contender["dtype"]], color=colour, markersize=7)
+    axes.plot(x, worst, marker=_SHAPES.get(contender["dtype"], "^"), color=colour, markersize=7)
 
 
 def _label_markers(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
@@ -191,6 +199,7 @@ def _failing_band(
     axes: Axes, failing: list[tuple[Mapping[str, Any], int]], low: float, base: float
 ) -> None:
     """Draw what fails in some region above everything: a row a method, hollow, counted."""
+    regions = max((len(c["errors"]["normwise"]) for c, _ in failing), default=0)
     rows = list(dict.fromkeys(_name(contender) for contender, _ in failing))
     step = 15.0
     top = base * step ** (len(rows) + 0.6)
@@ -206,11 +215,13 @@ def _failing_band(
         y = base * step ** (number + 0.7)
         counts = sorted({count for contender, count in failing if _name(contender) == row})
         many = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
-        axes.text(left, y, f" {row}: fails in {many}", va="center", fontsize=8, color=_RED)
+        axes.text(
+            left, y, f" {row}: fails in {many} of {regions}", va="center", fontsize=8, color=_RED
+        )
         for contender, _ in failing:
             if _name(contender) == row:
-                x, colour = contender["ns"]["least"], _COLOURS[contender["engine"]]
-                shape = _SHAPES[contender["dtype"]]
+                x, colour = contender["ns"]["least"], _COLOURS.get(contender["engine"], _INK)
+                shape = _SHAPES.get(contender["dtype"], "^")
                 axes.plot(x, y, marker=shape, color=colour, markersize=7, markerfacecolor="white")
 
 
@@ -219,15 +230,18 @@ def _legend(chart: Mapping[str, Any]) -> list[Line2D]:
     dtypes = dict.fromkeys(c["dtype"] for c in chart["contenders"])
     none: tuple[list[float], list[float]] = ([], [])
     return [
-        *(Line2D(*none, color=_COLOURS[e], linewidth=4, label=e) for e in engines),
-        *(Line2D(*none, color=_INK, marker=_SHAPES[d], linewidth=0, label=d) for d in dtypes),
+        *(Line2D(*none, color=_COLOURS.get(e, _INK), linewidth=4, label=e) for e in engines),
+        *(
+            Line2D(*none, color=_INK, marker=_SHAPES.get(d, "^"), linewidth=0, label=d)
+            for d in dtypes
+        ),
         Line2D(
             *none,
             color=_INK,
             marker="o",
             markerfacecolor="white",
             linewidth=0,
-            label="fails in some region",
+            label=f"off by more than {chart['fails_above']:g} ulp in some region",
         ),
-        Line2D(*none, color=_FAINT, label="nothing is both faster and more accurate"),
+        Line2D(*none, color=_FAINT, label="the best of what fails nowhere"),
     ]

@@ -9,6 +9,8 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from optipath.cli.text_files import read_text
+
 
 def _style(cell: str) -> str:
     return "bold red" if cell.startswith("**") else ""
@@ -33,8 +35,10 @@ def accuracy(samples: int, file: Path | None) -> None:
     from optipath.accuracy.tables import put_tables, tables  # noqa: PLC0415 - an extra
 
     if file is not None:
+        text = read_text(file)
+        put_tables(text, [])  # A file without a place for them is told of at once.
         try:
-            file.write_text(put_tables(file.read_text("utf-8"), tables(samples)), "utf-8")
+            file.write_text(put_tables(text, tables(samples)), "utf-8")
         except OSError as error:
             raise click.ClickException(f"'{file}' cannot be written: {error.strerror}") from None
         click.echo(f"wrote {file}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from optipath.cli.preset_command import PresetGroup
+from optipath.cli.text_files import read_text
 from optipath.presets import load_preset, preset_names
 
 if TYPE_CHECKING:
@@ -58,7 +60,9 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
             raise click.UsageError("--interface and --from stand for the preset; leave it out")
         _refuse_early_options(context)
         return
-    if interface == (source is not None):
+    if interface and source:
+        raise click.UsageError("--interface measures and --from does not; give one of them")
+    if not interface and source is None:
         names = ", ".join(preset_names())
         raise click.UsageError(
             f"PRESET is missing; give a file, one of {names}, --interface, or --from"
@@ -68,7 +72,7 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
         from optipath.accuracy.chart import interface_chart, read_chart  # noqa: PLC0415 - ditto
 
         if source:
-            return read_chart(source.read_text("utf-8"), str(source))
+            return read_chart(read_text(source), str(source))
         return interface_chart(progress=progress)
 
     _measure_and_draw(measure, out, data)
@@ -90,9 +94,15 @@ def _measure_and_draw(
     from optipath.accuracy.drawing import check_form, draw  # noqa: PLC0415 - ditto
 
     check_form(out)
+    if data is not None and data.absolute() == out.absolute():
+        raise click.UsageError(f"--out and --data both write '{out}'; give two files")
     for file in (out, data):
         if file is not None and not file.absolute().parent.is_dir():
             raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
+        if file is not None and not os.access(
+            file if file.exists() else file.absolute().parent, os.W_OK
+        ):
+            raise click.ClickException(f"'{file}' cannot be written: permission denied")
     columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
     console = Console(stderr=True)
     with Progress(

@@ -45,7 +45,8 @@ class Composer:
     engine : {"auto", "numpy"}, optional
         What runs the steps.
     dtype : {"float64", "float32", "longdouble"}, optional
-        The precision; longdouble where the platform has it.
+        The precision of the steps, to which all values are rounded (1e-60 is 0 in
+        float32); longdouble where the platform has it.
     composing : {"stokes", "jones"}, optional
         How light is carried along a path: as a Stokes vector, or as two Jones columns,
         which no element may depolarise and whose light is never polarised by more than

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class _Compensated:
-    """Makes a kernel that computes in twice the precision; a class, so that plans can be pickled."""
+    """Makes a kernel in twice the precision; a class, so that plans can be pickled."""
 
     factory: Factory
 

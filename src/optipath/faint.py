@@ -1,0 +1,60 @@
+"""Numbers too faint for a float: a mantissa, and the integer exponent of its power of two."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+
+@np.errstate(under="ignore", over="ignore")
+def times_two_to(stokes: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any]:
+    """Return Stokes vectors, shape (..., 4), times two to a power, shape (...).
+
+    Examples
+    --------
+    >>> times_two_to(np.array([1.0, 0.0, 0.0, 0.5]), -1)
+    array([0.5 , 0.  , 0.  , 0.25])
+    """
+    return np.asarray(np.ldexp(stokes, np.asarray(power)[..., np.newaxis]))
+
+
+def near_one(
+    stokes: np.ndarray[Any, Any], exponent: Any
+) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Return the same light with its largest component near 1; NaN is not looked at.
+
+    Examples
+    --------
+    >>> near_one(np.array([6.0, 0.0, 0.0, 3.0]), 0)
+    (array([0.75 , 0.   , 0.   , 0.375]), array(3))
+    """
+    largest = np.max(np.where(np.isnan(stokes), 0.0, np.abs(stokes)), axis=-1)
+    shift = np.frexp(largest)[1].astype(np.int64)
+    return times_two_to(stokes, -shift), np.asarray(exponent + shift)
+
+
+def folded(
+    stokes: np.ndarray[Any, Any], exponent: Any
+) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+    """Return the same light without an exponent wherever floats can hold it.
+
+    Examples
+    --------
+    >>> folded(np.array([[0.5, 0, 0, 0], [0.5, 0, 0, 0]]), np.array([1, -5000]))[1]
+    array([    0, -5000])
+    """
+    plain = times_two_to(stokes, exponent)
+    faint = is_faint(plain[..., 0]) & (stokes[..., 0] > 0.0)
+    return np.where(faint[..., np.newaxis], stokes, plain), np.where(faint, exponent, 0)
+
+
+def is_faint(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """Tell where light is so weak that what underflows on the way may be seen in it.
+
+    Examples
+    --------
+    >>> is_faint(np.array([1e-300, 1.0]))
+    array([ True, False])
+    """
+    return np.asarray(intensity < np.finfo(intensity.dtype).tiny * 2.0**60)
