@@ -67,14 +67,15 @@ def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) ->
 
 def amplitudes(m: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
     """Return r_s, r_p and g = m cos(theta_2) for a relative index m."""
-    g = mpmath.sqrt(m * m - s * s)
+    # 1 - s^2 is c^2: an equal medium reflects nothing, at grazing incidence too.
+    g = mpmath.sqrt(m * m - s * s if s < c else (m * m - 1) + c * c)
     if g.imag < 0 or (g.imag == 0 and g.real < 0):
         g = -g
     rs = (c - g) / (c + g) if c + g else mpmath.mpf(0)
     second = m * m * c
     # At normal incidence on an index of 0 nothing tells s from p but the turn of y.
     rp = (second - g) / (second + g) if second + g else -rs
-    return rs, rp, g
+    return _cleaned(rs), _cleaned(rp), g
 
 
 def _reflected(m: Any, c: Any, s: Any) -> tuple[Any, ...]:
@@ -100,10 +101,10 @@ def _exact(function: Callable[..., tuple[Any, ...]], *given: float) -> Exact:
     with mpmath.workdps(WORKING_DIGITS + 4 * spread):
         n, k, c, s, n1 = map(mpmath.mpf, given)
         m = mpmath.mpc(n, k) / n1
-        values = _cleaned(function, m, c, s)
+        values = _values(function, m, c, s)
         # The condition from a difference so small that half of the digits stay.
         step = mpmath.mpf(10) ** -(DIGITS // 2 + spread)
-        moved = _cleaned(function, m, c, s * (1 + step))
+        moved = _values(function, m, c, s * (1 + step))
         conditions = tuple(
             abs(float((after / value - 1) / step)) if value and s and c else 0.0
             for value, after in zip(values, moved, strict=True)
@@ -111,9 +112,11 @@ def _exact(function: Callable[..., tuple[Any, ...]], *given: float) -> Exact:
         return Exact(values, conditions)
 
 
-def _cleaned(function: Callable[..., tuple[Any, ...]], m: Any, c: Any, s: Any) -> tuple[Any, ...]:
+def _values(function: Callable[..., tuple[Any, ...]], m: Any, c: Any, s: Any) -> tuple[Any, ...]:
     length = mpmath.hypot(c, s)
-    values = function(m, c / length, s / length)
-    # What cancels exactly leaves the rounding of the last digit.
-    least = mpmath.mpf(10) ** -(mpmath.mp.dps - 10)
-    return tuple(value if abs(value) > least else mpmath.mpf(0) for value in values)
+    return tuple(map(_cleaned, function(m, c / length, s / length)))
+
+
+def _cleaned(value: Any) -> Any:
+    """Return 0 for what is only the rounding of the last digits of what has cancelled."""
+    return value if abs(value) > mpmath.mpf(10) ** -(mpmath.mp.dps - 10) else mpmath.mpf(0)
