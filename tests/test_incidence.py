@@ -107,3 +107,14 @@ def test_frames_are_aligned_within_four_roundings():
             twice = 2 * mpmath.atan2(along, sum(a * b for a, b in zip(x, new, strict=True)))
             assert abs(mpmath.cos(twice) - float(c[i])) <= 4 * np.finfo(float).eps
             assert abs(mpmath.sin(twice) - float(s[i])) <= 4 * np.finfo(float).eps
+
+
+def test_one_frame_is_kept_by_the_degenerate_ones_of_a_batch():
+    keep = op.Frame.from_direction((0, 0, -1), (1.0, 1.0, 0.0))
+    meets = op.plane_of_incidence([[0, 0, -1], [1, 0, -1]], UP, keep=keep)
+    np.testing.assert_allclose(meets.arriving.x, [keep.x, [0, 1, 0]], atol=1e-15)
+
+
+def test_what_is_kept_is_a_frame():
+    with pytest.raises(op.FrameError, match="must be the Frame"):
+        op.plane_of_incidence((1, 0, -1), UP, keep=(1, 0, 0))

@@ -95,3 +95,29 @@ def test_an_exponent_is_an_integer_and_fits():
         op.Light([1.0, 0, 0, 0], exponent=0.5)
     with pytest.raises(op.ShapeError, match="exponent"):
         op.Light(np.ones((3, 4)), exponent=[1, 2])
+
+
+def test_an_exponent_gives_the_light_its_shape():
+    light = op.Light([1.0, 0.0, 0.0, 0.0], exponent=[0, 0])
+    assert light.stokes.shape == light.normalized.shape == (2, 4)
+    assert light.dop.shape == light.log10_intensity.shape == (2,)
+
+
+def test_exponents_of_few_bits_do_not_run_over():
+    first, second = (op.Light([1.0, 0, 0, 0], exponent=np.uint8(n)) for n in (3, 5))
+    assert (first + second).intensity == 40.0
+    with pytest.raises(op.ShapeError, match="2\\^40"):
+        op.Light([1.0, 0, 0, 0], exponent=np.int64(-(2**62)))
+
+
+def test_matrices_make_light_faint_and_lose_nothing():
+    dark = op.Mueller(np.diag([1e-200] * 4))
+    light = dark @ (dark @ op.Light([1.0, 0.6, 0.0, 0.8]))
+    assert light.log10_intensity == pytest.approx(-400)
+    np.testing.assert_allclose(light.normalized, [1.0, 0.6, 0.0, 0.8])
+
+
+def test_light_that_is_not_read_is_equal_to_itself():
+    light = op.Light([1.0, np.nan, np.nan, np.nan])
+    assert light == op.Light([1.0, np.nan, np.nan, np.nan])
+    assert pickle.loads(pickle.dumps(light)) == light

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from optipath.kernels import METHODS
 
 RANGES = {
     "delta": (0.0, np.pi / 2),
@@ -225,3 +226,33 @@ def test_the_explanation_lists_steps_readings_and_what_leaves():
     assert text.splitlines()[0].startswith("1 source, 1 detector, 7 steps; method stable")
     for part in ("X2.reflected -> X1.in", "E reads S0, S1, S2, S3", "X1.transmitted", "delta"):
         assert part in text
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_plans_of_every_method_can_be_pickled(method, composing):
+    plan = op.Composer(method=method, composing=composing).compose(NPGR026)
+    again = pickle.loads(pickle.dumps(plan))
+    assert again.run() == plan.run()
+
+
+@pytest.mark.parametrize("composing", ["jonse", "mueller", None])
+def test_an_unknown_way_of_composing_is_refused(composing):
+    with pytest.raises(op.ComposerError, match="composing"):
+        op.Composer(composing=composing)
+
+
+LONG = np.finfo(np.longdouble).eps < np.finfo(np.float64).eps
+
+
+@pytest.mark.skipif(not LONG, reason="longdouble is float64 here")
+def test_longdouble_is_computed_in_longdouble():
+    light = op.Composer(dtype="longdouble").compose(NPGR026).run()
+    assert light.stokes.dtype == np.longdouble
+    np.testing.assert_allclose(light.stokes.astype(float), NPGR026.trace().stokes, rtol=1e-14)
+
+
+@pytest.mark.skipif(LONG, reason="longdouble is more than float64 here")
+def test_a_longdouble_that_is_no_more_than_float64_is_refused():
+    with pytest.raises(op.ComposerError, match="no more than float64"):
+        op.Composer(dtype="longdouble")

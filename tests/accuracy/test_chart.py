@@ -11,7 +11,7 @@ from optipath.accuracy.contenders import contenders
 from optipath.accuracy.drawing import check_form, draw
 from optipath.accuracy.many_paths import many_paths
 from optipath.accuracy.operations import kernel_operations
-from optipath.accuracy.path_errors import AS_GIVEN
+from optipath.accuracy.path_errors import AS_GIVEN, path_errors, trials
 from optipath.accuracy.region_path import in_region
 from optipath.accuracy.regions import REGIONS
 from optipath.kernels import REFLECTION
@@ -136,3 +136,74 @@ def test_roots_and_divisions_of_a_kernel_are_counted():
     lossless = REFLECTION.by_method("stable").without[1]
     assert kernel_operations(lossless, 4)["sqrt"] == 1
     assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
+
+
+def single(*elements, **reading):
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source(stokes=[1.0, 0.3, 0.2, 0.1]))
+    for number, element in enumerate(elements):
+        node = node >> path.add(f"e{number}", element)
+    node >> path.add("eye", op.Detector(**reading))
+    return path
+
+
+def test_components_that_are_not_read_have_no_error():
+    path = single(op.Interface(1.5, 0.9), reads="intensity")
+    (trial,) = trials(path, (), "float64", 1)
+    off = path_errors(op.Composer(), trial, "float64")
+    assert off.normwise.max() <= 10
+    assert off.componentwise.max() <= 10
+
+
+def test_light_that_a_precision_cannot_hold_is_lost():
+    path = op.PathGraph()
+    path.add("lamp", op.Source(1e-60)) >> path.add("eye", op.Detector())
+    (trial,) = trials(path, (), "float64", 1)
+    assert np.isinf(path_errors(op.Composer(dtype="float32"), trial, "float32").normwise).all()
+    assert path_errors(op.Composer(), trial, "float64").normwise.max() == 0.0
+
+
+def test_a_chart_is_of_one_path_and_not_of_a_batch():
+    with pytest.raises(op.ParameterError, match=r"batch of shape \(3,\)"):
+        path_chart(single(op.Attenuator([0.1, 0.2, 0.3])), "three", LITTLE)
+
+
+def test_equal_computations_are_measured_once_and_limits_of_nothing_are_left_out():
+    found = path_chart(single(op.Attenuator(0.5)), "grey", LITTLE)
+    assert {c["method"] for c in found["contenders"]} == {"stable"}
+    assert set(found["limits_ns"]) == {"memory"}
+
+
+def test_a_contender_that_cannot_hold_the_light_is_left_out():
+    path = op.PathGraph()
+    path.add("lamp", op.Source(1e60)) >> path.add("eye", op.Detector())
+    dtypes = {c["dtype"] for c in path_chart(path, "bright", LITTLE)["contenders"]}
+    assert "float64" in dtypes
+    assert "float32" not in dtypes
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda chart: chart.update(format=True),
+        lambda chart: chart.update(contenders=[]),
+        lambda chart: chart.update(title=None),
+        lambda chart: chart["limits_ns"].update(memory=-1.0),
+        lambda chart: chart["contenders"][0].pop("ns"),
+        lambda chart: chart["contenders"][0]["ns"].update(least="fast"),
+        lambda chart: chart["contenders"][0]["errors"].update(normwise={}),
+        lambda chart: chart["contenders"][0].update(engine=3),
+    ],
+)
+def test_a_chart_that_lacks_something_is_refused(chart, spoil):
+    text = json.loads(chart_text(chart[0]))
+    spoil(text)
+    with pytest.raises(op.OptipathError, match="no whole chart"):
+        read_chart(json.dumps(text), "x.json")
+
+
+def test_an_engine_of_a_later_version_and_letters_without_glyphs_are_drawn(chart, tmp_path):
+    later = json.loads(chart_text(chart[0]))
+    later["contenders"][0].update(engine="quantum", dtype="float128")
+    later["title"] = "光路"
+    draw(read_chart(json.dumps(later), "x.json"), tmp_path / "later.svg")

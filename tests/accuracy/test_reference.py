@@ -156,3 +156,29 @@ def test_optional_elements_are_left_out_of_the_reference_too(value):
     path = op.load_preset("npgr026", filter=value)
     exact = [float(part) for part in exact_lights(path)["E"].stokes]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=1e-14, atol=1e-15)
+
+
+@pytest.mark.parametrize(("index", "expected"), [(1e300, [1, 0.3, 0.2, 0.1]), (1.0, [0, 0, 0, 0])])
+def test_light_at_exactly_90_degrees_is_told_exactly(index, expected):
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=[1, 0.3, 0.2, 0.1]))
+    lamp >> path.add("a", op.Interface(index, np.pi / 2)) >> path.add("eye", op.Detector())
+    assert [float(part) for part in exact_lights(path)["eye"].stokes] == expected
+    np.testing.assert_array_equal(path.trace().stokes, expected)
+
+
+def test_crossed_polarizers_leave_nothing():
+    assert exact_lights(op.load_preset("malus", case="crossed"))["eye"].stokes == (0, 0, 0, 0)
+
+
+def test_an_angle_whose_rounding_is_a_turn_is_taken_as_it_is():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
+    lamp >> path.add("a", op.Polarizer(1e17)) >> path.add("eye", op.Detector())
+    exact = float(exact_lights(path)["eye"].stokes[0])
+    assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
+
+
+def test_a_reference_is_of_a_path():
+    with pytest.raises(op.PathError, match="PathGraph"):
+        exact_lights("npgr026")

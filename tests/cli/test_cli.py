@@ -305,3 +305,32 @@ def test_a_feature_whose_extra_is_missing_says_which(monkeypatch, capsys):
         monkeypatch.delitem(sys.modules, name)
     assert main(["accuracy", "--samples", "1"]) == 2
     assert "pip install 'optipath[chart]'" in capsys.readouterr().err
+
+
+def test_files_that_are_no_text_are_refused_in_one_line(tmp_path, capsys):
+    file = tmp_path / "x"
+    file.write_bytes(b"\xff\xfe")
+    for arguments in (["chart", "--from", str(file)], ["accuracy", "--write", str(file)]):
+        assert main(arguments) == 2
+        assert capsys.readouterr().err.endswith("is no text in UTF-8\n")
+
+
+def test_a_picture_and_its_data_need_two_files(capsys):
+    assert main(["chart", "malus", "--out", "a.svg", "--data", "a.svg"]) == 2
+    assert "give two files" in capsys.readouterr().err
+
+
+def test_faint_light_is_told_beside_the_zeros(tmp_path, capsys):
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for name in ("a", "b"):
+        node = node >> path.add(name, op.Attenuator(1e-200))
+    node >> path.add("eye", op.Detector())
+    file = tmp_path / "faint.toml"
+    file.write_text(path.to_toml(), "utf-8")
+    assert main(["run", str(file), "--json"]) == 0
+    light = json.loads(capsys.readouterr().out)["detectors"]["eye"]
+    assert light["log10_intensity"] == pytest.approx(-400)
+    assert light["normalized"] == [1, 0, 0, 0]
+    assert main(["run", str(file)]) == 0
+    assert "log10 S0" in capsys.readouterr().out

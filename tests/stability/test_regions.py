@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import optipath as op
 from optipath.accuracy.interface_errors import interface_errors, matrix_numbers
 from optipath.accuracy.regions import REGIONS
 from optipath.kernels import REFLECTION
@@ -149,3 +150,38 @@ def test_a_negative_zero_and_denormals_change_no_sign(method, least):
         found = matrix_numbers(kernel, samples._replace(k=np.full_like(samples.n, least)))
         np.testing.assert_array_equal(np.sign(found[:, [0, 2]]), np.sign(with_zero[:, [0, 2]]))
         assert not np.any(np.signbit(found[:, [0, 1, 3]]))
+
+
+@pytest.mark.parametrize("dtype", DTYPES)
+@pytest.mark.parametrize("method", ["stable", "compensated"])
+@pytest.mark.parametrize("what", ["reflection", "transmission"])
+def test_no_index_and_no_angle_makes_what_cannot_be(what, method, dtype):
+    """Indices and angles over all the range that floats have, and 0 and 90 degrees exactly."""
+    count, reach = 20_000, {"float64": 300, "float32": 36}[dtype]
+    rng = np.random.default_rng(7)
+    phase = rng.choice([0.0, 0.3, 0.8, 1.5, np.pi / 2], count)
+    index = 10 ** rng.uniform(-reach, reach, count) * (np.cos(phase) + 1j * np.sin(phase))
+    small = rng.choice([0.0, 1.0], count) * 10 ** rng.uniform(-reach, 0, count)
+    angle = np.where(rng.random(count) < 0.5, small, rng.uniform(0, np.pi / 2, count))
+    c, s = np.cos(angle), np.sin(angle)
+    turned = rng.random(count) < 0.5
+    c, s = np.where(turned, s, c), np.where(turned, c, s)
+    function = {"reflection": op.fresnel_reflection, "transmission": op.fresnel_transmission}[what]
+    A, B, C, S = np.array(function(index, c, s, method, dtype)).astype(float)
+    assert np.all(np.isfinite([A, B, C, S]))
+    assert np.all((A >= 0.0) & (A <= 1.0))
+    assert np.all(np.abs(B) <= A)
+    zeros = np.array([A, B, C, S]) == 0.0
+    assert not np.any(zeros & np.signbit([A, B, C, S]))
+    if what == "reflection":
+        grazing = c == 0.0
+        assert grazing.sum() > 1000
+        np.testing.assert_array_equal(np.array([A, B, C, S])[:, grazing].T - [1, 0, 1, 0], 0.0)
+
+
+def test_a_boundary_of_equal_media_lets_all_the_light_through_and_no_more():
+    angle = np.linspace(0, np.pi / 2, 5000)
+    A, B, C, _ = op.fresnel_transmission(1.0, np.cos(angle), np.sin(angle))
+    assert np.all(A <= 1.0)
+    np.testing.assert_allclose([A, C], 1.0, rtol=1e-15)
+    np.testing.assert_array_equal(B, 0.0)
