@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.kernels import METHODS
 
 
 def chain(length):
@@ -39,7 +40,7 @@ def test_run(benchmark, length):
 
 
 @pytest.mark.benchmark(group="npgr026, horizontal filter, random angles")
-@pytest.mark.parametrize("method", ["stable", "textbook"])
+@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("size", [1, 1_000, 100_000])
 def test_npgr026(benchmark, method, size):
     plan = op.Composer(method=method).compose(op.load_preset("npgr026", filter="horizontal"))

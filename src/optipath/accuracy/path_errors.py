@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.accuracy.errors import Errors, errors
-from optipath.accuracy.many_digits import mpmath
+from optipath.accuracy.many_digits import exactly, mpmath
 from optipath.accuracy.path_reference import exact_batch
 from optipath.accuracy.region_path import in_region, interfaces
 from optipath.errors import ParameterError
@@ -83,7 +83,7 @@ def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
     exact = [_without(light, row) for light, row in zip(exact, unread, strict=True)]
     off = errors(found, exact, dtype, against_first=True)
     # Light that a precision cannot hold is lost, however small the step of its last place.
-    least = np.finfo(dtype).tiny
+    least = exactly(np.finfo(dtype).tiny)
     lost = [
         not row[0] and 0 < light.stokes[0] < least for row, light in zip(found, exact, strict=True)
     ]
