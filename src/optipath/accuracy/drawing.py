@@ -99,7 +99,7 @@ def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
     low = min([worst for _, worst, *_ in held] + [c["eps"] for c in chart["contenders"]]) / 30
     high = max([worst for _, worst, *_ in held] + [c["eps"] for c in chart["contenders"]])
     times = [c["ns"]["least"] for c in chart["contenders"]]
-    axes.set_xlim(min([*times, *chart["limits_ns"].values()]) / 1.6, max(times) * 8)
+    axes.set_xlim(min([*times, *chart["limits_ns"].values()]) / 5, max(times) * 8)
     _failing_band(axes, [(c, fails) for c, *_, fails in found if fails], low, high * 30)
     _limits(axes, chart, low, high * 30)
     axes.grid(visible=True, which="major", color="#ececec", linewidth=0.8)
@@ -184,12 +184,12 @@ def _limits(axes: Axes, chart: Mapping[str, Any], low: float, high: float) -> No
     for dtype, eps in {c["dtype"]: c["eps"] for c in chart["contenders"]}.items():
         axes.axhline(eps, color=_FAINT, linewidth=0.9, linestyle="--")
         axes.text(
-            0.995,
+            1.005,
             eps,
-            f"eps of {dtype}",
+            f"eps of\n{dtype}",
             transform=axes.get_yaxis_transform(),
-            va="bottom",
-            ha="right",
+            va="center",
+            ha="left",
             fontsize=7.5,
             color=_FAINT,
         )
