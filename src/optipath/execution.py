@@ -8,8 +8,8 @@ import numpy as np
 
 from optipath.engines import numpy_engine
 from optipath.errors import ParameterError
-from optipath.faint import folded, is_faint, times_two_to
-from optipath.kernels import NUMPY, Jones, Plain, Scaled, carry
+from optipath.faint import folded, is_faint
+from optipath.kernels import NUMPY, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
 
 if TYPE_CHECKING:
@@ -17,15 +17,12 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.kernels import Carried, Way
+    from optipath.kernels import Components, Way
     from optipath.parameters import Resolved
     from optipath.program import Program, Reading
 
 _LONG = 16
-_PLAIN, _SCALED, _JONES = Plain(NUMPY), Scaled(NUMPY), Jones(NUMPY)
-
-# Fully polarised and unpolarised lights of which every Stokes vector is a difference.
-_STATES = np.array([[1.0, 0, 0, 0], [1, 1, 0, 0], [1, 0, 1, 0], [1, 0, 0, 1]])
+_PLAIN, _SCALED, _JONES, _LINEAR = Plain(NUMPY), Scaled(NUMPY), Jones(NUMPY), Linear(NUMPY)
 
 
 class Found(NamedTuple):
@@ -94,23 +91,17 @@ class Execution:
         ParameterError
             If it is not finite.
         """
-        way = self._way()
-        # Jones columns carry only light that can be; its differences are the columns then.
-        states = _STATES if way is _JONES else np.eye(4)
         dimensions = max((leaf.ndim for leaf in self._leaves), default=0)
-        columns = states.astype(self.dtype).reshape(4, 4, *[1] * dimensions)
-        dark = carry(NUMPY, (self.dtype.type(0.0),) * 4)
-        emitted: dict[int, Carried] = {step: dark for step, _ in self.program.sources.values()}
+        columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * dimensions)
+        none = self.dtype.type(0.0)
+        emitted: dict[int, Components] = {
+            step: (none, none, none, none) for step, _ in self.program.sources.values()
+        }
         begin, _ = self.program.sources[source]
-        emitted[begin] = carry(NUMPY, tuple(columns[:, component] for component in range(4)))
-        components, exponent = numpy_engine.run(self.program, self._leaves, way, emitted)[
-            reading.light
-        ]
-        found = self._stacked(components, exponent, (4, *self.batch), reading)
-        matrix = np.moveaxis(times_two_to(*found), 0, -1)
-        if way is _JONES:
-            matrix[..., 1:] -= matrix[..., :1]
-        return np.ascontiguousarray(matrix)
+        emitted[begin] = columns[:, 0], columns[:, 1], columns[:, 2], columns[:, 3]
+        lights = numpy_engine.run(self.program, self._leaves, _LINEAR, emitted)
+        found = self._stacked(*lights[reading.light], (4, *self.batch), reading)
+        return np.ascontiguousarray(np.moveaxis(found.stokes, 0, -1))
 
     def _way(self) -> Way:
         if self.composing == "jones":

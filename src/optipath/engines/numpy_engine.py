@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.kernels import NUMPY, carry, stokes_of
+from optipath.kernels import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from optipath.kernels import Carried, Way
+    from optipath.kernels import Components, Way
     from optipath.kernels.structures import Numbers
     from optipath.program import Evaluation, Program
 
@@ -22,8 +22,8 @@ def run(
     program: Program,
     leaves: Sequence[np.ndarray[Any, Any]],
     way: Way,
-    emitted: Mapping[int, Carried] | None = None,
-) -> dict[int, tuple[tuple[Any, ...], Any]]:
+    emitted: Mapping[int, Components] | None = None,
+) -> dict[int, tuple[Components, Any]]:
     """Return the light of every reading, as four components that broadcast together.
 
     Parameters
@@ -61,7 +61,8 @@ def run(
                 numbers[index] = _evaluate(program.evaluations[index], leaves)
             structure = program.evaluations[index].kernel.structure
             if structure is None:
-                state = way.emit(carry(NUMPY, tuple(numbers[index])))
+                s0, s1, s2, s3 = numbers[index]
+                state = way.emit((s0, s1, s2, s3))
             else:
                 state = way.act(structure, numbers[index], state)
             numbers_left[index] -= 1
@@ -72,16 +73,17 @@ def run(
             states_left[source] -= 1
             if not states_left[source]:
                 del states[source]
-    read = {light: way.read(states[light]) for light in kept}
-    return {light: (stokes_of(NUMPY, carried), power) for light, (carried, power) in read.items()}
+    return {light: way.read(states[light]) for light in kept}
 
 
 def _evaluate(evaluation: Evaluation, leaves: Sequence[np.ndarray[Any, Any]]) -> Numbers:
     function = evaluation.kernel.made_for(NUMPY)
-    numbers = function(*(leaves[leaf] for leaf in evaluation.arguments))
+    given = [leaves[leaf] for leaf in evaluation.arguments]
+    # Plain numbers among them have no precision of their own, and so would not keep it.
+    numbers = tuple(np.asarray(number, given[0].dtype) for number in function(*given))
     structure = evaluation.kernel.structure
     if evaluation.presence is None or structure is None:
         return numbers
-    present, kind = leaves[evaluation.presence], leaves[evaluation.arguments[0]].dtype
+    present = leaves[evaluation.presence]
     pairs = zip(numbers, structure.identity, strict=True)
-    return tuple(np.where(present, number, nothing).astype(kind) for number, nothing in pairs)
+    return tuple(np.where(present, number, nothing) for number, nothing in pairs)

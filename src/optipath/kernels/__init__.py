@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from optipath.kernels import emission, filters, rotation
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
-from optipath.kernels.carried import Carried, add, carry, stokes_of
+from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
 from optipath.kernels.circular import cosine, sine
 from optipath.kernels.compensated import (
     compensated_lossless_reflection,
@@ -19,6 +19,7 @@ from optipath.kernels.compensated import (
 from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
+from optipath.kernels.linear import Linear
 from optipath.kernels.plain import Plain
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
 from optipath.kernels.scaled import Scaled
@@ -56,7 +57,7 @@ TRANSMISSION = _fresnel(
     amplitude=(amplitude_transmission, None),
     textbook=(textbook_transmission, None),
 )
-Way: TypeAlias = Plain | Scaled | Jones
+Way: TypeAlias = Plain | Scaled | Jones | Linear
 
 METHODS = tuple(REFLECTION.methods)
 
@@ -98,10 +99,12 @@ __all__ = [
     "TURN_BACK",
     "UNPOLARIZED",
     "Carried",
+    "Components",
     "DoubleDouble",
     "Jones",
     "Kernel",
     "KernelFamily",
+    "Linear",
     "Plain",
     "Primitives",
     "Scaled",

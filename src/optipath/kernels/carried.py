@@ -13,13 +13,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
+Components: TypeAlias = tuple[Any, Any, Any, Any]
+"""(S0, S1, S2, S3), each by itself."""
+
 Carried: TypeAlias = tuple[Any, Any, Any, Any]
+"""(weak, S1, S2, S3)."""
 
 _SEVERAL, _MANY = 64.0, 1024.0
 """How many roundings a negative intensity, and a DoP above 1, may come from."""
 
 
-def carry(xp: Primitives, stokes: tuple[Any, ...]) -> Carried:
+def carry(xp: Primitives, stokes: Components) -> Carried:
     """Return Stokes components as they are carried.
 
     Examples
@@ -73,7 +77,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     return weak + 0.5 * size * gap, s1 - s1 * gap, s2 - s2 * gap, s3 - s3 * gap
 
 
-def stokes_of(xp: Primitives, carried: Carried) -> tuple[Any, Any, Any, Any]:
+def stokes_of(xp: Primitives, carried: Carried) -> Components:
     """Return the Stokes components of carried light.
 
     Examples

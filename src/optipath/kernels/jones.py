@@ -1,8 +1,7 @@
 """Light carried as two Jones columns: two fully polarised lights that add incoherently.
 
-What comes out is never polarised by more than
-100 %, however long the path; but S1 is the difference of the intensities along x and y, and a
-matrix that depolarises has no place here.
+What comes out is never polarised by more than 100 %, however long the path; but S1 is the
+difference of the intensities along x and y, and a matrix that depolarises has no place here.
 """
 
 from __future__ import annotations
@@ -10,7 +9,14 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.carried import Carried, along_axes, at_most_polarised
+from optipath.kernels.carried import (
+    Carried,
+    Components,
+    along_axes,
+    at_most_polarised,
+    carry,
+    stokes_of,
+)
 from optipath.kernels.jones_actions import Column, Columns
 from optipath.kernels.scaled import Scaled
 
@@ -29,18 +35,18 @@ class Jones:
     --------
     >>> from optipath.kernels import FLOAT, SCALE
     >>> way = Jones(FLOAT)
-    >>> carried, exponent = way.read(way.act(SCALE, (0.25,), way.emit((0.5, 0.0, 0.0, 1.0))))
-    >>> [round(x * 2.0**exponent, 12) for x in carried]
-    [0.125, 0.0, 0.0, 0.25]
+    >>> stokes, exponent = way.read(way.act(SCALE, (0.25,), way.emit((1.0, 0.0, 0.0, 1.0))))
+    >>> [round(x * 2.0**exponent, 12) for x in stokes]
+    [0.25, 0.0, 0.0, 0.25]
     """
 
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
         self._incoherent = Scaled(xp)
 
-    def emit(self, carried: Carried) -> JonesState:
+    def emit(self, stokes: Components) -> JonesState:
         """Return the columns of a light: the Cholesky factor of its coherency matrix."""
-        return self._settled(_columns(self.xp, carried), 0)
+        return self._settled(_columns(self.xp, carry(self.xp, stokes)), 0)
 
     def act(self, structure: Structure, numbers: Numbers, state: JonesState) -> JonesState:
         """Return the state behind an element."""
@@ -49,14 +55,18 @@ class Jones:
 
     def add(self, first: JonesState, second: JonesState) -> JonesState:
         """Return the state of two lights together, incoherently."""
-        carried, exponent = self._incoherent.add(self.read(first), self.read(second))
+        carried, exponent = self._incoherent.add(self._carried(first), self._carried(second))
         # Fields have half the exponent of intensities, which is made even.
         odd = exponent % 2
         carried = tuple(self.xp.ldexp(component, odd) for component in carried)
         return self._settled(_columns(self.xp, carried), (exponent - odd) // 2)
 
-    def read(self, state: JonesState) -> tuple[Carried, Any]:
-        """Return the light, and the exponent of the power of two that it is to be taken times."""
+    def read(self, state: JonesState) -> tuple[Components, Any]:
+        """Return the Stokes components, and the exponent of the power of two times them."""
+        carried, exponent = self._carried(state)
+        return stokes_of(self.xp, carried), exponent
+
+    def _carried(self, state: JonesState) -> tuple[Carried, Any]:
         columns, exponent = state
         x, y, s2, s3 = (sum(parts) for parts in zip(*map(_pure, columns), strict=True))
         carried = self.xp.minimum(x, y), x - y, s2, s3

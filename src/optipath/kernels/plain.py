@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.carried import Carried, add, at_most_polarised
+from optipath.kernels.carried import Carried, Components, add, at_most_polarised, carry, stokes_of
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 class Plain:
-    """The way for short paths, whose light neither underflows nor gathers roundings."""
+    """The way for short paths, whose light gathers few roundings and does not underflow."""
 
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
 
-    def emit(self, carried: Carried) -> Carried:
+    def emit(self, stokes: Components) -> Carried:
         """Return the state of emitted light."""
-        return carried
+        return carry(self.xp, stokes)
 
     def act(self, structure: Structure, numbers: Numbers, state: Carried) -> Carried:
         """Return the state behind an element."""
@@ -29,6 +29,6 @@ class Plain:
         """Return the state of two lights together, incoherently."""
         return add(self.xp, first, second)
 
-    def read(self, state: Carried) -> tuple[Carried, Any]:
-        """Return the light, and the exponent of the power of two that it is to be taken times."""
-        return at_most_polarised(self.xp, state), 0
+    def read(self, state: Carried) -> tuple[Components, Any]:
+        """Return the Stokes components, and the exponent of the power of two times them."""
+        return stokes_of(self.xp, at_most_polarised(self.xp, state)), 0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.carried import Carried, add, at_most_polarised
+from optipath.kernels.carried import Carried, Components, add, at_most_polarised, carry, stokes_of
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
@@ -26,10 +26,10 @@ class Scaled:
     --------
     >>> from optipath.kernels import FLOAT, SCALE
     >>> way = Scaled(FLOAT)
-    >>> state = way.emit((0.5, 0.0, 0.0, 0.0))
+    >>> state = way.emit((1.0, 0.0, 0.0, 0.0))
     >>> for _ in range(4):
     ...     state = way.act(SCALE, (1e-300,), state)
-    >>> (weak, *_), exponent = way.read(state)
+    >>> _, exponent = way.read(state)
     >>> exponent
     -3987
     """
@@ -37,9 +37,9 @@ class Scaled:
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
 
-    def emit(self, carried: Carried) -> ScaledState:
+    def emit(self, stokes: Components) -> ScaledState:
         """Return the state of emitted light."""
-        return self._settled(carried, 0)
+        return self._settled(carry(self.xp, stokes), 0)
 
     def act(self, structure: Structure, numbers: Numbers, state: ScaledState) -> ScaledState:
         """Return the state behind an element."""
@@ -57,9 +57,10 @@ class Scaled:
         other = _times_two_to(self.xp, other, of_other - most)
         return self._settled(add(self.xp, light, other), most)
 
-    def read(self, state: ScaledState) -> ScaledState:
-        """Return the light, and the exponent of the power of two that it is to be taken times."""
-        return state
+    def read(self, state: ScaledState) -> tuple[Components, Any]:
+        """Return the Stokes components, and the exponent of the power of two times them."""
+        carried, exponent = state
+        return stokes_of(self.xp, carried), exponent
 
     def _settled(self, carried: Carried, exponent: Any) -> ScaledState:
         carried = at_most_polarised(self.xp, carried)

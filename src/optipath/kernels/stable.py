@@ -58,8 +58,12 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         share = powers[0] * sqrt(behind / q) / sqrt(q)
         absorbs = at.k > 0.0
         C = where(absorbs, share * (re * n + im * k), _lossless(where, powers[0], at, re))
+        # Im(g conj m2) without a difference, from g - m2 = -(n1 sin)^2 / (g + m2).
+        re, im = at.a + at.n, at.b + at.k
+        sum2 = re * re + im * im
+        apart = at.c * at.n1 * (n * im + k * re) / where(sum2 > 0.0, sum2, 1.0) - k
         # Adding 0 turns -0 into 0.
-        return *powers, C, where(absorbs, share * (im * n - re * k), 0.0) + 0.0
+        return *powers, C, where(absorbs, share * at.n1 * (at.s * at.s) * apart, 0.0) + 0.0
 
     return transmit
 
