@@ -121,3 +121,11 @@ def test_light_that_is_not_read_is_equal_to_itself():
     light = op.Light([1.0, np.nan, np.nan, np.nan])
     assert light == op.Light([1.0, np.nan, np.nan, np.nan])
     assert pickle.loads(pickle.dumps(light)) == light
+
+
+def test_a_light_shows_what_makes_it_again_and_cannot_change():
+    light = op.Light([1.0, 0.5, 0.0, 0.0], exponent=-10)
+    assert repr(light).startswith("Light(stokes=array([1. , 0.5, 0. , 0. ])")
+    assert "exponent=array(-10)" in repr(light)
+    with pytest.raises(AttributeError, match="cannot change"):
+        light.stokes = np.zeros(4)

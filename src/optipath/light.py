@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
 _LARGEST = 2.0**40
 
 
-@dataclass(frozen=True, eq=False)
 class Light:
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
 
@@ -52,29 +50,34 @@ class Light:
     0.0 -100000.0 [1.  0.6 0.  0.8]
     """
 
-    stokes: Any
-    frame: Frame = field(default_factory=Frame)
-    exponent: Any = 0
-    mantissa: Any = field(init=False, repr=False)
+    stokes: npt.NDArray[Any]
+    frame: Frame
+    exponent: npt.NDArray[np.int64]
+    mantissa: npt.NDArray[Any]
 
-    def __post_init__(self) -> None:
-        if not isinstance(self.frame, Frame):
-            raise FrameError(f"the frame of a light must be a Frame, not {self.frame!r}")
-        mantissa = real_array("a Stokes vector", self.stokes, (4,))
-        exponent = np.asarray(self.exponent)
+    def __init__(self, stokes: Any, frame: Frame | None = None, exponent: Any = 0) -> None:
+        frame = Frame() if frame is None else frame
+        if not isinstance(frame, Frame):
+            raise FrameError(f"the frame of a light must be a Frame, not {frame!r}")
+        mantissa = real_array("a Stokes vector", stokes, (4,))
+        given, exponent = exponent, np.asarray(exponent)
         if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
             raise ShapeError(
-                f"the exponent of a light must be an integer within -2^40 .. 2^40, not "
-                f"{self.exponent!r}"
+                f"the exponent of a light must be an integer within -2^40 .. 2^40, not {given!r}"
             )
         batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
         exponent = np.broadcast_to(exponent.astype(np.int64), batch)
         if mantissa.shape[:-1] != batch:
             mantissa = np.broadcast_to(mantissa, (*batch, 4)).copy()
-        stokes = times_two_to(mantissa, exponent) if exponent.any() else mantissa
-        object.__setattr__(self, "mantissa", mantissa)
-        object.__setattr__(self, "stokes", stokes)
-        object.__setattr__(self, "exponent", exponent)
+        plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
+        self.__dict__.update(stokes=plain, frame=frame, exponent=exponent, mantissa=mantissa)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a Light cannot change; make a new one instead of setting '{name}'")
+
+    def __repr__(self) -> str:
+        faint = f", exponent={self.exponent!r}" if self.exponent.any() else ""
+        return f"Light(stokes={self.mantissa!r}, frame={self.frame!r}{faint})"
 
     @property
     def intensity(self) -> npt.NDArray[Any]:

@@ -193,6 +193,8 @@ def test_a_contender_that_cannot_hold_the_light_is_left_out():
         lambda chart: chart["contenders"][0]["ns"].update(least="fast"),
         lambda chart: chart["contenders"][0]["errors"].update(normwise={}),
         lambda chart: chart["contenders"][0].update(engine=3),
+        lambda chart: chart["contenders"][0]["ns"].update(least=10**400),
+        lambda chart: chart["contenders"][0]["ns"].update(least=1e300),
     ],
 )
 def test_a_chart_that_lacks_something_is_refused(chart, spoil):
@@ -205,5 +207,5 @@ def test_a_chart_that_lacks_something_is_refused(chart, spoil):
 def test_an_engine_of_a_later_version_and_letters_without_glyphs_are_drawn(chart, tmp_path):
     later = json.loads(chart_text(chart[0]))
     later["contenders"][0].update(engine="quantum", dtype="float128")
-    later["title"] = "光路"
+    later["title"] = r"光路 $\frac{$"
     draw(read_chart(json.dumps(later), "x.json"), tmp_path / "later.svg")

@@ -139,3 +139,40 @@ def test_s1_near_the_normal_keeps_its_law_where_amplitude_loses_all_of_it():
     exact = [float(exact_lights(path, theta=t)["eye"].stokes[1]) for t in theta.tolist()]
     np.testing.assert_allclose(found["stable"], exact, rtol=2e-15)
     assert np.all(np.abs(found["amplitude"][:4] / exact[:4] - 1) > 0.5)
+
+
+def nulled(kind, axes):
+    between = {
+        "rotator": (op.Rotator(0.3), 0.3),
+        "full-wave plate": (op.Retarder(2 * np.pi, 0.7), 0.0),
+        "nothing": (op.Attenuator(0.5), 0.0),
+    }
+    element, turn = between[kind]
+    return chain([op.Polarizer(axes), element, op.Polarizer(axes + np.pi / 2 + turn)], (1, 0, 0, 0))
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("kind", ["rotator", "full-wave plate", "nothing"])
+def test_light_that_is_nulled_is_not_negative(kind, dtype, composing):
+    axes = np.random.default_rng(0).uniform(-4, 4, 50_000)
+    light = op.Composer(dtype=dtype, composing=composing).compose(nulled(kind, axes)).run()
+    assert np.all(light.mantissa[:, 0] >= 0.0)
+    assert np.all(light.intensity <= 1e-6 if dtype == "float32" else light.intensity <= 1e-14)
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_a_thousand_retarders_polarise_by_no_more_than_100_percent_in_float32(composing):
+    rng = np.random.default_rng(6)
+    plates = [op.Retarder(*pair) for pair in rng.uniform(-3, 3, (1000, 2)).tolist()]
+    light = op.Composer(dtype="float32", composing=composing).compose(chain(plates)).run()
+    assert excess(light) <= 2 * np.finfo("float32").eps
+
+
+@pytest.mark.parametrize("theta", [1e-8, 1e-4, 0.7, 1.57])
+def test_each_entry_of_the_matrix_of_a_path_has_its_own_digits(theta):
+    path = chain([op.Interface(1.5, theta)])
+    matrix = path.mueller().matrix
+    A, B, C, S = op.fresnel_reflection(1.5, np.cos(theta), np.sin(theta))
+    expected = [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
+    np.testing.assert_allclose(matrix, expected, rtol=1e-15)

@@ -194,7 +194,7 @@ def _is_whole(chart: Any) -> bool:
             and chart["format"] == FORMAT
             and chart["contenders"]
             and all(isinstance(word, str) for word in words)
-            and all(_is_number(size) and 0 < size < np.inf for size in sizes)
+            and all(_is_number(size) and 1e-30 < size < 1e30 for size in sizes)
             and all(_is_number(error) and error >= 0 for error in off)
         )
     except (KeyError, TypeError, AttributeError):
@@ -202,7 +202,8 @@ def _is_whole(chart: Any) -> bool:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool)
+    # An integer of JSON may have more digits than a float.
+    return isinstance(value, float) or (type(value) is int and abs(value) < 1e30)
 
 
 def _refuse_batches(path: PathGraph) -> None:

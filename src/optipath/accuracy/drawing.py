@@ -73,7 +73,9 @@ def draw(chart: Mapping[str, Any], out: Path) -> None:
 def _figure(chart: Mapping[str, Any]) -> Figure:
     figure = Figure(figsize=(13.5, 8.0), dpi=120, layout="constrained")
     FigureCanvasAgg(figure)
-    figure.suptitle(f"Speed against accuracy: {chart['title']}", fontsize=14, color=_INK)
+    # A dollar would begin a formula.
+    title = f"Speed against accuracy: {chart['title']}".replace("$", r"\$")
+    figure.suptitle(title, fontsize=14, color=_INK)
     panels = figure.subplots(1, 2, sharex=True)
     for axes, (kind, words) in zip(panels, _PANELS.items(), strict=True):
         _panel(axes, chart, kind)
