@@ -8,30 +8,32 @@ import numpy as np
 
 
 @np.errstate(under="ignore", over="ignore")
-def times_two_to(stokes: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any]:
-    """Return Stokes vectors, shape (..., 4), times two to a power, shape (...).
+def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any]:
+    """Return vectors, shape (..., n), times two to a power, shape (...).
 
     Examples
     --------
     >>> times_two_to(np.array([1.0, 0.0, 0.0, 0.5]), -1)
     array([0.5 , 0.  , 0.  , 0.25])
     """
-    return np.asarray(np.ldexp(stokes, np.asarray(power)[..., np.newaxis]))
+    return np.asarray(np.ldexp(parts, np.asarray(power)[..., np.newaxis]))
 
 
 def near_one(
-    stokes: np.ndarray[Any, Any], exponent: Any
+    parts: np.ndarray[Any, Any], exponent: Any
 ) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return the same light with its largest component near 1; NaN is not looked at.
+    """Return vectors over a power of two, their largest parts near 1, and its exponent.
+
+    Nothing is rounded; NaN is not looked at.
 
     Examples
     --------
     >>> near_one(np.array([6.0, 0.0, 0.0, 3.0]), 0)
     (array([0.75 , 0.   , 0.   , 0.375]), array(3))
     """
-    largest = np.max(np.where(np.isnan(stokes), 0.0, np.abs(stokes)), axis=-1)
+    largest = np.max(np.where(np.isnan(parts), 0.0, np.abs(parts)), axis=-1)
     shift = np.frexp(largest)[1].astype(np.int64)
-    return times_two_to(stokes, -shift), np.asarray(exponent + shift)
+    return times_two_to(parts, -shift), np.asarray(exponent + shift)
 
 
 def folded(

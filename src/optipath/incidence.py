@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import FrameError
+from optipath.faint import near_one
 from optipath.frames import Frame, vectors
 from optipath.kernels import NUMPY, DoubleDouble
 from optipath.shapes import check_broadcast
@@ -70,7 +71,7 @@ def plane_of_incidence(
     >>> float(meets.incidence) == np.pi / 4, meets.arriving.x, meets.reflected.z.round(3)
     (True, array([0., 1., 0.]), array([0.707, 0.   , 0.707]))
     """
-    k, n = _near_one("the direction of light", direction), _near_one("a normal", normal)
+    k, n = _given("the direction of light", direction), _given("a normal", normal)
     check_broadcast({"direction": k.shape[:-1], "normal": n.shape[:-1]})
     k, n = np.broadcast_arrays(k, n)
     along = _dot(k, n)
@@ -129,10 +130,9 @@ def _length(vector: Any) -> npt.NDArray[np.float64]:
     return np.asarray(np.linalg.norm(vector, axis=-1))
 
 
-def _near_one(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def _given(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return vectors over a power of two: exact, and their squares do not overflow."""
     vector = vectors(what, value)
-    size = np.max(np.abs(vector), axis=-1, keepdims=True)
-    if np.any(size == 0.0):
+    if not np.all(np.any(vector, axis=-1)):
         raise FrameError(f"{what} has no length; give a vector with a direction of its own")
-    return np.asarray(np.ldexp(vector, -np.frexp(size)[1]))
+    return near_one(vector, 0)[0]

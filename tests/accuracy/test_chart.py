@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.chart import Effort, chart_text, interface_chart, path_chart, read_chart
+from optipath.accuracy.chart import Effort, interface_chart, path_chart
+from optipath.accuracy.chart_file import chart_text, read_chart
 from optipath.accuracy.contenders import contenders
 from optipath.accuracy.drawing import check_form, draw
 from optipath.accuracy.many_paths import many_paths

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import platform
 from collections import Counter
-from collections.abc import Mapping
+from dataclasses import asdict
 from functools import partial
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.accuracy.chart_file import FORMAT
 from optipath.accuracy.contenders import Contender, available_dtypes, contenders
 from optipath.accuracy.errors import LIMIT, Errors
 from optipath.accuracy.interface_errors import interface_errors, matrix_numbers
@@ -20,15 +20,14 @@ from optipath.accuracy.many_paths import many_paths
 from optipath.accuracy.operations import kernel_operations, operations
 from optipath.accuracy.path_errors import path_errors, trials, worst_and_median
 from optipath.accuracy.regions import REGIONS
-from optipath.errors import ComposerError, OptipathError, ParameterError
+from optipath.errors import ComposerError, ParameterError
 from optipath.kernels import REFLECTION
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.path_graph import PathGraph
 
-FORMAT = 1
 PATHS = 4096
 
 
@@ -134,78 +133,6 @@ def interface_chart(
     return _chart("one interface", found, least)
 
 
-def chart_text(chart: Mapping[str, Any]) -> str:
-    """Return a chart as JSON, which has no infinity: an infinite error is null."""
-    return json.dumps(_rounded(chart), indent=1, allow_nan=False) + "\n"
-
-
-def _rounded(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {name: _rounded(entry) for name, entry in value.items()}
-    if isinstance(value, list):
-        return [_rounded(entry) for entry in value]
-    if isinstance(value, float):
-        return float(f"{value:.4g}") if np.isfinite(value) else None
-    return value
-
-
-def read_chart(text: str, name: str) -> dict[str, Any]:
-    """Return a chart that was written as JSON.
-
-    Raises
-    ------
-    OptipathError
-        If it is none, or one of another form.
-    """
-    cure = "give a file that 'optipath chart --data' wrote"
-    try:
-        chart = json.loads(text)
-    except (ValueError, RecursionError):
-        raise OptipathError(f"'{name}' is no JSON; {cure}") from None
-    chart = _with_infinities(chart)
-    if not _is_whole(chart):
-        raise OptipathError(f"'{name}' is no whole chart of this version; {cure}")
-    return dict(chart)
-
-
-def _with_infinities(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {name: _with_infinities(entry) for name, entry in value.items()}
-    if isinstance(value, list):
-        return [_with_infinities(entry) for entry in value]
-    return np.inf if value is None else value
-
-
-def _is_whole(chart: Any) -> bool:
-    """Tell whether everything is there that is drawn."""
-    try:
-        words, sizes, off = [chart["title"]], [chart["fails_above"]], []
-        sizes += chart["limits_ns"].values()
-        for entry in chart["contenders"]:
-            words += [entry[word] for word in ("method", "dtype", "engine", "composing")]
-            sizes += [entry["eps"], entry["ns"]["least"]]
-            for kind in Errors._fields:
-                errors = list(entry["errors"][kind].values())
-                off += [error[which] for error in errors for which in ("worst", "median")]
-                if not errors:
-                    return False
-        return bool(
-            type(chart["format"]) is int
-            and chart["format"] == FORMAT
-            and chart["contenders"]
-            and all(isinstance(word, str) for word in words)
-            and all(_is_number(size) and 1e-30 < size < 1e30 for size in sizes)
-            and all(_is_number(error) and error >= 0 for error in off)
-        )
-    except (KeyError, TypeError, AttributeError):
-        return False
-
-
-def _is_number(value: Any) -> bool:
-    # An integer of JSON may have more digits than a float.
-    return isinstance(value, float) or (type(value) is int and abs(value) < 1e30)
-
-
 def _refuse_batches(path: PathGraph) -> None:
     _, batch = path.compose().inputs.resolve({})
     if batch:
@@ -230,7 +157,7 @@ def _different(path: PathGraph) -> list[Contender]:
 
 def _entry(runner: Contender, off: Mapping[str, Errors]) -> dict[str, Any]:
     return {
-        **runner.as_dict(),
+        **asdict(runner),
         "eps": float(np.finfo(runner.dtype).eps),
         "errors": {
             kind: {region: worst_and_median(getattr(e, kind)) for region, e in off.items()}
@@ -252,7 +179,7 @@ def _time(
     for turn in range(effort.rounds):
         progress("times", 0.8 + 0.2 * turn / effort.rounds)
         for number, action in enumerate(actions):
-            times[number].append(fastest(action, 1)[0] * 1e9 / PATHS)
+            times[number].append(fastest(action, 1) * 1e9 / PATHS)
     for entry, taken in zip(entries, times, strict=True):
         entry["ns"] = {"least": min(taken), "median": float(np.median(taken))}
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from itertools import product
-from typing import Any
 
 from optipath.composer import CHOICES, Composer
 from optipath.errors import ComposerError
@@ -31,10 +30,6 @@ class Contender:
     def composer(self) -> Composer:
         """The composer that computes so."""
         return Composer(**asdict(self))
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the four words."""
-        return asdict(self)
 
 
 def contenders(composing: tuple[str, ...] = CHOICES["composing"]) -> list[Contender]:

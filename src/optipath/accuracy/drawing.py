@@ -124,10 +124,10 @@ def _failures(contender: Mapping[str, Any], kind: str, chart: Mapping[str, Any])
 
 
 def _marker(axes: Axes, contender: Mapping[str, Any], worst: float, median: float) -> None:
-    x, colour = contender["ns"]["least"], _COLOURS.get(contender["engine"], _INK)
+    x, colour = contender["ns"]["least"], _colour(contender["engine"])
     axes.plot([x, x], [median, worst], color=colour, linewidth=0.8, alpha=0.6)
     axes.plot(x, median, marker="_", color=colour, markersize=7)
-    axes.plot(x, worst, marker=_SHAPES.get(contender["dtype"], "^"), color=colour, markersize=7)
+    axes.plot(x, worst, marker=_shape(contender["dtype"]), color=colour, markersize=7)
 
 
 def _label_markers(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
@@ -153,6 +153,14 @@ def _label_markers(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
                 taken.append(box)
                 break
             label.remove()
+
+
+def _colour(engine: str) -> str:
+    return _COLOURS.get(engine, _INK)
+
+
+def _shape(dtype: str) -> str:
+    return _SHAPES.get(dtype, "^")
 
 
 def _name(contender: Mapping[str, Any]) -> str:
@@ -222,8 +230,8 @@ def _failing_band(
         )
         for contender, _ in failing:
             if _name(contender) == row:
-                x, colour = contender["ns"]["least"], _COLOURS.get(contender["engine"], _INK)
-                shape = _SHAPES.get(contender["dtype"], "^")
+                x, colour = contender["ns"]["least"], _colour(contender["engine"])
+                shape = _shape(contender["dtype"])
                 axes.plot(x, y, marker=shape, color=colour, markersize=7, markerfacecolor="white")
 
 
@@ -232,11 +240,8 @@ def _legend(chart: Mapping[str, Any]) -> list[Line2D]:
     dtypes = dict.fromkeys(c["dtype"] for c in chart["contenders"])
     none: tuple[list[float], list[float]] = ([], [])
     return [
-        *(Line2D(*none, color=_COLOURS.get(e, _INK), linewidth=4, label=e) for e in engines),
-        *(
-            Line2D(*none, color=_INK, marker=_SHAPES.get(d, "^"), linewidth=0, label=d)
-            for d in dtypes
-        ),
+        *(Line2D(*none, color=_colour(e), linewidth=4, label=e) for e in engines),
+        *(Line2D(*none, color=_INK, marker=_shape(d), linewidth=0, label=d) for d in dtypes),
         Line2D(
             *none,
             color=_INK,

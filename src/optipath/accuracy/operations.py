@@ -53,7 +53,7 @@ def operations(program: Program) -> dict[str, int]:
             continue
         structure = program.evaluations[step.evaluation].kernel.structure
         if structure is not None:
-            structure.made_for(xp)([number] * len(structure.identity), (number,) * 4)
+            structure.action(xp)([number] * len(structure.identity), (number,) * 4)
     return {"sqrt": counts["sqrt"], "div": counts["div"]}
 
 
@@ -61,7 +61,8 @@ def kernel_operations(kernel: Kernel, arguments: int) -> Counter[str]:
     """Return the number of square roots and divisions of one evaluation of a kernel."""
     counts: Counter[str] = Counter()
     xp, number = _counting(counts)
-    kernel.made_for(xp)(*[number] * arguments)
+    # Not made_for, which would keep what is made for these primitives, used once.
+    kernel.factory(xp)(*[number] * arguments)
     return counts
 
 

@@ -69,7 +69,8 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
         )
 
     def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
-        from optipath.accuracy.chart import interface_chart, read_chart  # noqa: PLC0415 - ditto
+        from optipath.accuracy.chart import interface_chart  # noqa: PLC0415 - ditto
+        from optipath.accuracy.chart_file import read_chart  # noqa: PLC0415 - ditto
 
         if source:
             return read_chart(read_text(source), str(source))
@@ -90,7 +91,7 @@ def _measure_and_draw(
     out: Path,
     data: Path | None,
 ) -> None:
-    from optipath.accuracy.chart import chart_text  # noqa: PLC0415 - an extra
+    from optipath.accuracy.chart_file import chart_text  # noqa: PLC0415 - an extra
     from optipath.accuracy.drawing import check_form, draw  # noqa: PLC0415 - ditto
 
     check_form(out)
