@@ -16,6 +16,7 @@ from optipath.accuracy.path_errors import AS_GIVEN, path_errors, trials
 from optipath.accuracy.region_path import in_region
 from optipath.accuracy.regions import REGIONS
 from optipath.kernels import REFLECTION
+from paths import chain
 
 LITTLE = Effort(samples=2, rounds=1)
 
@@ -139,17 +140,11 @@ def test_roots_and_divisions_of_a_kernel_are_counted():
     assert kernel_operations(REFLECTION.by_method("stable"), 5)["sqrt"] == 2
 
 
-def single(*elements, **reading):
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source(stokes=[1.0, 0.3, 0.2, 0.1]))
-    for number, element in enumerate(elements):
-        node = node >> path.add(f"e{number}", element)
-    node >> path.add("eye", op.Detector(**reading))
-    return path
+STATE = (1.0, 0.3, 0.2, 0.1)
 
 
 def test_components_that_are_not_read_have_no_error():
-    path = single(op.Interface(1.5, 0.9), reads="intensity")
+    path = chain([op.Interface(1.5, 0.9)], STATE, reads="intensity")
     (trial,) = trials(path, (), "float64", 1)
     off = path_errors(op.Composer(), trial, "float64")
     assert off.normwise.max() <= 10
@@ -166,11 +161,11 @@ def test_light_that_a_precision_cannot_hold_is_lost():
 
 def test_a_chart_is_of_one_path_and_not_of_a_batch():
     with pytest.raises(op.ParameterError, match=r"batch of shape \(3,\)"):
-        path_chart(single(op.Attenuator([0.1, 0.2, 0.3])), "three", LITTLE)
+        path_chart(chain([op.Attenuator([0.1, 0.2, 0.3])], STATE), "three", LITTLE)
 
 
 def test_equal_computations_are_measured_once_and_limits_of_nothing_are_left_out():
-    found = path_chart(single(op.Attenuator(0.5)), "grey", LITTLE)
+    found = path_chart(chain([op.Attenuator(0.5)], STATE), "grey", LITTLE)
     assert {c["method"] for c in found["contenders"]} == {"stable"}
     assert set(found["limits_ns"]) == {"memory"}
 

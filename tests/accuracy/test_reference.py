@@ -1,8 +1,5 @@
 """The references themselves, against published values and closed forms."""
 
-import importlib.util
-from pathlib import Path
-
 import mpmath
 import numpy as np
 import pytest
@@ -10,11 +7,7 @@ import pytest
 import optipath as op
 from optipath.accuracy.path_reference import exact_batch, exact_lights
 from optipath.accuracy.reference import reflection, transmission
-
-_file = Path(__file__).parents[1] / "published" / "npgr026.py"
-_spec = importlib.util.spec_from_file_location("npgr026", _file)
-npgr026 = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(npgr026)
+from published import npgr026
 
 
 @pytest.mark.parametrize("case", sorted(npgr026.EXACT))

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from paths import chain
 
 ANGLES = st.floats(-4.0, 4.0)
 FRACTIONS = st.floats(0.0, 1.0)
@@ -35,15 +36,6 @@ def states(draw):
     return np.array([1.0, *(direction / length)]) * draw(st.floats(1e-3, 10.0))
 
 
-def path_of(elements, state):
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source(stokes=state))
-    for number, element in enumerate(elements):
-        node = node >> path.add(f"e{number}", element)
-    node >> path.add("eye", op.Detector())
-    return path
-
-
 def matrix_of(element):
     leaves = "out" if element.straight else "reflected"
     # The frame turned by a is the light turned by -a.
@@ -56,14 +48,14 @@ def test_a_chain_is_the_product_of_its_matrices(elements, state):
     start = op.Mueller(np.eye(4))
     product = reduce(lambda before, matrix: matrix @ before, map(matrix_of, elements), start)
     expected = (product @ op.Light(state)).stokes
-    path = path_of(elements, state)
+    path = chain(elements, state)
     np.testing.assert_allclose(path.trace().stokes, expected, rtol=0, atol=1e-13 * state[0])
     np.testing.assert_allclose(path.mueller().matrix, product.matrix, rtol=0, atol=1e-13)
 
 
 @given(elements=CHAINS, state=states())
 def test_no_chain_gives_more_than_it_gets_nor_more_than_polarised_light(elements, state):
-    light = path_of(elements, state).trace()
+    light = chain(elements, state).trace()
     assert -1e-15 * state[0] <= light.intensity <= state[0] * (1 + 1e-13)
     polarised = np.linalg.norm(light.stokes[1:])
     assert polarised <= light.intensity + 1e-13 * state[0]
@@ -84,6 +76,6 @@ def test_light_that_runs_backwards_sees_the_reciprocal_matrix(elements, azimuth)
 
 
 def test_lights_are_let_go_when_nothing_reads_them_any_more():
-    program = path_of([op.Rotator(0.1)] * 3, [1.0, 0, 0, 0]).compose().program
+    program = chain([op.Rotator(0.1)] * 3, [1.0, 0, 0, 0]).compose().program
     assert program.light_uses == (1,) * len(program.steps)
     assert sum(program.evaluation_uses) == len(program.steps)

@@ -1,17 +1,12 @@
-import importlib.util
 import json
 from decimal import Decimal
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import optipath as op
 from optipath.cli import main
-
-_spec = importlib.util.spec_from_file_location("npgr026", Path(__file__).with_name("npgr026.py"))
-npgr026 = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(npgr026)
+from published import npgr026
 
 CASES = sorted(npgr026.VALUES)
 

@@ -6,6 +6,7 @@ import pytest
 
 import optipath as op
 from optipath.accuracy.path_reference import exact_lights
+from paths import chain
 
 TURNED = {"azimuth": 0.3}
 ELEMENTS = {
@@ -14,15 +15,6 @@ ELEMENTS = {
     "metal": op.Interface(0.2 + 3.4j, 1.1, **TURNED),
 }
 POLARISED = (1.0, 0.48, 0.6, 0.64)
-
-
-def chain(elements, state=POLARISED):
-    path = op.PathGraph()
-    node = path.add("lamp", op.Source(stokes=state))
-    for number, element in enumerate(elements):
-        node = node >> path.add(f"e{number}", element)
-    node >> path.add("eye", op.Detector())
-    return path
 
 
 def excess(light):
@@ -37,7 +29,7 @@ def excess(light):
 @pytest.mark.parametrize("count", [10, 300, 3000])
 @pytest.mark.parametrize("kind", ELEMENTS)
 def test_no_path_polarises_by_more_than_100_percent(kind, count, dtype, composing):
-    path = chain([ELEMENTS[kind]] * count)
+    path = chain([ELEMENTS[kind]] * count, POLARISED)
     light = op.Composer(dtype=dtype, composing=composing).compose(path).run()
     assert light.mantissa[0] > 0.0
     assert light.intensity >= 0.0
@@ -48,7 +40,7 @@ def test_a_hundred_thousand_total_reflections_keep_the_light_and_its_polarisatio
     count = 100_000
     # One after another about one axis: a retarder of as many times the angle.
     element = op.Interface(1 / 1.5, 0.9)
-    path = chain([element] * count)
+    path = chain([element] * count, POLARISED)
     _, _, c, s = op.fresnel_reflection(1 / 1.5, np.cos(0.9), np.sin(0.9), "compensated")
     phase = count * np.arctan2(s, c)
     turned = (POLARISED[2] + 1j * POLARISED[3]) * np.exp(-1j * phase)
@@ -59,7 +51,7 @@ def test_a_hundred_thousand_total_reflections_keep_the_light_and_its_polarisatio
 
 
 def test_light_of_1e_minus_100000_has_its_polarisation():
-    path = chain([op.Attenuator(1e-250)] * 400 + [op.Rotator(0.2)])
+    path = chain([op.Attenuator(1e-250)] * 400 + [op.Rotator(0.2)], POLARISED)
     light = path.trace()
     assert light.log10_intensity == pytest.approx(-100_000, abs=1e-6)
     assert light.intensity == 0.0
@@ -74,7 +66,7 @@ def test_a_faint_path_of_glass_agrees_with_50_digits(composing):
     rng = np.random.default_rng(4)
     angles = rng.uniform((0, -3), (1.5, 3), (8, 2))
     dark = [op.Attenuator(1e-200)] * 2
-    path = chain([*dark, *(op.Interface(1.5, i, azimuth=a) for i, a in angles.tolist())])
+    path = chain([*dark, *(op.Interface(1.5, i, azimuth=a) for i, a in angles.tolist())], POLARISED)
     exact = exact_lights(path)["eye"].stokes
     light = op.Composer(composing=composing).compose(path).run()
     assert light.log10_intensity == pytest.approx(float(mpmath.log10(exact[0])), rel=1e-14)
@@ -83,13 +75,13 @@ def test_a_faint_path_of_glass_agrees_with_50_digits(composing):
 
 
 def test_two_steps_are_enough_to_be_too_faint():
-    light = chain([op.Attenuator(1e-200)] * 2).trace()
+    light = chain([op.Attenuator(1e-200)] * 2, POLARISED).trace()
     assert light.intensity == 0.0
     np.testing.assert_allclose(light.normalized, POLARISED, rtol=1e-15)
 
 
 def test_a_batch_may_be_faint_in_part():
-    light = chain([op.Attenuator([0.5, 1e-300, 0.0])] * 2).trace()
+    light = chain([op.Attenuator([0.5, 1e-300, 0.0])] * 2, POLARISED).trace()
     np.testing.assert_allclose(light.log10_intensity, [np.log10(0.25), -600, -np.inf])
     np.testing.assert_array_equal(light.exponent == 0, [True, False, True])
     np.testing.assert_allclose(light.stokes[0], np.multiply(POLARISED, 0.25))
@@ -123,7 +115,10 @@ def test_no_intensity_is_negative_in_float32():
     ]
     crossed = [op.Polarizer(0.4), op.Polarizer(0.4 + np.pi / 2)]
     for composing in ("stokes", "jones"):
-        for path in (chain([*elements, *crossed]), chain([*crossed, *elements])):
+        for path in (
+            chain([*elements, *crossed], POLARISED),
+            chain([*crossed, *elements], POLARISED),
+        ):
             light = op.Composer(dtype="float32", composing=composing).compose(path).run()
             assert light.stokes.dtype == np.float32
             assert np.all(light.mantissa[..., 0] >= 0.0)
@@ -165,13 +160,15 @@ def test_light_that_is_nulled_is_not_negative(kind, dtype, composing):
 def test_a_thousand_retarders_polarise_by_no_more_than_100_percent_in_float32(composing):
     rng = np.random.default_rng(6)
     plates = [op.Retarder(*pair) for pair in rng.uniform(-3, 3, (1000, 2)).tolist()]
-    light = op.Composer(dtype="float32", composing=composing).compose(chain(plates)).run()
+    light = (
+        op.Composer(dtype="float32", composing=composing).compose(chain(plates, POLARISED)).run()
+    )
     assert excess(light) <= 2 * np.finfo("float32").eps
 
 
 @pytest.mark.parametrize("theta", [1e-8, 1e-4, 0.7, 1.57])
 def test_each_entry_of_the_matrix_of_a_path_has_its_own_digits(theta):
-    path = chain([op.Interface(1.5, theta)])
+    path = chain([op.Interface(1.5, theta)], POLARISED)
     matrix = path.mueller().matrix
     A, B, C, S = op.fresnel_reflection(1.5, np.cos(theta), np.sin(theta))
     expected = [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]

@@ -1,0 +1,13 @@
+"""Paths that several tests build."""
+
+import optipath as op
+
+
+def chain(elements, state=(1.0, 0.0, 0.0, 0.0), **reading):
+    """A path of elements one behind another, from a source of a state to one detector."""
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source(stokes=state))
+    for number, element in enumerate(elements):
+        node = node >> path.add(f"e{number}", element)
+    node >> path.add("eye", op.Detector(**reading))
+    return path
