@@ -10,6 +10,7 @@ SOURCE = Path(op.__file__).parent
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
     "errors",
+    "jax_values",
     "frozen",
     "shapes",
     "units",
@@ -28,7 +29,10 @@ ROOMS = [
     "fresnel",
     "elements",
     "program",
+    "walk",
+    "formulas",
     "engines",
+    "running",
     "execution",
     "explanation",
     "plan",

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from optipath.errors import ValueFault, did_you_mean
 from optipath.frozen import array_of
+from optipath.jax_values import is_traced
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.units import USUAL_UNITS, format_quantity
@@ -55,8 +56,8 @@ class Domain:
         ValueFault
             Naming the owner, the value, and what is asked for.
         """
-        if self.quickly_allows(value):
-            return np.array(value)
+        if self.quickly_allows(value) or is_traced(value):
+            return value if is_traced(value) else np.array(value)
         try:
             array = array_of(value)
         except ValueError:
@@ -78,6 +79,11 @@ class Domain:
         """Tell, for the plain floats that long paths are made of, whether all is well."""
         inside = type(value) is float and self.minimum <= value <= self.maximum
         return inside and math.isfinite(value) and not self.tail
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of real numbers; wide open where they are limited in other ways too."""
+        return self.minimum, self.maximum
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return the numbers that make up a value: their names, values and domains."""
@@ -106,6 +112,11 @@ class Domain:
 
 class IndexDomain(Domain):
     """Complex numbers n + ik with n and k not negative."""
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of n and of k."""
+        return 0.0, math.inf
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return n and k of a material, or the value itself."""

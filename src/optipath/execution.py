@@ -1,130 +1,272 @@
-"""Execution: a program run by an engine, in the way of carrying light that it needs."""
+"""Execution: runs a program on what is given, one path or millions, by the engine that fits."""
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines import numpy_engine
+from optipath.engines import NUMPY_STEPS, compile_array_path, engine_for, jax_path
 from optipath.errors import ParameterError
-from optipath.faint import folded, is_faint
-from optipath.kernels import NUMPY, Jones, Linear, Plain, Scaled
-from optipath.precision import wide
+from optipath.faint import folded
+from optipath.formulas import lights_formula, matrix_formula
+from optipath.jax_values import is_jax, is_traced
+from optipath.running.given import Given, Sorter
+from optipath.running.many import Many
+from optipath.running.pieces import pieces
+from optipath.running.single import Single
+from optipath.running.stepwise import Stepwise, way_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
-    import numpy.typing as npt
-
-    from optipath.kernels import Components, Way
-    from optipath.parameters import Resolved
+    from optipath.formulas import Formula
+    from optipath.inputs import Inputs
     from optipath.program import Program, Reading
 
-_LONG = 16
-_PLAIN, _SCALED, _JONES, _LINEAR = Plain(NUMPY), Scaled(NUMPY), Jones(NUMPY), Linear(NUMPY)
+    Array = np.ndarray[Any, Any]
+
+LONGEST = 64
+"""How many steps are compiled in one piece."""
+
+_CACHED = 8192
+"""How many paths are taken at once, step after step."""
 
 
 class Found(NamedTuple):
-    """The light at an end: its Stokes vectors, times two to the power of an exponent."""
+    """The light at an end: its Stokes vectors, times two to the power of an exponent.
 
-    stokes: npt.NDArray[Any]
-    exponent: npt.NDArray[Any]
+    `stokes` is an array (..., 4), or for one path a tuple of four floats.
+    """
+
+    stokes: Any
+    exponent: Any
 
 
 class Execution:
-    """One run of a program.
+    """Runs a program, and keeps what has been compiled for it.
 
     Parameters
     ----------
     program : Program
         The steps.
-    given : mapping of str to Resolved
-        The values of the open parameters.
-    batch : tuple of int
-        The shape that they broadcast to.
-    composing, dtype, method : str
-        How light is carried, in which precision, and how Fresnel's equations are
-        computed (for what is said when a number is not finite).
+    inputs : Inputs
+        What may be given.
+    method, composing, dtype, engine : str
+        As `Composer` takes them.
+    threads : int
+        How many threads share a large batch.
     """
 
     def __init__(
         self,
         program: Program,
-        given: Mapping[str, Resolved],
-        batch: tuple[int, ...],
+        inputs: Inputs,
         *,
+        method: str,
         composing: str,
         dtype: str,
-        method: str,
+        engine: str,
+        threads: int,
     ) -> None:
         self.program = program
-        self.batch = batch
-        self.composing = composing
-        self.dtype = np.dtype(dtype)
+        self.inputs = inputs
         self.method = method
-        numbers = (view.numbers(given, wide(self.dtype)) for view in program.leaves)
-        with np.errstate(over="ignore", under="ignore"):  # What is not finite is told later.
-            self._leaves = [
-                n if n.dtype == bool else n.astype(self.dtype, copy=False) for n in numbers
-            ]
+        self.dtype = np.dtype(dtype)
+        self.engine = engine
+        self.threads = threads
+        self.way = way_of(program, composing)
+        self.compilable = len(program.steps) <= LONGEST and dtype in ("float64", "float32")
+        self.sorter = Sorter(program, inputs)
+        self.stepwise = Stepwise(program, self.way, self.dtype)
+        self.single = Single(program, inputs, self.stepwise, compilable=self.compilable)
+        self._many: dict[Any, Many] = {}
 
-    def lights(self) -> dict[str, Found]:
+    def engine_for(self, count: int) -> str:
+        """Return the engine for a batch of so many paths."""
+        return engine_for(self.engine, count, compilable=self.compilable)
+
+    def lights(self, parameters: Mapping[str, Any]) -> dict[str, Found]:
         """Return the light at every detector and dump.
 
         Raises
         ------
         ParameterError
-            If it is not finite.
+            With every fault of what is given, or if light is not finite.
         """
-        way = self._way()
-        found = self._run(way)
-        if way is _PLAIN and any(np.any(is_faint(f.stokes[..., 0])) for f in found.values()):
-            found = self._run(_SCALED)
-        return {name: Found(*folded(*light)) for name, light in found.items()}
+        lights = self.single.usual(parameters)
+        if lights is not None:
+            return self._named(lights)
+        if self._is_for_jax(parameters):
+            resolved, batch = self.inputs.resolve(parameters)
+            found = self._jax.lights(resolved, batch)
+            for stokes, reading in zip(found, self.program.readings.values(), strict=True):
+                self._refuse_infinite(stokes[..., : reading.components])
+            return {n: Found(s, 0) for n, s in zip(self.program.readings, found, strict=True)}
+        return self._lights(self.sorter.sort(parameters), parameters)
 
-    def matrix(self, source: str, reading: Reading) -> npt.NDArray[Any]:
-        """Return the Mueller matrix from a source to a reading.
+    def stream(
+        self, size: int, parameters: Mapping[str, Any]
+    ) -> Iterator[tuple[Any, dict[str, Found]]]:
+        """Yield the index of a part of the batch, and the light at every end for it."""
+        given = self.sorter.sort(parameters)
+        for piece in pieces(given.batch, size):
+            yield piece.where, self._lights(given.part(piece.where), parameters)
+
+    def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Array:
+        """Return the Mueller matrices (..., 4, 4) from a source to a reading.
 
         Raises
         ------
         ParameterError
-            If it is not finite.
+            With every fault of what is given, or if a matrix is not finite.
         """
-        dimensions = max((leaf.ndim for leaf in self._leaves), default=0)
-        columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * dimensions)
-        none = self.dtype.type(0.0)
-        emitted: dict[int, Components] = {
-            step: (none, none, none, none) for step, _ in self.program.sources.values()
-        }
-        begin, _ = self.program.sources[source]
-        emitted[begin] = columns[:, 0], columns[:, 1], columns[:, 2], columns[:, 3]
-        lights = numpy_engine.run(self.program, self._leaves, _LINEAR, emitted)
-        found = self._stacked(*lights[reading.light], (4, *self.batch), reading)
-        return np.ascontiguousarray(np.moveaxis(found.stokes, 0, -1))
+        if self._is_for_jax(parameters):
+            resolved, batch = self.inputs.resolve(parameters)
+            name = next(n for n, end in self.program.readings.items() if end is reading)
+            found = self._jax.matrix(resolved, batch, source, name)
+            self._refuse_infinite(found[..., : reading.components, :])
+            return found  # type: ignore[no-any-return]
+        given = self.sorter.sort(parameters)
 
-    def _way(self) -> Way:
-        if self.composing == "jones":
-            return _JONES
-        return _SCALED if len(self.program.steps) > _LONG else _PLAIN
+        def careful(part: Given) -> Array:
+            found = self.stepwise.matrix(part, source, reading)
+            self._refuse_infinite(found[..., : reading.components, :])
+            return found
 
-    def _run(self, way: Way) -> dict[str, Found]:
-        lights = numpy_engine.run(self.program, self._leaves, way)
+        engine = self.engine_for(given.paths)
+        if engine == NUMPY_STEPS:
+            self.inputs.resolve(parameters)
+            return _joined([careful(part) for part in self._parts(given)], given.batch)
+
+        def formula(forms: Any) -> Formula:
+            limits = self.inputs.limits
+            return matrix_formula(self.program, source, reading, self.dtype.name, forms, limits)
+
+        out, _ = self._filled(
+            engine,
+            (source, reading.light),
+            formula,
+            given,
+            parameters,
+            lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
+            16,
+        )
+        return np.moveaxis(out.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
+
+    def _lights(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
+        ends = self.program.readings
+        if not given.batch and self.dtype == np.float64 and given.is_single:
+            lights = self.single.lights(given)
+            if lights is not None:
+                return self._named(lights)
+        engine = self.engine_for(given.paths)
+        if engine == NUMPY_STEPS:
+            self.inputs.resolve(parameters)
+            parts = [self._careful(part) for part in self._parts(given)]
+            joined = [
+                Found(
+                    *(
+                        _joined([getattr(p[end], f) for p in parts], given.batch)
+                        for f in Found._fields
+                    )
+                )
+                for end in range(len(ends))
+            ]
+            return dict(zip(ends, joined, strict=True))
+
+        def formula(forms: Any) -> Formula:
+            kind, limits = self.dtype.name, self.inputs.limits
+            return lights_formula(self.program, self.way, kind, forms, limits, polynomials=True)
+
+        def careful(part: Given) -> Array:
+            found = self._careful(part)
+            rows = [np.moveaxis(f.stokes.reshape(-1, 4), -1, 0) for f in found]
+            return np.concatenate([*rows, [f.exponent.ravel() for f in found]])
+
+        read = 4 * len(ends)
+        out, faint = self._filled(engine, None, formula, given, parameters, careful, read)
+        found = {}
+        for end, name in enumerate(ends):
+            stokes = out[4 * end : 4 * end + 4].reshape(4, *given.batch)
+            stokes = np.moveaxis(stokes, 0, -1)
+            if faint:
+                exponent = out[read + end].astype(np.int64).reshape(given.batch)
+                found[name] = Found(*folded(stokes, exponent))
+            else:
+                found[name] = Found(stokes, 0)
+        return found
+
+    def _is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
+        """Tell whether a run is asked of JAX: by name, or by what is given."""
+        traced = self._has_traced or any(map(is_jax, parameters.values()))
+        if traced and self.engine not in ("auto", "jax"):
+            raise ParameterError(
+                f"values of JAX were given, but the plan was composed for engine "
+                f"'{self.engine}'; compose with engine='jax' or 'auto'"
+            )
+        return traced or self.engine == "jax"
+
+    @cached_property
+    def _has_traced(self) -> bool:
+        return any(view.traced for view in self.program.leaves)
+
+    @cached_property
+    def _jax(self) -> Any:
+        return jax_path(self.program, self.way, self.dtype)
+
+    def _named(self, lights: list[tuple[Any, ...]]) -> dict[str, Found]:
+        """Return lights of plain floats by the names of their ends."""
         return {
-            name: self._stacked(*lights[reading.light], self.batch, reading)
-            for name, reading in self.program.readings.items()
+            name: Found(light[:4], light[4])
+            for name, light in zip(self.program.readings, lights, strict=True)
         }
 
-    def _stacked(
-        self, components: Any, exponent: Any, batch: tuple[int, ...], reading: Reading
-    ) -> Found:
-        stokes = np.full((*batch, 4), np.nan, dtype=self.dtype)
-        for component in range(reading.components):
-            stokes[..., component] = components[component]
-        if not np.all(np.isfinite(stokes[..., : reading.components])):
+    def _filled(
+        self,
+        engine: str,
+        what: Any,
+        formula: Callable[[Any], Formula],
+        given: Given,
+        parameters: Mapping[str, Any],
+        careful: Callable[[Given], Array],
+        read: int,
+    ) -> tuple[Array, bool]:
+        """Return the results of a formula, and whether their exponents say anything."""
+        forms = given.forms(self.dtype)
+        key = engine, what, forms
+        if key not in self._many:
+            made = formula(dict(forms))
+            path = compile_array_path(engine, made)
+            self._many[key] = Many(self.program, made, path, threads=self.threads, read=read)
+        many = self._many[key]
+        out, failed = many.results(given, lambda: self.inputs.resolve(parameters), careful)
+        return out, failed or many.has_exponents
+
+    def _careful(self, given: Given) -> list[Found]:
+        found = [Found(*light) for light in self.stepwise.lights(given)]
+        for light, reading in zip(found, self.program.readings.values(), strict=True):
+            self._refuse_infinite(light.stokes[..., : reading.components])
+        return found
+
+    def _parts(self, given: Given) -> Iterator[Given]:
+        if given.paths <= _CACHED or given.where is not None:
+            return iter([given])
+        return (given.part(piece.where) for piece in pieces(given.batch, _CACHED))
+
+    def _refuse_infinite(self, numbers: Array) -> None:
+        if not is_traced(numbers) and not np.all(np.isfinite(numbers)):
             raise ParameterError(
                 f"the light is not finite in {self.dtype} by method '{self.method}': a value is "
                 f"too extreme; give values nearer to 1"
                 + ("" if self.method == "stable" else ", or use method 'stable'")
             )
-        return Found(stokes, np.broadcast_to(exponent, batch))
+
+
+def _joined(parts: list[Array], batch: tuple[int, ...]) -> Array:
+    """Return the parts of a batch as one array of its shape."""
+    if len(parts) == 1:
+        return parts[0]
+    tail = parts[0].shape[parts[0].ndim :]
+    return np.concatenate([part.reshape(-1, *tail) for part in parts]).reshape(*batch, *tail)

@@ -6,6 +6,9 @@ from typing import Any
 
 import numpy as np
 
+FAINT = 2.0**60
+"""How many times the smallest normal number light must be, lest what underflows is seen in it."""
+
 
 @np.errstate(under="ignore", over="ignore")
 def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any]:
@@ -59,4 +62,4 @@ def is_faint(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.boo
     >>> is_faint(np.array([1e-300, 1.0]))
     array([ True, False])
     """
-    return np.asarray(intensity < np.finfo(intensity.dtype).tiny * 2.0**60)
+    return np.asarray(intensity < np.finfo(intensity.dtype).tiny * FAINT)

@@ -55,6 +55,8 @@ def same(first: Any, second: Any) -> bool:
     >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
     True
     """
+    if first is second:
+        return True
     if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
         return np.array_equal(np.asarray(first), np.asarray(second))
     return bool(first == second)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -148,6 +149,23 @@ class Inputs:
         if faults:
             raise ParameterError(*faults)
         return resolved, np.broadcast_shapes(*shapes.values())
+
+    @cached_property
+    def limits(self) -> dict[str, tuple[float, float]]:
+        """The range of each open parameter, wherever it stands; its own range included."""
+        found = {name: (p.minimum, p.maximum) for name, p in self.open.items()}
+        for use in self.uses:
+            name = use.value.name
+            low, high = use.domain.interval
+            if use.value.negative:
+                low, high = -high, -low
+            found[name] = max(found[name][0], low), min(found[name][1], high)
+        return found
+
+    @cached_property
+    def tails(self) -> dict[str, tuple[int, ...]]:
+        """The axes of one value of each open parameter, behind the batch."""
+        return {use.value.name: use.domain.tail for use in self.uses}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Inputs):

@@ -10,6 +10,7 @@ from optipath.errors import FrameError, ShapeError
 from optipath.faint import times_two_to
 from optipath.frames import Frame
 from optipath.frozen import same
+from optipath.jax_values import is_jax, namespace
 from optipath.kernels import turn_linear
 from optipath.shapes import check_broadcast, real_array
 
@@ -59,7 +60,7 @@ class Light:
         frame = Frame() if frame is None else frame
         if not isinstance(frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {frame!r}")
-        mantissa = real_array("a Stokes vector", stokes, (4,))
+        mantissa = stokes if is_jax(stokes) else real_array("a Stokes vector", stokes, (4,))
         given, exponent = exponent, np.asarray(exponent)
         if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
             raise ShapeError(
@@ -72,6 +73,29 @@ class Light:
         plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
         self.__dict__.update(stokes=plain, frame=frame, exponent=exponent, mantissa=mantissa)
 
+    @classmethod
+    def of(cls, stokes: Any, frame: Frame, exponent: Any = 0) -> Light:
+        """Return light out of what a plan has computed, which needs no check.
+
+        Four floats become an array when somebody asks for it.
+        """
+        if not isinstance(exponent, int) or exponent:
+            return cls(stokes, frame, exponent)
+        light = cls.__new__(cls)
+        light.__dict__.update(_stokes=stokes, frame=frame)
+        return light
+
+    def __getattr__(self, name: str) -> Any:
+        own = self.__dict__
+        if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
+            raise AttributeError(f"a Light has no attribute '{name}'")
+        if name == "exponent":
+            own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
+        else:
+            stokes = own["_stokes"]
+            own["stokes"] = own["mantissa"] = np.array(stokes) if type(stokes) is tuple else stokes
+        return own[name]
+
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a Light cannot change; make a new one instead of setting '{name}'")
 
@@ -82,7 +106,7 @@ class Light:
     @property
     def intensity(self) -> npt.NDArray[Any]:
         """S0, of shape (...)."""
-        return np.asarray(self.stokes[..., 0])
+        return namespace(self.stokes).asarray(self.stokes[..., 0])  # type: ignore[no-any-return]
 
     @property
     def log10_intensity(self) -> npt.NDArray[Any]:
@@ -93,14 +117,16 @@ class Light:
     @property
     def normalized(self) -> npt.NDArray[Any]:
         """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
+        xp = namespace(self.mantissa)
         dark = self.mantissa[..., 0] == 0.0
-        lit = np.where(dark, 1.0, self.mantissa[..., 0])[..., np.newaxis]
-        return np.where(dark[..., np.newaxis], 0.0, self.mantissa / lit)
+        lit = xp.where(dark, 1.0, self.mantissa[..., 0])[..., np.newaxis]
+        return xp.where(dark[..., np.newaxis], 0.0, self.mantissa / lit)  # type: ignore[no-any-return]
 
     @property
     def dop(self) -> npt.NDArray[Any]:
         """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
-        return np.asarray(np.linalg.norm(self.normalized[..., 1:], axis=-1))
+        xp = namespace(self.mantissa)
+        return xp.asarray(xp.linalg.norm(self.normalized[..., 1:], axis=-1))  # type: ignore[no-any-return]
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.

@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import array_of, frozen, same
+from optipath.jax_values import is_traced
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -180,6 +181,8 @@ class Parameter:
         ParameterError
             If it is no number or word, not finite, or outside the range.
         """
+        if is_traced(raw):
+            return Resolved(raw, np.ones((), dtype=bool))
         try:
             array = array_of(raw)
         except ValueError:

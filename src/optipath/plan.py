@@ -3,17 +3,33 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.engines import batches
 from optipath.errors import ParameterError, did_you_mean
-from optipath.execution import Execution
+from optipath.execution import LONGEST, Execution
 from optipath.explanation import explanation
 from optipath.light import Light
 from optipath.mueller import Mueller
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.execution import Found
+    from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.program import Program
+
+
+_MADE = ("_detector", "_execution")
+
+
+class Part(NamedTuple):
+    """A part of a batch: its index in arrays of the batch's shape, and its light."""
+
+    where: tuple[int | slice, ...]
+    light: Light
 
 
 @dataclass(frozen=True)
@@ -30,9 +46,13 @@ class Plan:
         Ports whose light leaves the path unread.
     copied : tuple of str
         Ports whose light goes to several links, whole to each.
-    method, model, engine, composing, dtype : str
-        How Fresnel's equations are computed, what is carried along, what runs the
-        steps, whether as Stokes or as Jones vectors, and in which precision.
+    method, model, composing, dtype : str
+        How Fresnel's equations are computed, what is carried along, whether as Stokes or
+        as Jones vectors, and in which precision.
+    chosen : str
+        The engine that the composer was asked for.
+    threads : int
+        How many threads share a large batch.
     """
 
     program: Program
@@ -41,9 +61,27 @@ class Plan:
     copied: tuple[str, ...]
     method: str
     model: str
-    engine: str
     composing: str
     dtype: str
+    chosen: str = "auto"
+    threads: int = 1
+
+    @property
+    def engine(self) -> str:
+        """What runs large batches; `engine_for` says what runs smaller ones."""
+        return self.engine_for(1 << 30).partition(",")[0]
+
+    def engine_for(self, count: int, /) -> str:
+        """Return what runs a batch of so many paths.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> plan.engine, plan.engine_for(10)
+        ('numpy', 'numpy, step by step')
+        """
+        return self._execution.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
         """Return the light at the only detector.
@@ -64,8 +102,9 @@ class Plan:
             With every unknown, missing or unsuitable parameter, or if there are
             several detectors.
         """
-        name = self._only("detector", tuple(self.program.detectors), "run_all()")
-        return self.run_all(**parameters)[name]
+        name, frame = self._detector
+        light = self._execution.lights(parameters)[name]
+        return Light.of(light.stokes, frame, light.exponent)
 
     def run_all(self, /, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.
@@ -75,9 +114,45 @@ class Plan:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        lights = self._execution(parameters).lights()
+        return self._in_frames(self._execution.lights(parameters))
+
+    def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
+        """Yield the light of a batch part by part, in memory that the parts need.
+
+        Parameters
+        ----------
+        size : int, optional
+            How many paths a part has at most.
+        **parameters : float or array_like
+            As in `run`. A grid is given by axes that broadcast, such as shapes (m, 1) and
+            (n,), and is never laid out as a whole.
+
+        Yields
+        ------
+        Part
+            ``where``, its index in arrays of the batch's shape, and ``light``.
+
+        Raises
+        ------
+        ParameterError
+            As `run`; of values outside their range when their part is met.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.load_preset("malus").compose()
+        >>> [part.where for part in plan.stream(2, angle=[0.0, 0.1, 0.2])]
+        [(slice(0, 2, None),), (slice(2, 3, None),)]
+        """
+        name, _ = self._detector
+        if isinstance(size, bool) or not isinstance(size, int) or size < 1:
+            raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
+        for where, lights in self._execution.stream(size, parameters):
+            yield Part(where, self._in_frames(lights)[name])
+
+    def _in_frames(self, lights: Mapping[str, Found]) -> dict[str, Light]:
         return {
-            name: Light(lights[name].stokes, reading.frame, lights[name].exponent)
+            name: Light.of(lights[name].stokes, reading.frame, lights[name].exponent)
             for name, reading in self.program.readings.items()
         }
 
@@ -105,7 +180,7 @@ class Plan:
         ends = tuple(program.readings if detector else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
-        matrix = self._execution(parameters).matrix(begin, reading)
+        matrix = self._execution.matrix(begin, reading, parameters)
         return Mueller(matrix, program.sources[begin][1], reading.frame)
 
     def explain(self) -> str:
@@ -121,13 +196,37 @@ class Plan:
             ", composing Jones columns" if self.composing == "jones" else ""
         )
         notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
+        if self.engine_for(1 << 30) != self.engine:
+            notes.append(
+                f"all batches are run step by step: paths of at most {LONGEST} steps are compiled, "
+                f"in float64 and float32"
+            )
+        elif self.chosen != "jax":
+            notes.append(batches(self.chosen))
         notes += [f"{port} feeds several links: each takes all its light" for port in self.copied]
         return explanation(self.program, self.inputs, manner, tuple(notes))
 
-    def _execution(self, parameters: dict[str, Any]) -> Execution:
-        given, batch = self.inputs.resolve(parameters)
-        manner = {"composing": self.composing, "dtype": self.dtype, "method": self.method}
-        return Execution(self.program, given, batch, **manner)
+    @cached_property
+    def _detector(self) -> tuple[str, Frame]:
+        """The name and the frame of the only detector."""
+        name = self._only("detector", tuple(self.program.detectors), "run_all()")
+        return name, self.program.detectors[name].frame
+
+    @cached_property
+    def _execution(self) -> Execution:
+        return Execution(
+            self.program,
+            self.inputs,
+            method=self.method,
+            composing=self.composing,
+            dtype=self.dtype,
+            engine=self.chosen,
+            threads=self.threads,
+        )
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What has been compiled stays here.
+        return {name: value for name, value in self.__dict__.items() if name not in _MADE}
 
     @staticmethod
     def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:

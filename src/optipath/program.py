@@ -114,7 +114,7 @@ class Program:
         uses = Counter(step.evaluation for step in self.steps)
         return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
 
-    @property
+    @cached_property
     def readings(self) -> Mapping[str, Reading]:
         """Where light ends, detectors and dumps together."""
         return {**self.detectors, **self.dumps}

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from optipath.frozen import same
-from optipath.kernels import NUMPY, cosine, sine
+from optipath.jax_values import is_traced
+from optipath.kernels import FLOAT, NUMPY, cosine, sine
 from optipath.parameters import Parameter, Resolved
 
 if TYPE_CHECKING:
@@ -16,7 +17,46 @@ if TYPE_CHECKING:
 
 
 _COS, _SIN = cosine(NUMPY), sine(NUMPY)
+_FLOAT_COS, _FLOAT_SIN = cosine(FLOAT), sine(FLOAT)
 _DOUBLE = np.dtype(np.float64)
+
+
+ZERO, ONE, MANY, WIDE, ABSENT = "zero", "one", "many", "wide", "absent"
+"""What is given: 0, one number, an array, one of more digits than the plan's, or nothing."""
+
+
+class Raw(NamedTuple):
+    """A number that is given for a parameter, before anything is done to it.
+
+    Attributes
+    ----------
+    name : str
+        The parameter.
+    part : str or int
+        As in `View`; cosines and sines are made of ``"value"``.
+    """
+
+    name: str
+    part: str | int = "value"
+
+    def __str__(self) -> str:
+        return f"{self.name} {self.part}"
+
+
+def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
+    """Return a part of numbers, as `View` names them.
+
+    Examples
+    --------
+    >>> part_of(np.array([[1.0, 2.0], [3.0, 4.0]]), 2, (2, 2))
+    np.float64(3.0)
+    """
+    if isinstance(part, int):
+        return numbers.reshape(*numbers.shape[: -len(tail)], -1)[..., part]
+    if part == "real":
+        return np.real(numbers)
+    # Adding 0 turns -0 into 0: an index without absorption has one sign only.
+    return np.imag(numbers) + 0.0 if part == "imag" else numbers
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -43,6 +83,22 @@ class View:
         """Whether the value is known before the plan runs."""
         return not isinstance(self.value, Parameter) or self.value.bound
 
+    @property
+    def traced(self) -> bool:
+        """Whether the value is one that JAX does not know yet."""
+        value = self.value
+        return is_traced(value.default if isinstance(value, Parameter) else value)
+
+    @property
+    def raw(self) -> Raw:
+        """What must be given for it, where it is not known."""
+        return Raw(self.value.name, self.raw_part)
+
+    @property
+    def raw_part(self) -> str | int:
+        """The part, but for cosines and sines, which are made of the value."""
+        return "value" if self.part in ("cos", "sin") else self.part
+
     def numbers(
         self, given: Mapping[str, Resolved], kind: np.dtype[Any] = _DOUBLE
     ) -> np.ndarray[Any, Any]:
@@ -51,11 +107,24 @@ class View:
         Cosines and sines are computed in the precision of `kind`.
         """
         if not isinstance(self.value, Parameter):
-            return self._part_of(np.asarray(self.value), kind)
+            return np.asarray(
+                self._done_to(part_of(np.asarray(self.value), self.raw_part, self.tail), kind)
+            )
         if self.part == "present":
             return self.present(given)
-        resolved = self._resolved(given).value
-        return self._part_of(-resolved if self.value.negative else resolved, kind)
+        raw = part_of(self._resolved(given).value, self.raw_part, self.tail)
+        return np.asarray(self.of(raw, kind))
+
+    def of(self, raw: Any, kind: np.dtype[Any] = _DOUBLE) -> Any:
+        """Return this part of a parameter's value, from the number or array that is given."""
+        return self._done_to(-raw if self.value.negative else raw, kind)
+
+    def of_float(self, raw: float) -> Any:
+        """Return this part of a parameter's value, from one float, without arrays."""
+        signed = -raw if self.value.negative else raw
+        if self.part in ("cos", "sin"):
+            return (_FLOAT_COS if self.part == "cos" else _FLOAT_SIN)(signed)
+        return signed
 
     def present(self, given: Mapping[str, Resolved] | None = None) -> np.ndarray[Any, Any]:
         """Return where an optional parameter is there."""
@@ -73,22 +142,10 @@ class View:
         parameter: Parameter = self.value
         return parameter.resolve(parameter.default) if parameter.bound else given[parameter.name]
 
-    def _part_of(self, numbers: np.ndarray[Any, Any], kind: np.dtype[Any]) -> np.ndarray[Any, Any]:
-        match self.part:
-            case "real":
-                return np.real(numbers)
-            case "imag":
-                # Adding 0 turns -0 into 0: an index without absorption has one sign only.
-                return np.asarray(np.imag(numbers) + 0.0)
-            case "cos":
-                return np.asarray(_COS(numbers.astype(kind)))
-            case "sin":
-                return np.asarray(_SIN(numbers.astype(kind)))
-            case int(position):
-                flat = numbers.reshape(*numbers.shape[: -len(self.tail)], -1)
-                return np.asarray(flat[..., position])
-            case _:
-                return numbers
+    def _done_to(self, numbers: Any, kind: np.dtype[Any]) -> Any:
+        if self.part in ("cos", "sin"):
+            return (_COS if self.part == "cos" else _SIN)(np.asarray(numbers).astype(kind))
+        return numbers
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, View):

@@ -4,8 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.engines import numpy_engine
 from optipath.kernels import BLOCK, FLOAT, NUMPY, ROTATION, SCALE, Jones, Linear, Plain, Scaled
+from optipath.walk import walk
 
 SHARES = st.floats(-1.0, 1.0)
 ANGLES = st.floats(-4.0, 4.0)
@@ -111,5 +111,7 @@ def test_no_number_changes_its_precision_on_the_way(dtype, way):
         given_, _ = plan.inputs.resolve({"theta": 0.3} if "theta" in plan.inputs.open else {})
         leaves = [view.numbers(given_) for view in plan.program.leaves]
         leaves = [n if n.dtype == bool else n.astype(dtype) for n in leaves]
-        for stokes, _ in numpy_engine.run(plan.program, leaves, way(NUMPY)).values():
+        for stokes, _ in walk(
+            plan.program, leaves, way(NUMPY), None, lambda number: np.asarray(number, dtype)
+        ).values():
             assert {np.asarray(component).dtype for component in stokes} == {np.dtype(dtype)}

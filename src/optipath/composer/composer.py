@@ -11,6 +11,7 @@ from optipath.composer.lower import lower, refuse_depolarizers
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import Wiring
+from optipath.engines import ENGINES, is_installed, missing
 from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
 from optipath.plan import Plan
@@ -19,7 +20,7 @@ from optipath.precision import precision
 CHOICES = {
     "method": METHODS,
     "model": ("auto", "full"),
-    "engine": ("auto", "numpy"),
+    "engine": ENGINES,
     "composing": ("stokes", "jones"),
 }
 
@@ -42,8 +43,9 @@ class Composer:
         How Fresnel's equations are computed.
     model : {"auto", "full"}, optional
         What is carried along: all four Stokes components.
-    engine : {"auto", "numpy"}, optional
-        What runs the steps.
+    engine : {"auto", "numpy", "numba", "jax"}, optional
+        What runs large batches: by default Numba where it is installed, and else NumPy. One
+        path, and a few, never need more than NumPy.
     dtype : {"float64", "float32", "longdouble"}, optional
         The precision of the steps, to which all values are rounded (1e-60 is 0 in
         float32); longdouble where the platform has it.
@@ -53,6 +55,9 @@ class Composer:
         100 %, however long the path.
     tolerance : None, optional
         Kept for approximations; only exact plans are made in this version.
+    threads : int, optional
+        How many threads share a batch of more than 65,536 paths; one by default, since
+        threads that wait for a busy machine cost more than they bring.
 
     Raises
     ------
@@ -73,6 +78,7 @@ class Composer:
     dtype: str = "float64"
     composing: str = "stokes"
     tolerance: None = None
+    threads: int = 1
 
     def __post_init__(self) -> None:
         faults = []
@@ -84,6 +90,10 @@ class Composer:
             precision(self.dtype)
         except ComposerError as fault:
             faults += fault.faults
+        if self.engine in ENGINES and not is_installed(self.engine):
+            faults += missing(self.engine).faults
+        if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
+            faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
         if self.tolerance is not None:
             faults.append("tolerance is not available in this version; leave it None")
         if faults:
@@ -119,7 +129,8 @@ class Composer:
             copied=wiring.copied,
             method=self.method,
             model="full",
-            engine="numpy",
             composing=self.composing,
             dtype=self.dtype,
+            chosen=self.engine,
+            threads=self.threads,
         )

@@ -174,7 +174,7 @@ class _Builder:
 
 
 def _vanishes(view: View) -> bool:
-    return view.known and not np.any(view.numbers({}))
+    return view.known and not view.traced and not np.any(view.numbers({}))
 
 
 def _presence(operations: tuple[Operation, ...]) -> View | None:

@@ -1,5 +1,27 @@
-"""Engines: each runs a program's steps and knows nothing else."""
+"""Engines: each does what a formula says, and knows nothing else."""
 
-from optipath.engines import numpy_engine
+from optipath.engines.array_path import ArrayPath
+from optipath.engines.choice import (
+    ENGINES,
+    NUMPY_STEPS,
+    batches,
+    compile_array_path,
+    engine_for,
+    is_installed,
+    jax_path,
+    missing,
+)
+from optipath.engines.float_engine import compiled as compile_float_path
 
-__all__ = ["numpy_engine"]
+__all__ = [
+    "ENGINES",
+    "NUMPY_STEPS",
+    "ArrayPath",
+    "batches",
+    "compile_array_path",
+    "compile_float_path",
+    "engine_for",
+    "is_installed",
+    "jax_path",
+    "missing",
+]

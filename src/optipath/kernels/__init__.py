@@ -9,7 +9,7 @@ from typing import TypeAlias
 from optipath.kernels import emission, filters, rotation
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
 from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
-from optipath.kernels.circular import cosine, sine
+from optipath.kernels.circular import cosine, sine, without_rounding
 from optipath.kernels.compensated import (
     compensated_lossless_reflection,
     compensated_lossless_transmission,
@@ -116,4 +116,5 @@ __all__ = [
     "sine",
     "stokes_of",
     "turn_linear",
+    "without_rounding",
 ]

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 
-_SMALL = 1e-6
-
-
 def cosine(xp: Primitives) -> Callable[[Any], Any]:
     """Make ``cos``, 0 at the odd multiples of pi/2.
 
@@ -30,7 +27,7 @@ def cosine(xp: Primitives) -> Callable[[Any], Any]:
     >>> cosine(FLOAT)(math.pi / 2), cosine(FLOAT)(math.pi)
     (0.0, -1.0)
     """
-    return _without_rounding(xp, xp.cos)
+    return without_rounding(xp, xp.cos)
 
 
 def sine(xp: Primitives) -> Callable[[Any], Any]:
@@ -43,16 +40,16 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
     >>> sine(FLOAT)(math.pi), sine(FLOAT)(1e-300)
     (0.0, 1e-300)
     """
-    return _without_rounding(xp, xp.sin)
+    return without_rounding(xp, xp.sin)
 
 
-def _without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    where, absolute, hidden, fixed = xp.where, xp.absolute, xp.hidden, xp.fixed
+def without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    """Make a sine or cosine that is 0 where the angle cannot tell it from 0."""
+    where, hidden, fixed = xp.where, xp.hidden, xp.fixed
 
     def rounded(angle: Any) -> Any:
         value = function(angle)
         # The value is taken away from itself, not replaced, so that its slope stays.
-        lost = hidden(angle, value) & (absolute(value) < _SMALL)
-        return value - where(lost, fixed(value), 0.0)
+        return value - where(hidden(angle, value), fixed(value), 0.0)
 
     return rounded

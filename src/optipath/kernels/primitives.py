@@ -27,7 +27,7 @@ class Primitives:
     division by zero and of roots of negative numbers. ``fixed`` is a value without its
     slope, where an engine takes gradients, and the value itself elsewhere.
     ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
-    a number is no more than the rounding of a larger one, in double precision at most.
+    a small number is no more than the rounding of a larger one, in double precision at most.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -56,8 +56,11 @@ def _itself(value: Any) -> Any:
     return value
 
 
+_SMALL = 1e-6
+
+
 def _is_hidden(larger: Any, number: Any) -> Any:
-    return larger + number == larger
+    return (larger + number == larger) & (abs(number) < _SMALL)
 
 
 def _hidden_in_arrays(larger: Any, number: Any) -> Any:
@@ -67,8 +70,13 @@ def _hidden_in_arrays(larger: Any, number: Any) -> Any:
     return _is_hidden(larger, number)
 
 
-def _two_product(a: Any, b: Any) -> tuple[Any, Any]:
-    """Return a b rounded and the rest, without a fused multiply-add (Dekker, 1971)."""
+def product_rest(a: Any, b: Any) -> Any:
+    """Return what the rounding of a b has lost, without a fused multiply-add."""
+    return product_and_rest(a, b)[1]
+
+
+def product_and_rest(a: Any, b: Any) -> tuple[Any, Any]:
+    """Return a product and what its rounding has lost (Dekker, Numer. Math. 18, 1971)."""
     product = a * b
     a_high, a_low = _halves(a)
     b_high, b_low = _halves(b)
@@ -77,7 +85,8 @@ def _two_product(a: Any, b: Any) -> tuple[Any, Any]:
 
 
 def _halves(a: Any) -> tuple[Any, Any]:
-    high = (_SPLITTERS[a.dtype.char] if isinstance(a, _ARRAYS) else _PLAIN_SPLITTER) * a
+    kind = getattr(a, "dtype", None)
+    high = (_PLAIN_SPLITTER if kind is None else _SPLITTERS[np.dtype(kind).char]) * a
     high = high - (high - a)
     return high, a - high
 
@@ -87,7 +96,6 @@ def _splitter(kind: str) -> Any:
     return np.dtype(kind).type(2) ** (digits - digits // 2) + np.dtype(kind).type(1)
 
 
-_ARRAYS = (np.ndarray, np.generic)
 _PLAIN_SPLITTER = 2.0**27 + 1.0
 _SPLITTERS = {kind: _splitter(kind) for kind in "fdg"}
 
@@ -109,7 +117,7 @@ NUMPY = Primitives(
     atan2=np.arctan2,
     frexp=np.frexp,
     ldexp=np.ldexp,
-    two_product=_two_product,
+    two_product=product_and_rest,
     hidden=_hidden_in_arrays,
     fixed=_itself,
 )
@@ -126,7 +134,7 @@ FLOAT = Primitives(
     atan2=math.atan2,
     frexp=math.frexp,
     ldexp=math.ldexp,
-    two_product=_fused_two_product if hasattr(math, "fma") else _two_product,
+    two_product=_fused_two_product if hasattr(math, "fma") else product_and_rest,
     hidden=_is_hidden,
     fixed=_itself,
 )

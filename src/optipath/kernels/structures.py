@@ -103,7 +103,7 @@ def _block(xp: Primitives) -> Action:
         x, y = along_axes(xp, carried)
         return (
             minimum(Fs * x, Fp * y),
-            2.0 * B * weak + where(s1 > 0.0, Fs, Fp) * s1,
+            2.0 * B * weak + where(s1 >= 0.0, Fs, Fp) * s1,
             C * s2 + S * s3,
             C * s3 - S * s2,
         )

@@ -1,0 +1,113 @@
+"""The leaves of a program as symbols: what is given, and the sines and cosines of angles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.formulas.symbolic import SYMBOLIC, with_polynomials
+from optipath.kernels import cosine, sine, without_rounding
+from optipath.kernels.trigonometry import DIGITS, any_quadrant, first_quadrant
+from optipath.precision import wide
+from optipath.views import ABSENT, ONE, WIDE, ZERO
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.formulas.recorder import Recorder
+    from optipath.kernels import Primitives
+    from optipath.program import Program
+    from optipath.views import Raw, View
+
+Limits = tuple[float, float]
+
+
+class Leaves:
+    """Makes the symbols of a program's leaves.
+
+    Parameters
+    ----------
+    recorder : Recorder
+        Where they are recorded.
+    forms : mapping of Raw to str
+        What is given for each number.
+    limits : mapping of str to tuple of float
+        The range of each parameter; a value outside it is against a requirement.
+    polynomials : bool
+        Whether sines and cosines are to be polynomials.
+    """
+
+    def __init__(
+        self,
+        recorder: Recorder,
+        forms: Mapping[Raw, str],
+        limits: Mapping[str, Limits],
+        *,
+        polynomials: bool,
+    ) -> None:
+        self.recorder = recorder
+        self.forms = forms
+        self.limits = limits
+        self.polynomials = polynomials
+
+    @property
+    def primitives(self) -> Primitives:
+        """What kernels are to be made of."""
+        return with_polynomials(self.recorder.dtype.name) if self.polynomials else SYMBOLIC
+
+    def of(self, program: Program) -> list[Any]:
+        """Return a symbol, or a number that is known, for each leaf."""
+        return [self._leaf(view, f".{place}") for place, view in enumerate(program.leaves)]
+
+    def _leaf(self, view: View, name: str) -> Any:
+        if view.known:
+            if view.part == "present":
+                return self.recorder.input(name, "bool") if view.present().ndim else True
+            numbers = view.numbers({}, wide(self.recorder.dtype))
+            if numbers.ndim:
+                return self.recorder.input(name)
+            with np.errstate(over="ignore", under="ignore"):
+                return self.recorder.dtype.type(numbers[()])
+        raw = view.raw
+        form = self.forms[raw]
+        if raw.part == "present":
+            return form == ONE if form in (ONE, ABSENT) else self.recorder.input(str(raw), "bool")
+        if form == ZERO:
+            return self.recorder.dtype.type(view.part == "cos")
+        if form == ABSENT:
+            return self.recorder.dtype.type(0.0)
+        given = self._given(raw, form)
+        rest: Any = 0.0
+        if form == WIDE:
+            self.recorder.wide.add(str(raw))
+            rest = self.recorder.input(str(raw), rest=True)
+        if view.value.negative:
+            given, rest = -given, -rest
+        if view.part in ("cos", "sin"):
+            return self._circular(view, given, rest)
+        return given
+
+    def _given(self, raw: Raw, form: str) -> Any:
+        low, high = self.limits[raw.name]
+        given = self.recorder.input(str(raw), uniform=form == ONE)
+        most = float(np.finfo(self.recorder.dtype).max)
+        kind = self.recorder.dtype.type
+        self.recorder.require(kind(max(low, -most)) <= given)
+        self.recorder.require(given <= kind(min(high, most)))
+        # From here on it is known, and no longer asked.
+        given.positive = low >= 0.0
+        return given
+
+    def _circular(self, view: View, angle: Any, rest: Any) -> Any:
+        if not self.polynomials:
+            return (cosine if view.part == "cos" else sine)(SYMBOLIC)(angle)
+        digits = DIGITS[self.recorder.dtype.name]
+        low, high = self.limits[view.value.name]
+        if view.value.negative:
+            low, high = -high, -low
+        if low >= 0.0 and high <= np.pi / 2:
+            return first_quadrant(SYMBOLIC, digits)(angle, rest)[view.part == "cos"]
+        self.recorder.require(abs(angle) <= digits.most)
+        value = any_quadrant(SYMBOLIC, digits)(angle, rest)[view.part == "cos"]
+        return without_rounding(SYMBOLIC, lambda _: value)(angle)

@@ -1,0 +1,91 @@
+"""The formula of a path: from what is given to the light at every end."""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.faint import FAINT
+from optipath.formulas.formula import Formula
+from optipath.formulas.leaves import Leaves, Limits
+from optipath.formulas.recorder import Recorder
+from optipath.kernels import Linear, Plain
+from optipath.walk import walk
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.kernels import Way
+    from optipath.program import Program, Reading
+    from optipath.views import Raw
+
+
+def lights_formula(
+    program: Program,
+    way: type[Way],
+    dtype: str,
+    forms: Mapping[Raw, str],
+    limits: Mapping[str, Limits],
+    *,
+    polynomials: bool,
+) -> Formula:
+    """Return the formula of the light at every end.
+
+    Its results are the four components of each reading in turn, NaN where they are not
+    read, and then the exponents. It holds for values within their limits whose light is
+    finite and not too faint.
+    """
+    recorder = Recorder(np.dtype(dtype))
+    leaves = Leaves(recorder, forms, limits, polynomials=polynomials)
+    found = walk(program, leaves.of(program), way(leaves.primitives))
+    outputs: list[Any] = []
+    exponents: list[Any] = []
+    holds: list[Any] = []
+    for reading in program.readings.values():
+        components, exponent = found[reading.light]
+        read = components[: reading.components]
+        outputs += [*read, *[np.nan] * (4 - len(read))]
+        exponents.append(exponent)
+        holds.append(_finite(read, recorder.dtype))
+        if way is Plain:
+            holds.append(components[0] >= np.finfo(recorder.dtype).tiny * FAINT)
+    return _formula(recorder, [*outputs, *exponents], holds)
+
+
+def matrix_formula(
+    program: Program,
+    source: str,
+    reading: Reading,
+    dtype: str,
+    forms: Mapping[Raw, str],
+    limits: Mapping[str, Limits],
+) -> Formula:
+    """Return the formula of the Mueller matrix from a source to a reading, row by row."""
+    recorder = Recorder(np.dtype(dtype))
+    leaves = Leaves(recorder, forms, limits, polynomials=True)
+    symbols, way = leaves.of(program), Linear(leaves.primitives)
+    none, one = recorder.dtype.type(0.0), recorder.dtype.type(1.0)
+    columns = []
+    for place in range(4):
+        emitted = {step: (none,) * 4 for step, _ in program.sources.values()}
+        begin, _ = program.sources[source]
+        emitted[begin] = tuple(one if row == place else none for row in range(4))
+        components, _ = walk(program, symbols, way, emitted)[reading.light]
+        columns.append(components)
+    rows = range(reading.components)
+    outputs = [column[row] for row in rows for column in columns]
+    unread = [np.nan] * (16 - len(outputs))
+    return _formula(recorder, [*outputs, *unread], [_finite(outputs, recorder.dtype)])
+
+
+def _finite(numbers: Any, dtype: np.dtype[Any]) -> Any:
+    """Return whether numbers are finite: their sum, and so each."""
+    total: Any = reduce(lambda one, other: one + other, map(abs, numbers))
+    return total <= np.finfo(dtype).max
+
+
+def _formula(recorder: Recorder, outputs: list[Any], holds: list[Any]) -> Formula:
+    together = reduce(lambda one, other: one & other, [*recorder.requirements, *holds], np.True_)
+    return Formula(recorder.dtype, (*outputs, together), frozenset(recorder.wide))

@@ -1,0 +1,166 @@
+"""What is given to a plan, sorted into numbers and arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError
+from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.inputs import Inputs
+    from optipath.parameters import Resolved
+    from optipath.program import Program
+
+_PLAIN = ("value", "real", "imag", "present")
+
+
+class Given(NamedTuple):
+    """Numbers for a program.
+
+    Attributes
+    ----------
+    numbers : mapping of Raw to float or ndarray
+        What is given; a bool or an array of them for whether an element is there.
+    batch : tuple of int
+        The shape that all arrays broadcast to, those known beforehand included.
+    whole : tuple of int, optional
+        The shape of the batch that this is a part of.
+    where : tuple, optional
+        The index of the part in it.
+    """
+
+    numbers: Mapping[Raw, Any]
+    batch: tuple[int, ...]
+    whole: tuple[int, ...] = ()
+    where: tuple[int | slice, ...] | None = None
+
+    @property
+    def paths(self) -> int:
+        """The number of paths."""
+        return int(np.prod(self.batch, dtype=np.int64))
+
+    def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        """Return the part of an array that belongs to this part of the batch."""
+        if self.where is None or not array.ndim:
+            return array
+        return np.broadcast_to(array, self.whole)[self.where]
+
+    def part(self, where: tuple[int | slice, ...]) -> Given:
+        """Return a part of what is given; not of a part."""
+        numbers = {
+            raw: np.broadcast_to(n, self.batch)[where] if isinstance(n, np.ndarray) else n
+            for raw, n in self.numbers.items()
+        }
+        batch = np.broadcast_to(0.0, self.batch)[where].shape
+        return Given(numbers, batch, self.batch, where)
+
+    @property
+    def is_single(self) -> bool:
+        """Whether everything is one number."""
+        return all(
+            type(number) is float or number is True or number is False
+            for number in self.numbers.values()
+        )
+
+    def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[Raw, str], ...]:
+        """Return in which form each number is given."""
+        return tuple((raw, _form(raw, number, dtype)) for raw, number in self.numbers.items())
+
+
+class Sorter:
+    """Sorts what is given to a program.
+
+    Parameters
+    ----------
+    program : Program
+        What needs the numbers.
+    inputs : Inputs
+        What may be given.
+    """
+
+    def __init__(self, program: Program, inputs: Inputs) -> None:
+        self.inputs = inputs
+        found = dict.fromkeys(view.raw for view in program.leaves if not view.known)
+        self.raws = {name: [r for r in found if r.name == name] for name in inputs.open}
+        # A formula checks the range of a number that it reads, and of no other.
+        self._plain = {
+            name
+            for name, raws in self.raws.items()
+            if not inputs.tails[name] and any(raw.part in ("value", "real") for raw in raws)
+        }
+        self._known = np.broadcast_shapes(*inputs.shapes.values())
+
+    def sort(self, parameters: Mapping[str, Any]) -> Given:
+        """Return the numbers that are given.
+
+        Ranges of plain floats and arrays of floats are left to be checked by who uses them.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given.
+        """
+        opened = self.inputs.open
+        numbers: dict[Raw, Any] = {}
+        shapes = [self._known]
+        if parameters.keys() <= opened.keys():
+            try:
+                for name, parameter in opened.items():
+                    value = parameters.get(name, parameter.default)
+                    if type(value) is int:
+                        value = float(value)
+                    present: Any = True
+                    if name in self._plain and _is_plain(value):
+                        real = value
+                    else:
+                        real, present = self._resolved(name, value)
+                    if type(real) is not float:
+                        shape = np.shape(real)
+                        shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
+                    for raw in self.raws[name]:
+                        numbers[raw] = _number(self._part(raw, real, present))
+                return Given(numbers, np.broadcast_shapes(*shapes))
+            except (OptipathError, ArithmeticError, ValueError, TypeError):
+                pass
+        self.inputs.resolve(parameters)
+        raise AssertionError("what cannot be sorted is refused")
+
+    def _part(self, raw: Raw, value: Any, present: Any) -> Any:
+        if raw.part == "present":
+            return True if np.all(present) else present
+        if type(value) is float:
+            return 0.0 if raw.part == "imag" else value
+        return part_of(value, raw.part, self.inputs.tails[raw.name])
+
+    def _resolved(self, name: str, value: Any) -> Resolved:
+        resolved = self.inputs.open[name].resolve(value)
+        for use in self.inputs.uses:
+            if use.value.name == name:
+                use.check_given(resolved.value)
+        return resolved
+
+
+def _is_plain(value: Any) -> bool:
+    if type(value) is float:
+        return True
+    return type(value) is np.ndarray and value.dtype.char in "fd"
+
+
+def _number(value: Any) -> Any:
+    """Return one number as a float or a bool, and an array as it is."""
+    if isinstance(value, (float, bool)):
+        return value
+    return value.item() if np.size(value) == 1 else value
+
+
+def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:
+    if isinstance(number, np.ndarray):
+        return WIDE if number.dtype.itemsize > dtype.itemsize else MANY
+    if raw.part == "present":
+        return ONE if number else ABSENT
+    return ZERO if number == 0.0 else ONE

@@ -1,0 +1,51 @@
+"""Batches of any shape in pieces that follow each other in memory."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+class Piece(NamedTuple):
+    """A part of a batch.
+
+    Attributes
+    ----------
+    where : tuple
+        The index of the part in arrays of the batch's shape.
+    start, stop : int
+        The range of its paths, counted in order.
+    """
+
+    where: tuple[int | slice, ...]
+    start: int
+    stop: int
+
+
+def pieces(batch: tuple[int, ...], size: int) -> Iterator[Piece]:
+    """Yield the parts of a batch in order, each of a size at most.
+
+    Examples
+    --------
+    >>> [piece.where for piece in pieces((2, 3), 4)]
+    [(slice(0, 1, None),), (slice(1, 2, None),)]
+    """
+    if not batch:
+        yield Piece((), 0, 1)
+        return
+    axis = 0
+    while axis < len(batch) - 1 and np.prod(batch[axis + 1 :], dtype=np.int64) > size:
+        axis += 1
+    inner = int(np.prod(batch[axis + 1 :], dtype=np.int64))
+    step = max(1, size // max(inner, 1))
+    start = 0
+    for outer in np.ndindex(batch[:axis]):
+        for begin in range(0, batch[axis], step):
+            end = min(begin + step, batch[axis])
+            stop = start + (end - begin) * inner
+            yield Piece((*outer, slice(begin, end)), start, stop)
+            start = stop

@@ -1,0 +1,154 @@
+"""A program done step after step, with the kernels as they are: one path, or whole arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.faint import FAINT, folded, is_faint
+from optipath.kernels import FLOAT, NUMPY, Jones, Linear, Plain, Scaled
+from optipath.precision import wide
+from optipath.walk import walk
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from optipath.kernels import Components, Way
+    from optipath.program import Program, Reading
+    from optipath.running.given import Given
+    from optipath.views import Raw
+
+_LONG = 16
+_TINY = np.finfo(np.float64).tiny * FAINT
+
+
+def way_of(program: Program, composing: str) -> type[Way]:
+    """Return how light is carried along a program."""
+    if composing == "jones":
+        return Jones
+    return Scaled if len(program.steps) > _LONG else Plain
+
+
+class Stepwise:
+    """Runs a program without compiling anything.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    way : type
+        How light is carried.
+    dtype : dtype
+        The precision.
+    """
+
+    def __init__(self, program: Program, way: type[Way], dtype: np.dtype[Any]) -> None:
+        self.program = program
+        self.way = way
+        self.dtype = dtype
+        self._float_way = way(FLOAT)
+        self._ways = {kind: kind(NUMPY) for kind in (way, Scaled, Linear)}
+        self._known: list[Any] | None = None
+        self._known_floats: list[float] | None = None
+
+    def single(self, numbers: Mapping[Raw, Any]) -> list[tuple[Any, ...]] | None:
+        """Return (S0, S1, S2, S3, exponent) at every end, all numbers being floats.
+
+        None where that takes more care than floats allow.
+        """
+        if self._known_floats is None:
+            self._known_floats = [
+                self._of_known(view).item() if view.known else 0.0 for view in self.program.leaves
+            ]
+        leaves = list(self._known_floats)
+        for place, view in enumerate(self.program.leaves):
+            if not view.known:
+                number = numbers[view.raw]
+                leaves[place] = number if view.part == "present" else view.of_float(number)
+        try:
+            found = walk(self.program, leaves, self._float_way)
+        except (ArithmeticError, ValueError):
+            return None
+        lights = []
+        for reading in self.program.readings.values():
+            components, exponent = found[reading.light]
+            read = tuple(components[: reading.components])
+            finite = abs(sum(map(abs, read))) < np.inf
+            if not finite or (self.way is Plain and not components[0] >= _TINY):
+                return None
+            lights.append((*read, *[np.nan] * (4 - len(read)), exponent))
+        return lights
+
+    def lights(self, given: Given) -> list[tuple[np.ndarray[Any, Any], Any]]:
+        """Return Stokes vectors (..., 4) and exponents at every end."""
+        leaves = self._leaves(given)
+        found = self._stacked(leaves, self._ways[self.way], given.batch)
+        if self.way is Plain and any(np.any(is_faint(s[..., 0])) for s, _ in found):
+            found = self._stacked(leaves, self._ways[Scaled], given.batch)
+        return [folded(*light) for light in found]
+
+    def matrix(self, given: Given, source: str, reading: Reading) -> np.ndarray[Any, Any]:
+        """Return Mueller matrices (..., 4, 4) from a source to a reading."""
+        leaves = self._leaves(given)
+        dimensions = max((leaf.ndim for leaf in leaves), default=0)
+        columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * dimensions)
+        none = self.dtype.type(0.0)
+        emitted: dict[int, Components] = {
+            step: (none, none, none, none) for step, _ in self.program.sources.values()
+        }
+        begin, _ = self.program.sources[source]
+        emitted[begin] = columns[:, 0], columns[:, 1], columns[:, 2], columns[:, 3]
+        lights = self._walk(leaves, self._ways[Linear], emitted)
+        stokes = _stack(lights[reading.light][0], (4, *given.batch), reading, self.dtype)
+        return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
+
+    def _stacked(self, leaves: Sequence[Any], way: Way, batch: tuple[int, ...]) -> list[Any]:
+        lights = self._walk(leaves, way)
+        return [
+            (
+                _stack(lights[reading.light][0], batch, reading, self.dtype),
+                np.broadcast_to(lights[reading.light][1], batch),
+            )
+            for reading in self.program.readings.values()
+        ]
+
+    def _walk(self, leaves: Sequence[Any], way: Way, emitted: Any = None) -> Any:
+        # Plain numbers among what kernels give have no precision of their own.
+        with np.errstate(all="ignore"):
+            return walk(self.program, leaves, way, emitted, lambda n: np.asarray(n, self.dtype))
+
+    def _leaves(self, given: Given) -> list[np.ndarray[Any, Any]]:
+        if self._known is None:
+            self._known = [
+                self._cast(self._of_known(view)) if view.known else None
+                for view in self.program.leaves
+            ]
+        kind, numbers = wide(self.dtype), given.numbers
+        return [
+            self._cast(view.of(np.asarray(numbers[view.raw]), kind))
+            if leaf is None and view.part != "present"
+            else np.asarray(numbers[view.raw])
+            if leaf is None
+            else given.cut(leaf)
+            for leaf, view in zip(self._known, self.program.leaves, strict=True)
+        ]
+
+    def _of_known(self, view: Any) -> Any:
+        if view.part == "present":
+            return view.present()[()]
+        return view.numbers({}, wide(self.dtype))[()]
+
+    def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
+        array = np.asarray(numbers)
+        with np.errstate(over="ignore", under="ignore"):  # What is not finite is told later.
+            return array if array.dtype == bool else array.astype(self.dtype, copy=False)
+
+
+def _stack(
+    components: Any, batch: tuple[int, ...], reading: Reading, dtype: np.dtype[Any]
+) -> np.ndarray[Any, Any]:
+    stokes = np.full((*batch, 4), np.nan, dtype=dtype)
+    for component in range(reading.components):
+        stokes[..., component] = components[component]
+    return stokes

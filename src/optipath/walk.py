@@ -1,0 +1,99 @@
+"""Walk: the steps of a program taken one after the other, with numbers of any sort."""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from optipath.kernels import Components, Way
+    from optipath.kernels.structures import Numbers
+    from optipath.program import Evaluation, Program
+
+
+def _itself(number: Any) -> Any:
+    return number
+
+
+def walk(
+    program: Program,
+    leaves: Sequence[Any],
+    way: Way,
+    emitted: Mapping[int, Components] | None = None,
+    number: Callable[[Any], Any] = _itself,
+) -> dict[int, tuple[Components, Any]]:
+    """Return the light of every reading, as four components and an exponent.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    leaves : sequence
+        The numbers behind ``program.leaves``: floats, arrays that broadcast, or symbols.
+    way : Way
+        How light is carried from step to step, and in which primitives.
+    emitted : mapping of int to tuple, optional
+        The light of each emitting step, in place of what the sources emit.
+    number : callable, optional
+        What is done to each number that a kernel gives.
+
+    Returns
+    -------
+    dict of int to (tuple, int or array)
+        For each light that is read, its four Stokes components, and the exponent of
+        the power of two that they are to be taken times.
+    """
+    kept = {reading.light for reading in program.readings.values()}
+    states: dict[int, Any] = {}
+    states_left = list(program.light_uses)
+    numbers: dict[int, Numbers] = {}
+    numbers_left = list(program.evaluation_uses)
+
+    for light, step in enumerate(program.steps):
+        if emitted is not None and light in emitted:
+            states[light] = way.emit(emitted[light])
+            continue
+        arriving = [states[source] for source in step.inputs]
+        state: Any = reduce(way.add, arriving) if arriving else None
+        if step.evaluation is not None:
+            index = step.evaluation
+            if index not in numbers:
+                numbers[index] = tuple(
+                    map(number, _evaluate(program.evaluations[index], leaves, way))
+                )
+            structure = program.evaluations[index].kernel.structure
+            if structure is None:
+                s0, s1, s2, s3 = numbers[index]
+                state = way.emit((s0, s1, s2, s3))
+            else:
+                state = way.act(structure, numbers[index], state)
+            numbers_left[index] -= 1
+            if not numbers_left[index]:
+                del numbers[index]
+        states[light] = state
+        for source in step.inputs:
+            states_left[source] -= 1
+            if not states_left[source]:
+                del states[source]
+    return {light: way.read(states[light]) for light in kept}
+
+
+def _evaluate(evaluation: Evaluation, leaves: Sequence[Any], way: Way) -> Numbers:
+    given = [leaves[leaf] for leaf in evaluation.arguments]
+    kernel, left = evaluation.kernel.leaving_out(given, _vanishes)
+    numbers = kernel.made_for(way.xp)(*left)
+    structure = evaluation.kernel.structure
+    if evaluation.presence is None or structure is None:
+        return numbers
+    present, where = leaves[evaluation.presence], way.xp.where
+    pairs = zip(numbers, structure.identity, strict=True)
+    return tuple(where(present, number, nothing) for number, nothing in pairs)
+
+
+def _vanishes(number: Any) -> bool:
+    """Tell whether a number is one for the whole batch, known, and 0."""
+    return isinstance(number, (float, np.floating)) and number == 0.0
