@@ -27,9 +27,6 @@ if TYPE_CHECKING:
 
     Array = np.ndarray[Any, Any]
 
-LONGEST = 64
-"""How many steps are compiled in one piece."""
-
 _CACHED = 8192
 """How many paths are taken at once, step after step."""
 
@@ -57,7 +54,14 @@ class Execution:
         As `Composer` takes them.
     threads : int
         How many threads share a large batch.
+
+    Attributes
+    ----------
+    longest : int
+        How many steps are compiled in one piece.
     """
+
+    longest = 64
 
     def __init__(
         self,
@@ -77,7 +81,7 @@ class Execution:
         self.engine = engine
         self.threads = threads
         self.way = way_of(program, composing)
-        self.compilable = len(program.steps) <= LONGEST and dtype in ("float64", "float32")
+        self.compilable = len(program.steps) <= self.longest and dtype in ("float64", "float32")
         self.sorter = Sorter(program, inputs)
         self.stepwise = Stepwise(program, self.way, self.dtype)
         self.single = Single(program, inputs, self.stepwise, compilable=self.compilable)

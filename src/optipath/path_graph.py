@@ -17,7 +17,6 @@ from optipath.errors import PathError
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
 from optipath.port_names import check_port, element_at, find_port
-from optipath.preset_format import to_toml
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -264,6 +263,8 @@ class PathGraph:
         PathError
             If an element has no kind, or a value has no form in TOML.
         """
+        from optipath.preset_format import to_toml  # noqa: PLC0415 - not for every import
+
         return to_toml(self._graph, self.description, self.cases)
 
     def __eq__(self, other: object) -> bool:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.engines import batches
 from optipath.errors import ParameterError, did_you_mean
-from optipath.execution import LONGEST, Execution
 from optipath.explanation import explanation
 from optipath.light import Light
 from optipath.mueller import Mueller
@@ -16,7 +15,7 @@ from optipath.mueller import Mueller
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.execution import Found
+    from optipath.execution import Execution, Found
     from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.program import Program
@@ -198,7 +197,7 @@ class Plan:
         notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
         if self.engine_for(1 << 30) != self.engine:
             notes.append(
-                f"all batches are run step by step: paths of at most {LONGEST} steps are compiled, "
+                f"all batches are run step by step: paths of at most {self._execution.longest} steps are compiled, "
                 f"in float64 and float32"
             )
         elif self.chosen != "jax":
@@ -214,6 +213,9 @@ class Plan:
 
     @cached_property
     def _execution(self) -> Execution:
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.execution import Execution  # noqa: PLC0415
+
         return Execution(
             self.program,
             self.inputs,

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import OptipathError, PathError, PresetError, did_you_mean
-from optipath.preset_format import schema
-from optipath.preset_reader import read
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -117,11 +114,15 @@ def read_preset(path: Path) -> PathGraph:
     PathError
         With every fault of what it says.
     """
+    # Not for every import of the library.
+    from optipath.preset_format.schema import FORMAT  # noqa: PLC0415
+    from optipath.preset_reader import read  # noqa: PLC0415
+
     document = _parse(path, _text(path))
-    number = document.get("format", schema.FORMAT)
-    if number != schema.FORMAT or isinstance(number, bool):
+    number = document.get("format", FORMAT)
+    if number != FORMAT or isinstance(number, bool):
         raise PresetError(
-            f"'{path}' has format {number!r}, but this version reads format {schema.FORMAT}"
+            f"'{path}' has format {number!r}, but this version reads format {FORMAT}"
         )
     try:
         return read(document)
@@ -150,6 +151,8 @@ def _text(path: Path) -> str:
 
 
 def _parse(path: Path, text: str) -> dict[str, Any]:
+    import tomllib  # noqa: PLC0415 - as above
+
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.

@@ -32,10 +32,11 @@ PATHS = 4096
 
 
 class Effort(NamedTuple):
-    """How much is measured: samples a region, and timings a contender."""
+    """How much is measured: samples a region, timings a contender, and which engines."""
 
     samples: int = 24
     rounds: int = 7
+    engines: tuple[str, ...] = ("numpy", "numba")
 
 
 _USUAL = Effort()
@@ -66,7 +67,7 @@ def path_chart(
         What `draw` draws, ready to be written as JSON.
     """
     _refuse_batches(path)
-    runners = _different(path)
+    runners = _different(path, effort.engines)
     # Longdouble is given the numbers of float64, and so has its references.
     rounded = {"float64": "float64", "float32": "float32", "longdouble": "float64"}
     drawn = dict.fromkeys(rounded[dtype] for dtype in available_dtypes())
@@ -115,7 +116,7 @@ def interface_chart(
     dict
         What `draw` draws.
     """
-    runners = contenders(("stokes",))
+    runners = contenders(("stokes",), ("numpy",))
     found: list[dict[str, Any]] = []
     actions: list[Callable[[], Any]] = []
     for number, runner in enumerate(runners):
@@ -141,10 +142,10 @@ def _refuse_batches(path: PathGraph) -> None:
         )
 
 
-def _different(path: PathGraph) -> list[Contender]:
+def _different(path: PathGraph, engines: tuple[str, ...]) -> list[Contender]:
     """Return the contenders that can compute a path, and each computation once."""
     found: dict[Any, Contender] = {}
-    for runner in contenders():
+    for runner in contenders(engines=engines):
         try:
             plan = runner.composer.compose(path)
             plan.run_all()

@@ -29,6 +29,12 @@ DATA = click.Option(
     type=click.Path(dir_okay=False, path_type=Path),
     help="Write what was measured into this file, as JSON.",
 )
+ENGINE = click.Option(
+    ["--engine", "engines"],
+    type=click.Choice(["numpy", "numba"]),
+    multiple=True,
+    help="Measure this engine; may be given twice. By default all that are installed.",
+)
 INTERFACE = click.Option(
     ["--interface"], is_flag=True, help="Measure one interface instead of a path."
 )
@@ -40,15 +46,22 @@ REDRAW = click.Option(
 
 
 def _chart(
-    preset: str, case: str | None, values: dict[str, Any], *, out: Path, data: Path | None
+    preset: str,
+    case: str | None,
+    values: dict[str, Any],
+    *,
+    out: Path,
+    data: Path | None,
+    engines: tuple[str, ...],
 ) -> None:
     path = load_preset(preset, case=case, **values)
     title = preset + (f", case {case}" if case else "")
 
     def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
-        from optipath.accuracy.chart import path_chart  # noqa: PLC0415 - an extra
+        from optipath.accuracy.chart import Effort, path_chart  # noqa: PLC0415 - an extra
 
-        return path_chart(path, title, progress=progress)
+        effort = Effort(engines=engines) if engines else Effort()
+        return path_chart(path, title, effort, progress)
 
     _measure_and_draw(measure, out, data)
 
@@ -127,7 +140,7 @@ def _write(file: Path, action: Callable[[], object]) -> None:
 chart = PresetGroup(
     "chart",
     action=_chart,
-    options=(OUT, DATA),
+    options=(OUT, DATA, ENGINE),
     callback=_without_preset,
     params=[INTERFACE, REDRAW, OUT, DATA],
     invoke_without_command=True,

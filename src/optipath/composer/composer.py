@@ -67,7 +67,8 @@ class Composer:
     Examples
     --------
     >>> import optipath as op
-    >>> plan = op.Composer(method="textbook").compose(op.load_preset("malus"))
+    >>> composer = op.Composer(method="textbook", engine="numpy")
+    >>> plan = composer.compose(op.load_preset("malus"))
     >>> plan.method, plan.engine
     ('textbook', 'numpy')
     """
@@ -92,6 +93,8 @@ class Composer:
             faults += fault.faults
         if self.engine in ENGINES and not is_installed(self.engine):
             faults += missing(self.engine).faults
+        if (self.engine, self.dtype) == ("jax", "longdouble"):
+            faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
             faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
         if self.tolerance is not None:

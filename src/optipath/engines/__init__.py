@@ -11,7 +11,6 @@ from optipath.engines.choice import (
     jax_path,
     missing,
 )
-from optipath.engines.float_engine import compiled as compile_float_path
 
 __all__ = [
     "ENGINES",
@@ -19,7 +18,6 @@ __all__ = [
     "ArrayPath",
     "batches",
     "compile_array_path",
-    "compile_float_path",
     "engine_for",
     "is_installed",
     "jax_path",

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.engines import compile_float_path
+from optipath.engines.float_engine import compiled
 from optipath.formulas import lights_formula
 from optipath.parameters import ABSENT as WORD
 from optipath.views import ABSENT, ONE
@@ -92,7 +92,7 @@ class Single:
             self.program, self.stepwise.way, "float64", forms, limits, polynomials=False
         )
         places = {str(raw): place for place, raw in enumerate(given.numbers)}
-        return compile_float_path(formula), [places[s.operands[0]] for s in formula.inputs]
+        return compiled(formula), [places[s.operands[0]] for s in formula.inputs]
 
     def _is_usual(self, given: Given) -> bool:
         """Tell whether the optional elements are there as they are by default."""
