@@ -46,6 +46,7 @@ ROOMS = [
     "presets",
     "drawing",
     "accuracy",
+    "bench",
     "cli",
 ]
 

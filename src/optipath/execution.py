@@ -142,7 +142,7 @@ class Execution:
         engine = self.engine_for(given.paths)
         if engine == NUMPY_STEPS:
             self.inputs.resolve(parameters)
-            return _joined([careful(part) for part in self._parts(given)], given.batch)
+            return _joined([careful(part) for part in self._parts(given)], given.batch, (4, 4))
 
         def formula(forms: Any) -> Formula:
             limits = self.inputs.limits
@@ -171,10 +171,8 @@ class Execution:
             parts = [self._careful(part) for part in self._parts(given)]
             joined = [
                 Found(
-                    *(
-                        _joined([getattr(p[end], f) for p in parts], given.batch)
-                        for f in Found._fields
-                    )
+                    _joined([part[end].stokes for part in parts], given.batch, (4,)),
+                    _joined([part[end].exponent for part in parts], given.batch, ()),
                 )
                 for end in range(len(ends))
             ]
@@ -268,9 +266,8 @@ class Execution:
             )
 
 
-def _joined(parts: list[Array], batch: tuple[int, ...]) -> Array:
-    """Return the parts of a batch as one array of its shape."""
+def _joined(parts: list[Array], batch: tuple[int, ...], tail: tuple[int, ...]) -> Array:
+    """Return the parts of a batch as one array of its shape, with some axes behind it."""
     if len(parts) == 1:
         return parts[0]
-    tail = parts[0].shape[parts[0].ndim :]
     return np.concatenate([part.reshape(-1, *tail) for part in parts]).reshape(*batch, *tail)

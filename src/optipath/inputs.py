@@ -163,6 +163,11 @@ class Inputs:
         return found
 
     @cached_property
+    def dimensions(self) -> dict[str, str]:
+        """The dimension of each open parameter."""
+        return {use.value.name: use.domain.dimension for use in self.uses}
+
+    @cached_property
     def tails(self) -> dict[str, tuple[int, ...]]:
         """The axes of one value of each open parameter, behind the batch."""
         return {use.value.name: use.domain.tail for use in self.uses}

@@ -196,9 +196,10 @@ class Plan:
         )
         notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
         if self.engine_for(1 << 30) != self.engine:
+            longest = self._execution.longest
             notes.append(
-                f"all batches are run step by step: paths of at most {self._execution.longest} steps are compiled, "
-                f"in float64 and float32"
+                f"all batches are run step by step: paths of at most {longest} steps are "
+                f"compiled, in float64 and float32"
             )
         elif self.chosen != "jax":
             notes.append(batches(self.chosen))

@@ -121,9 +121,7 @@ def read_preset(path: Path) -> PathGraph:
     document = _parse(path, _text(path))
     number = document.get("format", FORMAT)
     if number != FORMAT or isinstance(number, bool):
-        raise PresetError(
-            f"'{path}' has format {number!r}, but this version reads format {FORMAT}"
-        )
+        raise PresetError(f"'{path}' has format {number!r}, but this version reads format {FORMAT}")
     try:
         return read(document)
     except OptipathError as error:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import click
 
 from optipath.cli.accuracy import accuracy
+from optipath.cli.bench import bench
 from optipath.cli.chart import chart
 from optipath.cli.explain import explain
 from optipath.cli.presets import presets
@@ -35,6 +36,7 @@ cli.add_command(presets)
 cli.add_command(show)
 cli.add_command(run)
 cli.add_command(explain)
+cli.add_command(bench)
 cli.add_command(chart)
 cli.add_command(accuracy)
 

@@ -7,6 +7,7 @@ from typing import Any, Protocol
 
 import networkx as nx
 
+from optipath.composer.collection import put_off
 from optipath.composer.lower import lower, refuse_depolarizers
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
@@ -120,6 +121,10 @@ class Composer:
         graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {path!r}")
+        with put_off():
+            return self._plan(graph)
+
+    def _plan(self, graph: nx.MultiDiGraph) -> Plan:
         values, wiring = Values(graph), Wiring(graph)
         refuse_faults(values, wiring)
         program = lower(wiring, self.method)

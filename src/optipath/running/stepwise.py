@@ -91,8 +91,7 @@ class Stepwise:
     def matrix(self, given: Given, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
         leaves = self._leaves(given)
-        dimensions = max((leaf.ndim for leaf in leaves), default=0)
-        columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * dimensions)
+        columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(given.batch))
         none = self.dtype.type(0.0)
         emitted: dict[int, Components] = {
             step: (none, none, none, none) for step, _ in self.program.sources.values()
