@@ -1,0 +1,302 @@
+"""Engines against each other, and against steps taken one by one."""
+
+import pickle
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.accuracy.path_reference import exact_lights
+from optipath.bench.values import random_values
+from paths import chain
+
+METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}
+DRAW = np.random.default_rng(3)
+
+
+def angles(count, dtype="float64"):
+    return {
+        "delta": DRAW.uniform(0, np.pi / 2, count).astype(dtype),
+        "rho": DRAW.uniform(-6, 6, count).astype(dtype),
+        "phi": DRAW.uniform(0, np.pi / 2, count).astype(dtype),
+    }
+
+
+def step_by_step(path, values, **options):
+    """Return the light of batches that are too small to be compiled for."""
+    plan = op.Composer(engine="numpy", **options).compose(path)
+    count = max(np.size(value) for value in values.values())
+    parts = []
+    for start in range(0, count, 1000):
+        cut = {n: v[start : start + 1000] if np.ndim(v) else v for n, v in values.items()}
+        parts.append(plan.run(**cut).stokes)
+    return np.concatenate(parts)
+
+
+def off(found, expected):
+    return np.max(np.abs(found - expected) / np.maximum(expected[..., :1], 1e-300))
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@pytest.mark.parametrize("values", [{}, METAL, {**METAL, "filter": "horizontal"}])
+def test_an_engine_gives_what_the_steps_give(engine, composing, values):
+    path = op.load_preset("npgr026", **values)
+    given = angles(3000)
+    plan = op.Composer(engine=engine, composing=composing).compose(path)
+    expected = step_by_step(path, given, composing=composing)
+    assert off(plan.run(**given).stokes, expected) < 4e-15
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("method", ["compensated", "amplitude", "textbook"])
+def test_every_method_is_the_same_by_every_engine(engine, method):
+    path = op.load_preset("npgr026", **METAL)
+    given = angles(2000)
+    plan = op.Composer(engine=engine, method=method).compose(path)
+    assert off(plan.run(**given).stokes, step_by_step(path, given, method=method)) < 1e-12
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_each_component_is_right_to_50_digits_as_far_as_the_angles_allow(engine):
+    path = op.load_preset("npgr026", **METAL)
+    given = angles(2000)
+    found = op.Composer(engine=engine).compose(path).run(**given).stokes
+    for place in range(0, 2000, 100):
+        bound = path.bind(**{name: float(value[place]) for name, value in given.items()})
+        light = exact_lights(bound.graph)["E"]
+        for component, exact, condition in zip(
+            found[place], light.stokes, light.condition, strict=True
+        ):
+            allowed = 60 * np.finfo(float).eps * (1 + float(condition))
+            assert abs(float(component - exact)) <= allowed * max(abs(float(exact)), 1e-300)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("kind", ["float32", "float64"])
+def test_float32_is_float32_from_arrays_of_either_precision(engine, kind):
+    path = op.load_preset("npgr026", **METAL)
+    given = angles(2000, kind)
+    found = op.Composer(engine=engine, dtype="float32").compose(path).run(**given).stokes
+    assert found.dtype == np.float32
+    exact = step_by_step(path, {n: v.astype("float64") for n, v in given.items()})
+    assert off(found, exact) < 3e-6
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_a_matrix_is_what_the_steps_give(engine):
+    path = op.load_preset("npgr026", **METAL)
+    given = angles(2000)
+    found = op.Composer(engine=engine).compose(path).mueller(**given).matrix
+    few = {name: value[:50] for name, value in given.items()}
+    expected = op.Composer(engine="numpy").compose(path).mueller(**few).matrix
+    assert found.shape == (2000, 4, 4)
+    np.testing.assert_allclose(found[:50], expected, atol=2e-15)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("name", op.preset_names())
+def test_every_preset_runs_by_every_engine(engine, name):
+    path = op.load_preset(name)
+    plan = op.Composer(engine=engine).compose(path)
+    given = random_values(plan, 1500)
+    found = plan.run_all(**given)
+    few = op.Composer(engine="numpy").compose(path).run_all(**{n: v[:9] for n, v in given.items()})
+    for end, light in few.items():
+        scale = np.max(np.abs(light.stokes))
+        np.testing.assert_allclose(found[end].stokes[:9], light.stokes, atol=4e-15 * scale)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize(
+    "shapes", [((40, 1), (1, 50)), ((2000,), ()), ((50, 40), (40,)), ((0,), ()), ((1,), (1,))]
+)
+def test_arrays_broadcast_as_in_numpy(engine, shapes):
+    path = op.load_preset("npgr026", **METAL)
+    delta, phi = (DRAW.uniform(0.1, 1.5, shape) for shape in shapes)
+    found = op.Composer(engine=engine).compose(path).run(delta=delta, phi=phi, rho=0.3).stokes
+    batch = np.broadcast_shapes(*shapes)
+    assert found.shape == (*batch, 4)
+    for index in list(np.ndindex(batch))[::97]:
+        one = {
+            n: float(np.broadcast_to(v, batch)[index]) for n, v in (("delta", delta), ("phi", phi))
+        }
+        assert off(found[index], path.trace(**one, rho=0.3).stokes) < 4e-15
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_arrays_may_lie_in_memory_as_they_like(engine):
+    plan = op.Composer(engine=engine).compose(op.load_preset("npgr026", **METAL))
+    given = angles(4000)
+    expected = plan.run(**given).stokes
+    strided = {name: np.repeat(value, 2)[::2] for name, value in given.items()}
+    backwards = {name: value[::-1] for name, value in given.items()}
+    np.testing.assert_array_equal(plan.run(**strided).stokes, expected)
+    np.testing.assert_array_equal(plan.run(**backwards).stokes, expected[::-1])
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_light_that_is_too_faint_is_done_with_more_care(engine):
+    elements = [op.Attenuator(op.Parameter("t"))] * 4
+    plan = op.Composer(engine=engine).compose(chain(elements, [1.0, 0.6, 0.0, 0.8]))
+    given = np.where(np.arange(2000) % 500 == 7, 1e-250, 0.5)
+    light = plan.run(t=given)
+    np.testing.assert_allclose(light.log10_intensity[[7, 8]], [-1000.0, 4 * np.log10(0.5)])
+    np.testing.assert_allclose(light.normalized[7], [1.0, 0.6, 0.0, 0.8], atol=1e-14)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("bad", [2.0, -0.1, np.nan, np.inf])
+def test_one_bad_value_among_many_is_refused_in_the_same_words(engine, bad):
+    plan = op.Composer(engine=engine).compose(op.load_preset("npgr026"))
+    values = np.full(3000, 0.5)
+    values[1234] = bad
+    with pytest.raises(op.ParameterError) as one:
+        op.load_preset("npgr026").trace(delta=bad)
+    with pytest.raises(op.ParameterError) as many:
+        plan.run(delta=values)
+    assert str(many.value) == str(one.value)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_angles_of_many_turns_are_right(engine):
+    plan = op.Composer(engine=engine).compose(op.load_preset("malus"))
+    turns = np.full(2000, 0.3) + 2 * np.pi * 1e7 * (np.arange(2000) % 3)
+    expected = [plan.run(angle=float(angle)).stokes for angle in turns[:3]]
+    np.testing.assert_allclose(plan.run(angle=turns).stokes[:3], expected, rtol=1e-13, atol=1e-16)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_words_in_arrays_say_where_an_element_is(engine):
+    path = op.load_preset("npgr026", **METAL)
+    words = np.tile(np.array(["none", "horizontal", "diagonal"], dtype=object), 1000)
+    found = op.Composer(engine=engine).compose(path).run(filter=words).stokes
+    for place, word in enumerate(words[:3]):
+        assert off(found[place], path.trace(filter=word).stokes) < 4e-15
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_threads_change_nothing(engine):
+    path = op.load_preset("npgr026", **METAL)
+    given = angles(200_000)
+    alone, shared = (
+        op.Composer(engine=engine, threads=count).compose(path).run(**given).stokes
+        for count in (1, 3)
+    )
+    np.testing.assert_array_equal(alone, shared)
+
+
+def test_a_plan_may_be_run_from_several_threads():
+    plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026", **METAL))
+    given = [angles(3000) for _ in range(8)]
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda values: plan.run(**values).stokes, given))
+    for values, stokes in zip(given, found, strict=True):
+        np.testing.assert_array_equal(stokes, plan.run(**values).stokes)
+
+
+def test_a_plan_that_has_run_can_be_pickled():
+    plan = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
+    light = plan.run(**angles(1500))
+    again = pickle.loads(pickle.dumps(plan))
+    assert again == plan
+    assert again.run(delta=0.5).stokes.shape == light.stokes.shape[1:]
+
+
+def test_the_first_runs_of_one_path_and_the_later_ones_are_equal():
+    plan = op.load_preset("npgr026", **METAL).compose()
+    lights = [plan.run(delta=0.7, rho=0.4, phi=0.2).stokes for _ in range(8)]
+    assert all(np.array_equal(light, lights[0]) for light in lights)
+
+
+def test_one_path_of_plain_floats_touches_no_array():
+    plan = op.load_preset("npgr026", **METAL).compose()
+    for _ in range(8):
+        plan.run(delta=0.7, rho=0.4, phi=0.2)
+    called = []
+
+    def note(_, event, function):
+        if event == "c_call" and "numpy" in str(getattr(function, "__module__", "")):
+            called.append(function)
+
+    sys.setprofile(note)
+    try:
+        plan.run(delta=0.3, rho=0.4, phi=0.2)
+    finally:
+        sys.setprofile(None)
+    assert called == []
+
+
+def test_a_batch_streams_part_by_part():
+    path = op.load_preset("npgr026", **METAL)
+    plan = op.Composer(engine="numpy").compose(path)
+    delta, phi = DRAW.uniform(0.1, 1.5, (70, 1)), DRAW.uniform(0.1, 1.5, 90)
+    whole = plan.run(delta=delta, phi=phi).stokes
+    out = np.full((70, 90, 4), np.nan)
+    for part in plan.stream(1500, delta=delta, phi=phi):
+        assert part.light.stokes.size <= 4 * 1500
+        out[part.where] = part.light.stokes
+    np.testing.assert_allclose(out, whole, rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("size", [0, -1, 1.5, True])
+def test_a_part_has_a_path_at_least(size):
+    plan = op.load_preset("malus").compose()
+    with pytest.raises(op.ParameterError, match="above 0"):
+        next(plan.stream(size, angle=[0.1, 0.2]))
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"engine": "fortran"}, "'fortran' is unknown"),
+        ({"threads": 0}, "threads must be a whole number above 0"),
+        ({"threads": True}, "threads must be"),
+    ],
+)
+def test_engines_and_threads_that_cannot_be_are_refused(options, message):
+    with pytest.raises(op.ComposerError, match=message):
+        op.Composer(**options)
+
+
+def test_what_runs_a_batch_can_be_asked():
+    plan = op.load_preset("npgr026").compose()
+    assert plan.engine_for(1) == "numpy, step by step"
+    assert plan.engine_for(5000) == "numpy"
+    assert plan.engine_for(100_000) == plan.engine == "numba"
+    assert "from 65,536 by numba" in plan.explain()
+    long = chain([op.Rotator(0.1)] * 100, [1.0, 0, 0, 0])
+    assert op.Composer(engine="numba").compose(long).engine == "numpy"
+    assert "step by step" in op.Composer(engine="numba").compose(long).explain()
+
+
+COMPILES = """
+import logging, sys
+logging.basicConfig(stream=sys.stdout, format="%(message)s")
+import numpy as np, optipath as op
+plan = op.Composer(engine="numba").compose(op.load_preset("malus"))
+print(plan.run(angle=np.linspace(0, 1, 50)).stokes.sum())
+"""
+
+
+def test_compiled_code_survives_in_a_second_process_and_is_announced_once(tmp_path, monkeypatch):
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
+    first, second = (
+        subprocess.run([sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True)
+        for _ in range(2)
+    )
+    assert "compiling" in first.stdout
+    assert "compiling" not in second.stdout
+    assert second.stdout.strip() == first.stdout.splitlines()[-1]
+
+
+def test_without_a_place_to_keep_it_code_is_compiled_all_the_same(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "file"))
+    done = subprocess.run(
+        [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
+    )
+    assert "cannot be kept" in done.stdout

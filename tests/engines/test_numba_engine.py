@@ -1,0 +1,47 @@
+import platform
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.engines.code_cache import compiled_once
+from optipath.engines.numba_engine import source
+from optipath.formulas import lights_formula
+from optipath.kernels import Plain
+from optipath.views import MANY
+
+numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
+
+
+@pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
+def test_a_path_is_computed_many_at_a_time():
+    plan = op.load_preset("npgr026").compose()
+    forms = {view.raw: MANY for view in plan.program.leaves if not view.known}
+    forms = {raw: "absent" if raw.part == "present" else form for raw, form in forms.items()}
+    formula = lights_formula(
+        plan.program, Plain, "float64", forms, plan.inputs.limits, polynomials=True
+    )
+    path = compiled_once(source(formula))
+    given = [np.full(64, 0.5) for _ in formula.inputs]
+    assert path(0, 64, *given, np.empty((4, 64)), 0)
+    (assembly,) = path.inspect_asm().values()
+    packed, single = assembly.count("mulpd"), assembly.count("mulsd")
+    assert packed > 50
+    # The rest of a batch that fills no vector is done one by one.
+    assert packed >= single / 2
+
+
+@pytest.mark.parametrize("number", [1.0, 0.75, -3e-310, 5e-324, 1e308, 0.0])
+def test_the_exponent_is_that_of_frexp(number):
+    assert numba_helpers.exponent(number) == np.frexp(number)[1]
+
+
+@pytest.mark.parametrize("power", [0, 5, -1070, 900, -3000, 3000])
+def test_powers_of_two_are_taken_times_exactly(power):
+    assert numba_helpers.ldexp(0.75, power) == np.ldexp(0.75, power)
+
+
+def test_what_a_product_loses_is_kept():
+    a, b = 1.0 + 2.0**-30, 1.0 - 2.0**-29
+    rest = numba_helpers.product_rest(a, b)
+    assert rest == float(np.longdouble(a) * np.longdouble(b) - np.longdouble(a * b))
