@@ -48,7 +48,7 @@ def test_an_engine_gives_what_the_steps_give(engine, composing, values):
     given = angles(3000)
     plan = op.Composer(engine=engine, composing=composing).compose(path)
     expected = step_by_step(path, given, composing=composing)
-    assert off(plan.run(**given).stokes, expected) < 4e-15
+    assert off(plan.run(**given).stokes, expected) < 1e-14
 
 
 @pytest.mark.parametrize("engine", ["numpy", "numba"])
@@ -67,7 +67,7 @@ def test_each_component_is_right_to_50_digits_as_far_as_the_angles_allow(engine)
     found = op.Composer(engine=engine).compose(path).run(**given).stokes
     for place in range(0, 2000, 100):
         bound = path.bind(**{name: float(value[place]) for name, value in given.items()})
-        light = exact_lights(bound.graph)["E"]
+        light = exact_lights(bound)["E"]
         for component, exact, condition in zip(
             found[place], light.stokes, light.condition, strict=True
         ):
@@ -163,7 +163,8 @@ def test_one_bad_value_among_many_is_refused_in_the_same_words(engine, bad):
 
 @pytest.mark.parametrize("engine", ["numpy", "numba"])
 def test_angles_of_many_turns_are_right(engine):
-    plan = op.Composer(engine=engine).compose(op.load_preset("malus"))
+    path = chain([op.Polarizer(op.Parameter("angle"))], [1.0, 0.5, 0.0, 0.5])
+    plan = op.Composer(engine=engine).compose(path)
     turns = np.full(2000, 0.3) + 2 * np.pi * 1e7 * (np.arange(2000) % 3)
     expected = [plan.run(angle=float(angle)).stokes for angle in turns[:3]]
     np.testing.assert_allclose(plan.run(angle=turns).stokes[:3], expected, rtol=1e-13, atol=1e-16)

@@ -14,9 +14,9 @@ METAL = {"k1": 2.16, "n2": 0.608, "k2": 2.12, "delta": 0.8, "rho": 0.5, "phi": 0
 
 @pytest.fixture(autouse=True)
 def _double():
-    jax.config.update("jax_enable_x64", True)
+    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
     yield
-    jax.config.update("jax_enable_x64", False)
+    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
 
 
 @pytest.mark.parametrize("name", op.preset_names())
@@ -95,7 +95,7 @@ def test_values_of_jax_are_refused_by_other_engines():
 
 
 def test_slopes_in_single_precision_are_not_taken_for_double():
-    jax.config.update("jax_enable_x64", False)
+    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
     path = op.load_preset("npgr026")
     with pytest.raises(op.ComposerError, match="jax_enable_x64"):
         jax.grad(lambda n: path.trace(n1=n).stokes[0])(1.5)

@@ -48,7 +48,7 @@ def test_angles_of_the_first_quadrant_are_right_to_two_units_in_the_last_place(d
 
 
 def test_what_float32_loses_of_an_angle_is_not_lost():
-    angles = np.pi / 2 - 10.0 ** SEEDS.uniform(-12, 0, 500)
+    angles = np.pi / 2 - 10.0 ** SEEDS.uniform(-6, 0, 500)
     high = angles.astype("float32")
     rest = (angles - high).astype("float32")
     found = first_quadrant(NUMPY, DIGITS["float32"])(high, rest)

@@ -86,7 +86,8 @@ class Single:
 
     def _made(self, given: Given) -> tuple[Any, list[int]]:
         """Return the function, and the places of what it takes among what is given."""
-        forms = {raw: ABSENT if n is False else ONE for raw, n in given.numbers.items()}
+        absent = {raw.name for raw, number in given.numbers.items() if number is False}
+        forms = {raw: ABSENT if raw.name in absent else ONE for raw in given.numbers}
         limits = self.inputs.limits
         formula = lights_formula(
             self.program, self.stepwise.way, "float64", forms, limits, polynomials=False
