@@ -69,7 +69,7 @@ def test_each_component_is_right_to_50_digits_as_far_as_the_angles_allow(engine)
         bound = path.bind(**{name: float(value[place]) for name, value in given.items()})
         light = exact_lights(bound)["E"]
         for component, exact, condition in zip(
-            found[place], light.stokes, light.condition, strict=True
+            found[place], light.stokes, light.conditions, strict=True
         ):
             allowed = 60 * np.finfo(float).eps * (1 + float(condition))
             assert abs(float(component - exact)) <= allowed * max(abs(float(exact)), 1e-300)
