@@ -19,11 +19,13 @@ class Exact:
     def error(self, found):
         """Return the largest |found - exact| / S0 of any component of the sampled paths."""
         where = np.linspace(0, len(found) - 1, SAMPLES).astype(int)
-        return max(
+        errors = [
             float(abs(float(component) - exact) / light[0])
             for stokes, light in zip(found[where], self.lights(len(found), where), strict=True)
             for component, exact in zip(stokes, light, strict=True)
-        )
+        ]
+        # Unlike Python's, NumPy's maximum of what is not a number is not a number.
+        return float(np.max(errors))
 
     def lights(self, count, where):
         if count not in self.known:

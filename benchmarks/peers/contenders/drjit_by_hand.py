@@ -1,13 +1,13 @@
 """Dr.Jit: the fused formulas on float64 arrays of its LLVM backend."""
 
 import drjit as dr
+import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 from drjit.llvm import Array4f64, Float64
 from formulas import fused
 from work import Contender
 
 
 def prepare(delta, rho, phi, materials):
-    dr.set_thread_count(1)
     stokes = fused(dr, materials)
 
     def run():

@@ -1,6 +1,7 @@
 """Mitsuba 3: its Mueller matrices, in the only precision that its LLVM variants have."""
 
 import drjit as dr
+import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 import mitsuba
 from work import INTENSITY, Contender
 
@@ -9,7 +10,6 @@ VARIANT = "llvm_ad_rgb"
 
 def prepare(delta, rho, phi, materials):
     mitsuba.set_variant(VARIANT)
-    dr.set_thread_count(1)
     n1, k1, n2, k2 = materials
     Float, Index, optics = mitsuba.Float, mitsuba.Complex2f, mitsuba.mueller
 
