@@ -1,6 +1,7 @@
 """From Fresnel's amplitudes to light and to matrices, for peers that give the amplitudes only."""
 
 import numpy as np
+
 from work import INTENSITY
 
 

@@ -5,9 +5,9 @@ from typing import NamedTuple
 
 import contenders
 from exact import Exact
-from work import MATERIALS, random_angles
 
 from optipath.bench import race
+from work import MATERIALS, random_angles
 
 
 class Result(NamedTuple):

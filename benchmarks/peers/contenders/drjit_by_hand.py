@@ -3,6 +3,7 @@
 import drjit as dr
 import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 from drjit.llvm import Array4f64, Float64
+
 from formulas import fused
 from work import Contender
 

@@ -3,6 +3,7 @@
 import numpy as np
 from amplitudes import fresnel, mueller
 from katsu.mueller import linear_polarizer, mueller_rotation
+
 from work import INTENSITY, Contender
 
 

@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+
 from formulas import fused
 from work import Contender
 

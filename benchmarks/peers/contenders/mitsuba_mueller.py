@@ -3,6 +3,7 @@
 import drjit as dr
 import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 import mitsuba
+
 from work import INTENSITY, Contender
 
 VARIANT = "llvm_ad_rgb"

@@ -4,6 +4,7 @@ import math
 
 import numba
 import numpy as np
+
 from formulas import fused
 from work import Contender
 

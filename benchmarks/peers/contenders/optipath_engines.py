@@ -3,9 +3,9 @@
 from functools import partial
 
 import numpy as np
-from work import Contender
 
 import optipath as op
+from work import Contender
 
 PRESET = "npgr026"
 REFERENCE = "optipath, numba"

@@ -4,6 +4,7 @@ import numpy as np
 from amplitudes import fresnel, parts
 from py_pol.mueller import Mueller
 from py_pol.stokes import Stokes
+
 from work import INTENSITY, Contender
 
 

@@ -3,6 +3,7 @@
 import numpy as np
 from amplitudes import light
 from pypolar.fresnel import r_par_amplitude, r_per_amplitude
+
 from work import Contender
 
 

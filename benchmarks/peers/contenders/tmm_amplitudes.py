@@ -3,6 +3,7 @@
 import numpy as np
 from amplitudes import light
 from tmm import interface_r
+
 from work import Contender
 
 

@@ -31,6 +31,7 @@ EXPRESSIONS = {
     "maximum": "{0} if {0} >= {1} else {1}",
     "minimum": "{0} if {0} <= {1} else {1}",
     "multiply": "{0} * {1}",
+    "multiply_add": "multiply_add({0}, {1}, {2})",
     "negative": "-{0}",
     "not_equal": "{0} != {1}",
     "power": "{0} ** {1}",

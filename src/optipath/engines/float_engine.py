@@ -27,6 +27,7 @@ _SPACE = {
     "exponent": lambda number: math.frexp(number)[1],
     "inf": math.inf,
     "ldexp": math.ldexp,
+    "multiply_add": FLOAT.multiply_add,
     "nan": math.nan,
     "product_rest": lambda a, b: FLOAT.two_product(a, b)[1],
     "sin": math.sin,

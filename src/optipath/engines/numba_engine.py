@@ -19,7 +19,8 @@ _HEAD = """\
 from math import atan2, cos, exp, sin, sqrt
 
 import numpy as np
-from optipath.engines.numba_helpers import exponent, ldexp as scaled, product_rest
+from optipath.engines.numba_helpers import exponent, fused as multiply_add
+from optipath.engines.numba_helpers import ldexp as scaled, product_rest
 
 T = np.{dtype}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,18 +14,20 @@ if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
     from optipath.formulas import Formula
 
-_BLOCK = 4096
+_BLOCK = 12288
 _OWN = ("exponent", "ldexp", "power", "product_rest", "where")
-"""Operations that make their own arrays."""
+"""Operations that make their own arrays, unless said otherwise below."""
 
 
 def compiled(formula: Formula) -> ArrayPath:
     """Return a function that does what a formula says, to arrays."""
     writer = _Writer(formula)
     space: dict[str, Any] = {name: about.ufunc for name, about in OPERATIONS.items()}
+    space |= {"bitwise_and": np.bitwise_and, "bitwise_xor": np.bitwise_xor}
     exec(compile(writer.text(), "<formula>", "exec"), space)  # noqa: S102 - our own text
     block, buffers = space["block"], tuple(writer.buffers.values())
-    kinds = {"float": formula.dtype, "bool": np.dtype(bool)}
+    bits = np.dtype(f"i{formula.dtype.itemsize}")
+    kinds = {"float": formula.dtype, "bool": np.dtype(bool), "mask": bits}
 
     @np.errstate(all="ignore")
     def path(start: int, stop: int, given: list[Any], out: Any, at: int) -> bool:
@@ -39,7 +42,11 @@ def compiled(formula: Formula) -> ArrayPath:
             end = min(begin + size, stop)
             parts = [array[begin:end] for array in arrays]
             cut = free if end - begin == size else [buffer[: end - begin] for buffer in free]
-            holds &= bool(np.all(block(*parts, *uniform, *cut, *out[:, at + begin : at + end])))
+            seen = [
+                buffer.view(bits) if buffer.dtype == formula.dtype else buffer for buffer in cut
+            ]
+            results = out[:, at + begin : at + end]
+            holds &= bool(np.all(block(*parts, *uniform, *cut, *seen, *results)))
         return holds
 
     return path
@@ -64,7 +71,11 @@ class _Writer:
         self.buffers: dict[str, str] = {}
         self._names: dict[int, str] = {}
         self._left = dict(formula.uses)
-        self._free: dict[str, list[str]] = {"float": [], "bool": []}
+        self._free: dict[str, list[str]] = {"float": [], "bool": [], "mask": []}
+        self._masks: dict[int, str] = {}
+        self._chosen = Counter(
+            step.operands[0].index for step in formula.body if self._is_choice(step)
+        )
         self._rows = {
             result.index: f"out[{row}]"
             for row, result in reversed(list(enumerate(formula.results)))
@@ -85,7 +96,8 @@ class _Writer:
         for rest in formula.rests:
             whole = next(s.index for s in formula.inputs if s.operands == rest.operands)
             lines.append(f"t{rest.index} = (a{whole} - t{whole}).astype(T)")
-        lines += [self._line(step) for step in formula.body]
+        for step in formula.body:
+            lines += self._lines(step)
         for row, result in enumerate(formula.results):
             if isinstance(result, Symbol) and self._read(result) != f"out[{row}]":
                 lines.append(f"out[{row}][...] = {self._read(result)}")
@@ -96,16 +108,81 @@ class _Writer:
             *(f"t{s.index}" for s in formula.prologue),
             *self.constants_names(),
             *self.buffers,
+            *(f"{name}_" for name in self.buffers),
             "*out",
         ]
         body = "".join(f"    {line}\n" for line in lines)
-        return (
-            f"import numpy\nT = numpy.{formula.dtype.name}\ndef block({', '.join(names)}):\n{body}"
-        )
+        kind, bits = formula.dtype.name, 8 * formula.dtype.itemsize
+        head = f"import numpy\nT, I = numpy.{kind}, numpy.int{bits}\n"
+        return f"{head}def block({', '.join(names)}):\n{body}"
 
     def constants_names(self) -> list[str]:
         """Return how the known numbers are called."""
         return [f"c{place}" for place in range(len(self.constants))]
+
+    def _is_choice(self, step: Symbol) -> bool:
+        """Tell whether an operation chooses between numbers path by path."""
+        condition = step.operands[0]
+        return (
+            step.operation == "where"
+            and step.kind == "float"
+            and isinstance(condition, Symbol)
+            and not condition.uniform
+        )
+
+    def _choice(self, step: Symbol) -> list[str]:
+        """Return the lines of a choice by the bits: a processor that guesses at each is slow.
+
+        With a mask of ones where the condition is true, ``no ^ ((yes ^ no) & mask)``.
+        """
+        condition, yes, no = step.operands
+        lines = []
+        if condition.index not in self._masks:
+            mask = self._masks[condition.index] = self._buffer("mask")
+            given = self._read(condition)
+            lines.append(f"negative({given}.view(numpy.int8), out={mask}, dtype=I)")
+        mask = self._masks[condition.index]
+        first, second = self._bits(yes), self._bits(no)
+        name = self._name(step)
+        bits = self._bits_of(name)
+        if second == "0":
+            lines.append(f"bitwise_and({first}, {mask}, out={bits})")
+        else:
+            if first == "0":
+                lines.append(f"bitwise_and({second}, {mask}, out={bits})")
+            else:
+                lines.append(f"bitwise_xor({first}, {second}, out={bits})")
+                lines.append(f"bitwise_and({bits}, {mask}, out={bits})")
+            lines.append(f"bitwise_xor({bits}, {second}, out={bits})")
+        self._names[step.index] = name
+        for operand in step.operands:
+            if isinstance(operand, Symbol):
+                self._release(operand)
+        self._chosen[condition.index] -= 1
+        if not self._chosen[condition.index]:
+            self._free["mask"].append(self._masks.pop(condition.index))
+        return lines
+
+    def _bits(self, operand: Any) -> str:
+        if not isinstance(operand, Symbol) and operand == 0.0:
+            return "0"
+        return self._bits_of(self._read(operand))
+
+    def _bits_of(self, name: str) -> str:
+        return f"{name}_" if name in self.buffers else f"{name}.view(I)"
+
+    def _lines(self, step: Symbol) -> list[str]:
+        if self._is_choice(step):
+            return self._choice(step)
+        if step.operation != "multiply_add":
+            return [self._line(step)]
+        a, b, c = map(self._read, step.operands)
+        name = self._name(step)
+        self._names[step.index] = name
+        for operand in step.operands:
+            if isinstance(operand, Symbol):
+                self._release(operand)
+        return [f"multiply({a}, {b}, out={name})", f"add({name}, {c}, out={name})"]
 
     def _line(self, step: Symbol) -> str:
         operands = ", ".join(map(self._read, step.operands))
@@ -128,14 +205,18 @@ class _Writer:
         return f"c{list(self.constants).index(key)}"
 
     def _name(self, step: Symbol) -> str:
-        if step.operation in _OWN or step.kind not in self._free:
+        own = step.operation in _OWN and not self._is_choice(step)
+        if own or step.kind not in self._free:
             return f"t{step.index}"
         if step.index in self._rows:
             return self._rows[step.index]
-        if self._free[step.kind]:
-            return self._free[step.kind].pop()
+        return self._buffer(step.kind)
+
+    def _buffer(self, kind: str) -> str:
+        if self._free[kind]:
+            return self._free[kind].pop()
         name = f"b{len(self.buffers)}"
-        self.buffers[name] = step.kind
+        self.buffers[name] = kind
         return name
 
     def _release(self, operand: Symbol) -> None:

@@ -52,6 +52,7 @@ OPERATIONS = {
     "maximum": About(np.maximum, "same", commutes=True),
     "minimum": About(np.minimum, "same", commutes=True),
     "multiply": About(np.multiply, "same", commutes=True),
+    "multiply_add": About(lambda a, b, c: a * b + c, "float"),
     "negative": About(np.negative, "same"),
     "not_equal": About(np.not_equal, "bool", commutes=True),
     "power": About(np.power, "float"),

@@ -27,7 +27,7 @@ def _recording(*names: str, **others: str) -> dict[str, Any]:
 
 SYMBOLIC = Primitives(
     **_recording("where", "sqrt", "absolute", "maximum", "minimum", "sin", "cos", "exp", "ldexp"),
-    **_recording("fixed", atan2="arctan2"),
+    **_recording("fixed", "multiply_add", atan2="arctan2"),
     frexp=lambda number: (number, record("exponent", number)),
     two_product=lambda a, b: (record("multiply", a, b), record("product_rest", a, b)),
     hidden=lambda larger, number: record("equal", record("add", larger, number), larger),

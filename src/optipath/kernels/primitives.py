@@ -28,6 +28,7 @@ class Primitives:
     slope, where an engine takes gradients, and the value itself elsewhere.
     ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
     a small number is no more than the rounding of a larger one, in double precision at most.
+    ``multiply_add`` is a b + c, rounded once where that costs no more than twice.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -44,6 +45,7 @@ class Primitives:
     two_product: Callable[[Any, Any], tuple[Any, Any]]
     hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
+    multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
 
 
 @cache

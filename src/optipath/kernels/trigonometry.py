@@ -91,12 +91,15 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     >>> any_quadrant(FLOAT, DIGITS["float64"])(2.5)
     (0.5984721441039564, -0.8011436155469337)
     """
-    where, absolute, near_zero = xp.where, xp.absolute, _near_zero(digits)
+    where, absolute, near_zero = xp.where, xp.absolute, _near_zero(xp, digits)
 
     def sine_cosine(angle: Any, rest: Any = 0.0) -> SinCos:
         turns = angle * (1.0 / digits.right_high) + digits.rounding - digits.rounding
         # Each part is taken away without error but for the last.
-        reduced = reduce(lambda left, part: left - turns * part, digits.right, angle) + rest
+        reduced = reduce(
+            lambda left, part: xp.multiply_add(turns, -part, left), digits.right, angle
+        )
+        reduced = reduced + rest
         sine, cosine = near_zero(reduced)
         # The quadrant, -2 and 2 being the same.
         quadrant = turns - 4.0 * (turns * 0.25 + digits.rounding - digits.rounding)
@@ -121,7 +124,7 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     >>> sine_cosine(1.2), sine_cosine(math.pi / 2)
     ((0.9320390859672263, 0.3623577544766736), (1.0, 0.0))
     """
-    where, near_zero = xp.where, _near_zero(digits)
+    where, near_zero = xp.where, _near_zero(xp, digits)
     maximum, minimum = xp.maximum, xp.minimum
 
     def sine_cosine(angle: Any, rest: Any = 0.0) -> SinCos:
@@ -136,16 +139,19 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     return sine_cosine
 
 
-def _near_zero(digits: Digits) -> Callable[[Any], SinCos]:
+def _near_zero(xp: Primitives, digits: Digits) -> Callable[[Any], SinCos]:
+    multiply_add = xp.multiply_add
+
+    def polynomial(x: Any, coefficients: Any) -> Any:
+        highest, *others = reversed(coefficients)
+        return reduce(lambda total, other: multiply_add(total, x, other), others, highest)
+
     def sine_cosine(x: Any) -> SinCos:
         """Return sine and cosine of x within -pi/4 .. pi/4."""
         square = x * x
-        sine = x + square * x * _polynomial(square, digits.sine)
-        cosine = 1.0 - (0.5 * square - square * (square * _polynomial(square, digits.cosine)))
+        sine = multiply_add(square * x, polynomial(square, digits.sine), x)
+        fourth = square * square
+        cosine = 1.0 - (0.5 * square - fourth * polynomial(square, digits.cosine))
         return sine, cosine
 
     return sine_cosine
-
-
-def _polynomial(x: Any, coefficients: Any) -> Any:
-    return reduce(lambda sum_, coefficient: sum_ * x + coefficient, reversed(coefficients))
