@@ -5,7 +5,7 @@ import math
 import pytest
 
 import optipath as op
-from work import METAL, assignment
+from subjects import METAL, assignment
 
 AT = {"delta": 0.7, "rho": 0.4, "phi": 0.2}
 

@@ -4,7 +4,7 @@ import pytest
 
 import optipath as op
 from optipath.kernels import METHODS
-from work import ENGINES, METAL, angles, assignment, finished
+from subjects import ENGINES, METAL, angles, assignment, finished
 
 COUNT = 100_000
 

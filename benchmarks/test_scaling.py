@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from work import chain
+from subjects import chain
 
 LENGTHS = [10, 100, 1_000, 10_000, 100_000]
 

@@ -3,7 +3,7 @@
 import pytest
 
 import optipath as op
-from work import ENGINES, angles, assignment, finished
+from subjects import ENGINES, angles, assignment, finished
 
 SIZES = [10**power for power in range(8)]
 

@@ -14,6 +14,7 @@ ROOMS = [
     "frozen",
     "shapes",
     "units",
+    "angles",
     "precision",
     "faint",
     "kernels",

@@ -5,6 +5,7 @@ composer aligns the frames and orders the work; the plan it makes runs on one se
 values or on millions.
 """
 
+from optipath.angles import CosSin
 from optipath.cases import Case
 from optipath.composer import Composer
 from optipath.domains import (
@@ -63,6 +64,7 @@ __all__ = [
     "Combiner",
     "Composer",
     "ComposerError",
+    "CosSin",
     "Coupling",
     "Detector",
     "Dump",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.angles import CosSin
 from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import array_of, frozen, same
 from optipath.jax_values import is_traced
@@ -97,6 +98,11 @@ class Parameter:
         object.__setattr__(self, "minimum", low)
         object.__setattr__(self, "maximum", high)
         object.__setattr__(self, "words", {w: self._word(w, v) for w, v in self.words.items()})
+        if isinstance(self.default, CosSin):
+            raise ParameterError(
+                f"parameter '{self.name}' cannot keep a cosine and a sine; give them when the "
+                f"plan runs, or give an angle"
+            )
         if self.default is not None:
             object.__setattr__(self, "default", frozen(self._as_number(self.default)))
             self.resolve(self.default)
@@ -181,6 +187,8 @@ class Parameter:
         ParameterError
             If it is no number or word, not finite, or outside the range.
         """
+        if isinstance(raw, CosSin):
+            raw = self._angle(raw)
         if is_traced(raw):
             return Resolved(raw, np.ones((), dtype=bool))
         try:
@@ -201,6 +209,16 @@ class Parameter:
             array = array.astype(np.float64)
         self._check_range(array)
         return Resolved(array, present)
+
+    def _angle(self, given: CosSin) -> Any:
+        if dimension_of(self.unit) != "angle":
+            raise ParameterError(
+                f"parameter '{self.name}' is no angle, but a cosine and a sine are given; "
+                f"give a number"
+            )
+        if not is_traced(given.cos) and not is_traced(given.sin):
+            given.check(f"parameter '{self.name}'")
+        return given.angle
 
     def parse(self, text: str, default_unit: str = "") -> Any:
         """Return what a text stands for: a word, as it is, or a number.

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.formulas.symbolic import SYMBOLIC, with_polynomials
+from optipath.formulas.symbolic import SYMBOLIC, record, with_polynomials
 from optipath.kernels import cosine, sine, without_rounding
 from optipath.kernels.trigonometry import DIGITS, any_quadrant, first_quadrant
 from optipath.precision import wide
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from optipath.views import Raw, View
 
 Limits = tuple[float, float]
+
+_APART = 1e-6
+"""How far the squares of a cosine and a sine may be from 1 together."""
 
 
 class Leaves:
@@ -70,6 +73,8 @@ class Leaves:
             with np.errstate(over="ignore", under="ignore"):
                 return self.recorder.dtype.type(numbers[()])
         raw = view.raw
+        if raw not in self.forms:
+            return self._of_pair(view)
         form = self.forms[raw]
         if raw.part == "present":
             return form == ONE if form in (ONE, ABSENT) else self.recorder.input(str(raw), "bool")
@@ -97,6 +102,29 @@ class Leaves:
         self.recorder.require(given <= kind(min(high, most)))
         # From here on it is known, and no longer asked.
         given.positive = low >= 0.0
+        return given
+
+    def _of_pair(self, view: View) -> Any:
+        """Return what a view sees of an angle that is given by its cosine and sine."""
+        low, high = self.limits[view.raw.name]
+        least = 0.0 if low >= 0.0 and high <= np.pi / 2 else -1.0
+        cos, sin = (self._part(view.raw._replace(part=part), least) for part in ("cos", "sin"))
+        self.recorder.require(abs(cos * cos + sin * sin - 1.0) <= _APART)
+        if view.part == "cos":
+            return cos
+        found = sin if view.part == "sin" else record("arctan2", sin, cos)
+        return -found if view.value.negative else found
+
+    def _part(self, raw: Raw, least: float) -> Any:
+        kind = self.recorder.dtype.type
+        if self.forms[raw] == ZERO:
+            return kind(0.0)
+        if self.forms[raw] == WIDE:
+            self.recorder.wide.add(str(raw))
+        given = self.recorder.input(str(raw), uniform=self.forms[raw] == ONE)
+        self.recorder.require(kind(least) <= given)
+        self.recorder.require(given <= kind(1.0))
+        given.positive = least == 0.0
         return given
 
     def _circular(self, view: View, angle: Any, rest: Any) -> Any:

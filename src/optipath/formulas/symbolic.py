@@ -6,6 +6,8 @@ from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
+import numpy as np
+
 from optipath.formulas.operations import OPERATIONS
 from optipath.formulas.symbol import Symbol
 from optipath.kernels import Primitives
@@ -25,12 +27,42 @@ def _recording(*names: str, **others: str) -> dict[str, Any]:
     return {name: partial(record, operation) for name, operation in operations.items()}
 
 
+def _of_pair(angle: Any) -> tuple[Any, Any] | None:
+    """Return (sin, cos) of an angle, or twice one, that is known by its sine and cosine."""
+    if not isinstance(angle, Symbol):
+        return None
+    if angle.operation == "arctan2":
+        return angle.operands
+    if angle.operation == "negative":
+        pair = _of_pair(angle.operands[0])
+        return pair and (-pair[0], pair[1])
+    if angle.operation == "multiply":
+        twice, inner = angle.operands
+        pair = _of_pair(inner)
+        if pair and not isinstance(twice, Symbol) and twice == 2.0:
+            sin, cos = pair
+            return 2.0 * sin * cos, (cos - sin) * (cos + sin)
+    return None
+
+
+def _circular(name: str, angle: Any) -> Any:
+    pair = _of_pair(angle)
+    return pair[name == "cos"] if pair else record(name, angle)
+
+
+def _hidden(larger: Any, number: Any) -> Any:
+    # A sine that is given has digits of its own.
+    return np.False_ if _of_pair(larger) else record("equal", larger + number, larger)
+
+
 SYMBOLIC = Primitives(
-    **_recording("where", "sqrt", "absolute", "maximum", "minimum", "sin", "cos", "exp", "ldexp"),
+    **_recording("where", "sqrt", "absolute", "maximum", "minimum", "exp", "ldexp"),
+    sin=partial(_circular, "sin"),
+    cos=partial(_circular, "cos"),
     **_recording("fixed", "multiply_add", atan2="arctan2"),
     frexp=lambda number: (number, record("exponent", number)),
     two_product=lambda a, b: (record("multiply", a, b), record("product_rest", a, b)),
-    hidden=lambda larger, number: record("equal", record("add", larger, number), larger),
+    hidden=_hidden,
 )
 """Primitives that record what kernels do with them."""
 
@@ -45,8 +77,9 @@ def with_polynomials(dtype: str) -> Primitives:
     polynomials = any_quadrant(SYMBOLIC, digits)
 
     def sine_or_cosine(name: str, place: int, angle: Any) -> Any:
-        if not isinstance(angle, Symbol):
-            return record(name, angle)
+        pair = _of_pair(angle)
+        if pair or not isinstance(angle, Symbol):
+            return pair[place] if pair else record(name, angle)
         angle.recorder.require(abs(angle) <= digits.most)
         return polynomials(angle, 0.0)[place]
 

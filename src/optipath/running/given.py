@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.angles import CosSin
 from optipath.errors import OptipathError
 from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from optipath.parameters import Resolved
     from optipath.program import Program
 
-_PLAIN = ("value", "real", "imag", "present")
+_PAIR = ("cos", "sin")
 
 
 class Given(NamedTuple):
@@ -61,10 +62,11 @@ class Given(NamedTuple):
 
     @property
     def is_single(self) -> bool:
-        """Whether everything is one number."""
+        """Whether everything is one plain number."""
         return all(
-            type(number) is float or number is True or number is False
-            for number in self.numbers.values()
+            (type(number) is float or number is True or number is False)
+            and raw.part not in _PAIR
+            for raw, number in self.numbers.items()
         )
 
     def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[Raw, str], ...]:
@@ -93,6 +95,8 @@ class Sorter:
             for name, raws in self.raws.items()
             if not inputs.tails[name] and any(raw.part in ("value", "real") for raw in raws)
         }
+        self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
+        self._angles -= {name for name, p in inputs.open.items() if p.optional}
         self._known = np.broadcast_shapes(*inputs.shapes.values())
 
     def sort(self, parameters: Mapping[str, Any]) -> Given:
@@ -115,6 +119,12 @@ class Sorter:
                     if type(value) is int:
                         value = float(value)
                     present: Any = True
+                    if type(value) is CosSin and name in self._angles:
+                        shapes.append(value.shape)
+                        numbers |= {
+                            Raw(name, part): _number(getattr(value, part)) for part in _PAIR
+                        }
+                        continue
                     if name in self._plain and _is_plain(value):
                         real = value
                     else:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from optipath.kernels import Components, Way
     from optipath.program import Program, Reading
     from optipath.running.given import Given
-    from optipath.views import Raw
+    from optipath.views import Raw, View
 
 _LONG = 16
 _TINY = np.finfo(np.float64).tiny * FAINT
@@ -125,7 +125,7 @@ class Stepwise:
             ]
         kind, numbers = wide(self.dtype), given.numbers
         return [
-            self._cast(view.of(np.asarray(numbers[view.raw]), kind))
+            self._cast(_given(view, numbers, kind))
             if leaf is None and view.part != "present"
             else np.asarray(numbers[view.raw])
             if leaf is None
@@ -142,6 +142,17 @@ class Stepwise:
         array = np.asarray(numbers)
         with np.errstate(over="ignore", under="ignore"):  # What is not finite is told later.
             return array if array.dtype == bool else array.astype(self.dtype, copy=False)
+
+
+def _given(view: View, numbers: Mapping[Raw, Any], kind: np.dtype[Any]) -> Any:
+    """Return what a view sees of what is given: a number, or an angle's cosine and sine."""
+    if view.raw in numbers:
+        return view.of(np.asarray(numbers[view.raw]), kind)
+    sign = -1.0 if view.value.negative else 1.0
+    cos, sin = (np.asarray(numbers[view.raw._replace(part=part)]) for part in ("cos", "sin"))
+    if view.part == "cos":
+        return cos
+    return sign * (sin if view.part == "sin" else np.arctan2(sin, cos))
 
 
 def _stack(
