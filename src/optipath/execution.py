@@ -82,7 +82,7 @@ class Execution:
         self.threads = threads
         self.way = way_of(program, composing)
         self.compilable = len(program.steps) <= self.longest and dtype in ("float64", "float32")
-        self.sorter = Sorter(program, inputs)
+        self.sorter = Sorter(program, inputs, self.dtype)
         self.stepwise = Stepwise(program, self.way, self.dtype)
         self.single = Single(program, inputs, self.stepwise, compilable=self.compilable)
         self._many: dict[Any, Many] = {}
@@ -114,6 +114,10 @@ class Execution:
         self, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, dict[str, Found]]]:
         """Yield the index of a part of the batch, and the light at every end for it."""
+        if self._is_for_jax(parameters):
+            raise ParameterError(
+                "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
+            )
         given = self.sorter.sort(parameters)
         for piece in pieces(given.batch, size):
             yield piece.where, self._lights(given.part(piece.where), parameters)
@@ -150,7 +154,7 @@ class Execution:
 
         out, _ = self._filled(
             engine,
-            (source, reading.light),
+            (source, reading.light, reading.components),
             formula,
             given,
             parameters,
@@ -243,6 +247,8 @@ class Execution:
             path = compile_array_path(engine, made)
             self._many[key] = Many(self.program, made, path, threads=self.threads, read=read)
         many = self._many[key]
+        if not given.within(self.inputs.limits):
+            self.inputs.resolve(parameters)
         out, failed = many.results(given, lambda: self.inputs.resolve(parameters), careful)
         return out, failed or many.has_exponents
 
@@ -253,7 +259,7 @@ class Execution:
         return found
 
     def _parts(self, given: Given) -> Iterator[Given]:
-        if given.paths <= _CACHED or given.where is not None:
+        if given.paths <= _CACHED:
             return iter([given])
         return (given.part(piece.where) for piece in pieces(given.batch, _CACHED))
 

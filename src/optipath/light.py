@@ -125,8 +125,12 @@ class Light:
     @property
     def dop(self) -> npt.NDArray[Any]:
         """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
-        xp = namespace(self.mantissa)
-        return xp.asarray(xp.linalg.norm(self.normalized[..., 1:], axis=-1))  # type: ignore[no-any-return]
+        if not is_jax(self.mantissa):
+            return np.asarray(np.linalg.norm(self.normalized[..., 1:], axis=-1))
+        # Unpolarised light has a slope of 0, in place of none.
+        xp, square = namespace(self.mantissa), (self.normalized[..., 1:] ** 2).sum(axis=-1)
+        there = square > 0.0
+        return xp.where(there, xp.sqrt(xp.where(there, square, 1.0)), 0.0)  # type: ignore[no-any-return]
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -52,7 +53,7 @@ def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
     np.float64(3.0)
     """
     if isinstance(part, int):
-        return numbers.reshape(*numbers.shape[: -len(tail)], -1)[..., part]
+        return numbers.reshape(*numbers.shape[: -len(tail)], prod(tail))[..., part]
     if part == "real":
         return np.real(numbers)
     # Adding 0 turns -0 into 0: an index without absorption has one sign only.

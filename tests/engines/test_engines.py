@@ -359,3 +359,77 @@ def test_without_a_place_to_keep_it_code_is_compiled_all_the_same(tmp_path, monk
         [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
     )
     assert "cannot be kept" in done.stdout
+
+
+def two_detectors():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source())
+    lamp >> path.add("filter", op.Polarizer(op.Parameter("a")))
+    path.add("dim", op.Detector(reads="intensity"))
+    path.add("full", op.Detector())
+    for end in ("dim", "full"):
+        path.connect("filter.out", f"{end}.in")
+    return path
+
+
+def test_a_matrix_has_the_rows_that_its_detector_reads():
+    plan = op.Composer(engine="numpy").compose(two_detectors())
+    given = np.linspace(0, 1, 2000)
+    dim, full = (plan.mueller("lamp", end, a=given).matrix for end in ("dim", "full"))
+    assert np.all(np.isnan(dim[:, 1:]))
+    assert np.all(np.isfinite(full))
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_streams_cut_what_elements_hold(engine):
+    elements = [op.Polarizer(np.linspace(0, 1, 4000)), op.Attenuator(op.Parameter("t"))]
+    plan = op.Composer(engine=engine).compose(chain(elements, [1.0, 0.6, 0.0, 0.8]))
+    # One path in ten is too faint for floats, so that parts of parts are cut too.
+    given = np.where(np.arange(4000) % 10, 0.5, 1e-295)
+    whole = plan.run(t=given)
+    parts = list(plan.stream(1500, t=given))
+    np.testing.assert_array_equal(
+        np.concatenate([part.light.normalized for part in parts]), whole.normalized
+    )
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("dtype", ["float64", "float32"])
+@pytest.mark.parametrize("bad", [0.0, 0.1 - 1e-12, 1.0 + 1e-12])
+def test_no_rounding_brings_a_value_into_its_range(engine, dtype, bad):
+    path = chain([op.Attenuator(op.Parameter("t", minimum=0.1, maximum=1.0))], [1.0, 0, 0, 0])
+    plan = op.Composer(engine=engine, dtype=dtype).compose(path)
+    for given in (bad, np.full(2000, bad)):
+        with pytest.raises(op.ParameterError, match="outside its range"):
+            plan.run(t=given)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("dtype", [">f8", "longdouble", "float16", "int64"])
+def test_numbers_of_any_sort_are_taken(engine, dtype):
+    plan = op.Composer(engine=engine).compose(op.load_preset("malus"))
+    given = np.ones(2000).astype(dtype)
+    np.testing.assert_array_equal(
+        plan.run(angle=given).stokes[0], plan.run(angle=np.ones(2000)).stokes[0]
+    )
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_an_empty_batch_of_vectors_is_empty_light(engine):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=op.Parameter("s"))) >> path.add("eye", op.Detector())
+    plan = op.Composer(engine=engine).compose(path)
+    assert plan.run(s=np.empty((0, 4))).stokes.shape == (0, 4)
+
+
+def test_damaged_code_is_compiled_anew(tmp_path, monkeypatch):
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path))
+    first = subprocess.run(
+        [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
+    )
+    for file in tmp_path.glob("__pycache__/*.nb*"):
+        file.write_text("garbage")
+    again = subprocess.run(
+        [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
+    )
+    assert again.stdout.splitlines()[-1] == first.stdout.splitlines()[-1]

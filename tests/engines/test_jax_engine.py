@@ -111,3 +111,60 @@ def test_known_values_are_checked_as_by_other_engines():
 def test_longdouble_is_refused():
     with pytest.raises(op.ComposerError, match="longdouble"):
         op.Composer(engine="jax", dtype="longdouble")
+
+
+def surface(incidence, stokes=None):
+    metal = op.Material(op.Parameter("n"), op.Parameter("k"))
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=stokes))
+    lamp >> path.add("surface", op.Interface(metal, incidence)) >> path.add("eye", op.Detector())
+    return path
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_slopes_where_the_polarisations_are_equally_bright_are_those_of_50_digits(composing):
+    # dS0/dk and dS1/dk at total reflection, n = 0.6, k = 0, 1.2 rad: central differences of the
+    # Fresnel equations in mpmath with 50 digits.
+    plan = op.Composer(composing=composing).compose(surface(1.2))
+    slope = jax.jacfwd(lambda k: plan.run(n=0.6, k=k).stokes)(0.0)
+    np.testing.assert_allclose(slope[:2], exact_slope(0.6, 0.0, 1.2), rtol=1e-9)
+
+
+def exact_slope(n, k, angle):
+    import mpmath as mp  # noqa: PLC0415 - for this test only
+
+    def powers(k):
+        m = mp.mpc(n, k)
+        c, s = mp.cos(mp.mpf(angle)), mp.sin(mp.mpf(angle))
+        g = mp.sqrt(m * m - s * s)
+        g = g if g.imag >= 0 else -g
+        rs, rp = (c - g) / (c + g), (m * m * c - g) / (m * m * c + g)
+        return abs(rs) ** 2, abs(rp) ** 2
+
+    with mp.workdps(50):
+        step = mp.mpf(10) ** -20
+        (s0, p0), (s1, p1) = powers(mp.mpf(k)), powers(mp.mpf(k) + step)
+        ds, dp = (s1 - s0) / step, (p1 - p0) / step
+        return [float((ds + dp) / 2), float((ds - dp) / 2)]
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_slopes_at_brewsters_angle_are_those_of_differences(composing):
+    path = surface(float(np.arctan(1.5)), stokes=[1.0, 0.3, 0.8, 0.4])
+    plan = op.Composer(composing=composing).compose(path)
+    slope = jax.jacrev(lambda n: plan.run(n=n, k=0.0).stokes)(1.5)
+    up, down = (plan.run(n=1.5 + step, k=0.0).stokes for step in (1e-6, -1e-6))
+    np.testing.assert_allclose(slope, (up - down) / 2e-6, atol=1e-8)
+
+
+def test_unpolarised_light_has_a_slope_of_its_degree_of_polarisation():
+    source = op.PathGraph()
+    lamp = source.add("lamp", op.Source(op.Parameter("intensity")))
+    lamp >> source.add("eye", op.Detector())
+    assert jax.grad(lambda i: source.trace(intensity=i).dop)(1.0) == 0.0
+
+
+def test_a_stream_is_refused():
+    plan = op.Composer(engine="jax").compose(op.load_preset("malus"))
+    with pytest.raises(op.ParameterError, match="keeps a batch whole"):
+        next(plan.stream(10, angle=np.zeros(20)))

@@ -38,7 +38,8 @@ def test_the_exponent_is_that_of_frexp(number):
 
 @pytest.mark.parametrize("power", [0, 5, -1070, 900, -3000, 3000])
 def test_powers_of_two_are_taken_times_exactly(power):
-    assert numba_helpers.ldexp(0.75, power) == np.ldexp(0.75, power)
+    with np.errstate(over="ignore", under="ignore"):
+        assert numba_helpers.ldexp(0.75, power) == np.ldexp(0.75, power)
 
 
 def test_what_a_product_loses_is_kept():

@@ -45,6 +45,18 @@ def _is_compiled(file: Path) -> bool:
     return any(file.parent.glob(f"__pycache__/{file.stem}.path-*.{version}*.nbi"))
 
 
+def forget(text: str) -> None:
+    """Remove what is kept of a text, such as a file that was damaged."""
+    compiled_once.cache_clear()
+    kept = folder() / "__pycache__"
+    for file in kept.glob(f"formula_{_name_of(text)}.*"):
+        file.unlink(missing_ok=True)
+
+
+def _name_of(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
 def folder() -> Path:
     """Return where compiled code is kept: ``OPTIPATH_CACHE``, or a folder of the user's cache."""
     if own := os.environ.get("OPTIPATH_CACHE"):
@@ -55,8 +67,7 @@ def folder() -> Path:
 
 def _file_of(text: str) -> str | None:
     """Return the file that holds a text, written if need be; None where none can be written."""
-    name = hashlib.sha256(text.encode()).hexdigest()[:32]
-    file = folder() / f"formula_{name}.py"
+    file = folder() / f"formula_{_name_of(text)}.py"
     try:
         if not file.exists():
             file.parent.mkdir(parents=True, exist_ok=True)

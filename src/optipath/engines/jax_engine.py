@@ -11,7 +11,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from optipath.errors import ComposerError
-from optipath.jax_values import is_traced
+from optipath.jax_values import is_jax, is_traced
 from optipath.kernels import Linear, Primitives, cosine, sine
 from optipath.kernels.primitives import product_and_rest
 from optipath.views import part_of
@@ -33,11 +33,13 @@ def _sqrt(number: Any) -> Any:
 
 
 def _frexp(number: Any) -> tuple[Any, Any]:
-    mantissa, exponent = jnp.frexp(jax.lax.stop_gradient(number))
-    return mantissa, exponent
+    # Nothing is scaled: XLA takes minutes for a path whose every step is, and gains nothing.
+    return number, 0
 
 
 def _ldexp(number: Any, power: Any) -> Any:
+    if isinstance(power, int) and power == 0:
+        return number
     one = jnp.ones((), jnp.result_type(number))
     power = jnp.clip(power, -2040, 2040)
     half = power // 2
@@ -104,13 +106,20 @@ class JaxPath:
     def _traced_lights(
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
     ) -> tuple[Any, ...]:
-        found = walk(self.program, self._leaves(values, absent), self.way, number=self._number)
+        leaves = self._leaves(values, absent)
+        found = walk(self.program, leaves, self.way, number=self._number)
+        # Where the smaller of two intensities changes, the light that is carried has no slope,
+        # but what matrices make of it has: light comes from the one, its slope from the other.
+        smooth = walk(self.program, leaves, Linear(JAX), number=self._number)
         stokes = []
         for reading in self.program.readings.values():
             components, exponent = found[reading.light]
             if not isinstance(exponent, int):
                 components = tuple(_ldexp(part, exponent) for part in components)
-            stokes.append(self._stacked(components, reading, batch))
+            slopes, _ = smooth[reading.light]
+            both = zip(components, slopes, strict=True)
+            parts = [slope + jax.lax.stop_gradient(part - slope) for part, slope in both]
+            stokes.append(self._stacked(parts, reading, batch))
         return tuple(stokes)
 
     def _traced_matrix(
@@ -135,7 +144,10 @@ class JaxPath:
         return jnp.stack(columns, axis=-1)
 
     def _number(self, number: Any) -> Any:
-        return jnp.asarray(number, self.dtype)
+        if isinstance(number, jax.Array):
+            return number.astype(self.dtype)
+        with np.errstate(over="ignore", under="ignore"):
+            return jnp.asarray(np.asarray(number, self.dtype))
 
     def _stacked(self, components: Sequence[Any], reading: Reading, batch: tuple[int, ...]) -> Any:
         unread = [jnp.nan] * (4 - reading.components)
@@ -200,10 +212,16 @@ def _split(resolved: Mapping[str, Resolved]) -> tuple[dict[str, Any], frozenset[
     values: dict[str, Any] = {}
     absent = set()
     for name, (value, present) in resolved.items():
-        values[name] = value
+        values[name] = value if is_jax(value) else _known_to_jax(value)
         if not np.all(present):
             if np.any(present):
                 values[f"{name} present"] = present
             else:
                 absent.add(name)
     return values, frozenset(absent)
+
+
+def _known_to_jax(value: Any) -> Any:
+    """Return an array in a precision and an order of bytes that JAX has."""
+    kind = np.complex128 if np.iscomplexobj(value) else np.float64
+    return np.asarray(value, kind)

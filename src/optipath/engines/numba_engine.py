@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.code_cache import compiled_once
+from optipath.engines.code_cache import compiled_once, forget
 from optipath.engines.expressions import assignments
 from optipath.formulas import Symbol
 
@@ -34,10 +34,17 @@ def ldexp(number, power):
 
 def compiled(formula: Formula) -> ArrayPath:
     """Return a function that does what a formula says, to arrays."""
-    function = compiled_once(source(formula))
+    text = source(formula)
+    function = compiled_once(text)
 
     def path(start: int, stop: int, given: list[Any], out: Any, at: int) -> bool:
-        return bool(function(start, stop, *given, out, at))
+        nonlocal function
+        try:
+            return bool(function(start, stop, *given, out, at))
+        except Exception:  # noqa: BLE001 - a damaged file may raise anything while it is read
+            forget(text)
+            function = compiled_once(text)
+            return bool(function(start, stop, *given, out, at))
 
     return path
 
@@ -108,7 +115,12 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
         n = symbol.index
         if symbol.operands[0] in formula.wide:
             arrays.append(f"h{n}")
-            lines = [f"high = T(x{n}[i])", f"h{n}[i] = high"]
+            low, top = formula.wide[symbol.operands[0]]
+            lines = [
+                f"good = good & ({low!r} <= x{n}[i]) & (x{n}[i] <= {top!r})",
+                f"high = T(x{n}[i])",
+                f"h{n}[i] = high",
+            ]
             if n in with_rest:
                 arrays.append(f"l{n}")
                 lines.append(f"l{n}[i] = T(x{n}[i] - high)")

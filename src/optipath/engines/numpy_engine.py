@@ -89,6 +89,12 @@ class _Writer:
         for symbol in formula.inputs:
             if not symbol.uniform:
                 self._names[symbol.index] = f"t{symbol.index}"
+                if symbol.operands[0] in formula.wide:
+                    low, high = formula.wide[symbol.operands[0]]
+                    inside = (
+                        f"({low!r} <= a{symbol.index}.min()) & (a{symbol.index}.max() <= {high!r})"
+                    )
+                    lines.append(f"if not {inside}: return False")
                 if symbol.kind == "float":
                     lines.append(f"t{symbol.index} = a{symbol.index}.astype(T, copy=False)")
                 else:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from optipath.formulas.symbol import Symbol
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy as np
 
 
@@ -22,13 +24,13 @@ class Formula:
         The precision of the operations.
     outputs : tuple
         Symbols, or numbers that are known; the last is whether the formula holds.
-    wide : frozenset of str
-        The inputs whose arrays have more digits than the formula.
+    wide : mapping of str to (float, float)
+        The inputs whose arrays have more digits than the formula, and their ranges.
     """
 
     dtype: np.dtype[Any]
     outputs: tuple[Any, ...]
-    wide: frozenset[str] = frozenset()
+    wide: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @cached_property
     def needed(self) -> tuple[Symbol, ...]:

@@ -85,7 +85,6 @@ class Leaves:
         given = self._given(raw, form)
         rest: Any = 0.0
         if form == WIDE:
-            self.recorder.wide.add(str(raw))
             rest = self.recorder.input(str(raw), rest=True)
         if view.value.negative:
             given, rest = -given, -rest
@@ -96,10 +95,15 @@ class Leaves:
     def _given(self, raw: Raw, form: str) -> Any:
         low, high = self.limits[raw.name]
         given = self.recorder.input(str(raw), uniform=form == ONE)
-        most = float(np.finfo(self.recorder.dtype).max)
-        kind = self.recorder.dtype.type
-        self.recorder.require(kind(max(low, -most)) <= given)
-        self.recorder.require(given <= kind(min(high, most)))
+        if form == WIDE:
+            # What is looked at is the number that is given, not what is left of it.
+            most = float(np.finfo(np.float64).max)
+            self.recorder.wide[str(raw)] = max(low, -most), min(high, most)
+        elif form != ONE or not self.polynomials:
+            most = float(np.finfo(self.recorder.dtype).max)
+            kind = self.recorder.dtype.type
+            self.recorder.require(kind(max(low, -most)) <= given)
+            self.recorder.require(given <= kind(min(high, most)))
         # From here on it is known, and no longer asked.
         given.positive = low >= 0.0
         return given
@@ -120,7 +124,7 @@ class Leaves:
         if self.forms[raw] == ZERO:
             return kind(0.0)
         if self.forms[raw] == WIDE:
-            self.recorder.wide.add(str(raw))
+            self.recorder.wide[str(raw)] = least, 1.0
         given = self.recorder.input(str(raw), uniform=self.forms[raw] == ONE)
         self.recorder.require(kind(least) <= given)
         self.recorder.require(given <= kind(1.0))

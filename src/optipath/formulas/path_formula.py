@@ -88,4 +88,4 @@ def _finite(numbers: Any, dtype: np.dtype[Any]) -> Any:
 
 def _formula(recorder: Recorder, outputs: list[Any], holds: list[Any]) -> Formula:
     together = reduce(lambda one, other: one & other, [*recorder.requirements, *holds], np.True_)
-    return Formula(recorder.dtype, (*outputs, together), frozenset(recorder.wide))
+    return Formula(recorder.dtype, (*outputs, together), recorder.wide)

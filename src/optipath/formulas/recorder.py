@@ -32,7 +32,7 @@ class Recorder:
         self.dtype = dtype
         self.symbols: list[Symbol] = []
         self.requirements: list[Any] = []
-        self.wide: set[str] = set()
+        self.wide: dict[str, tuple[float, float]] = {}
         self._known: dict[Any, Symbol] = {}
 
     def input(

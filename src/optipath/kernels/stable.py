@@ -128,7 +128,7 @@ def _second(xp: Primitives) -> Callable[[Boundary], _Slant]:
         q = z2 + (2.0 * z * ca + g2)
         # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
         # where the limits are known; at 90 degrees they are exact.
-        there = (_LOST * q > 0.0) & (q > _LEAST) & (at.c > 0.0)
+        there = (_LOST * q > 0.0) & (q > _LEAST)
         return _Slant(z, ca, cb, z2, g2, there, where(there, q, 1.0))
 
     return second
@@ -146,7 +146,7 @@ def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
         B, S = parted * at.a * at.n1, parted * at.b * at.n1
         # The difference is the better one unless it cancels, and exact in total reflection.
         Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * ((z - ca) * (z - ca) + cb * cb))
-        C = where(there, f * (z2 - g2), where(at.c < z, Fs, -Fs))
+        C = where(there & (at.c > 0.0), f * (z2 - g2), where(at.c < z, Fs, -Fs))
         return Fs, Fp, B, C, S
 
     return reflected

@@ -2,7 +2,7 @@
 
 The libraries that engines stand on take sines one after the other; that alone was most of
 the time of a path. The coefficients are those of fdlibm (Sun Microsystems, 1993, ``k_sin.c``,
-``k_cos.c``); errors are below 1.5 units in the last place.
+``k_cos.c``); errors are below 2 units in the last place.
 """
 
 from __future__ import annotations

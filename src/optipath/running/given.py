@@ -29,16 +29,16 @@ class Given(NamedTuple):
         What is given; a bool or an array of them for whether an element is there.
     batch : tuple of int
         The shape that all arrays broadcast to, those known beforehand included.
-    whole : tuple of int, optional
-        The shape of the batch that this is a part of.
+    before : Given, optional
+        What this is a part of.
     where : tuple, optional
         The index of the part in it.
     """
 
     numbers: Mapping[Raw, Any]
     batch: tuple[int, ...]
-    whole: tuple[int, ...] = ()
-    where: tuple[int | slice, ...] | None = None
+    before: Given | None = None
+    where: tuple[int | slice, ...] = ()
 
     @property
     def paths(self) -> int:
@@ -46,26 +46,33 @@ class Given(NamedTuple):
         return int(np.prod(self.batch, dtype=np.int64))
 
     def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        """Return the part of an array that belongs to this part of the batch."""
-        if self.where is None or not array.ndim:
+        """Return the part of an array over the whole batch that belongs to this part."""
+        if self.before is None or not array.ndim:
             return array
-        return np.broadcast_to(array, self.whole)[self.where]
+        return np.broadcast_to(self.before.cut(array), self.before.batch)[self.where]
 
     def part(self, where: tuple[int | slice, ...]) -> Given:
-        """Return a part of what is given; not of a part."""
+        """Return a part of what is given."""
         numbers = {
             raw: np.broadcast_to(n, self.batch)[where] if isinstance(n, np.ndarray) else n
             for raw, n in self.numbers.items()
         }
-        batch = np.broadcast_to(0.0, self.batch)[where].shape
-        return Given(numbers, batch, self.batch, where)
+        return Given(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
+
+    def within(self, limits: Mapping[str, tuple[float, float]]) -> bool:
+        """Tell whether each single number is within the range of its parameter."""
+        return all(
+            isinstance(n, (np.ndarray, bool))
+            or raw.part in _PAIR
+            or (limits[raw.name][0] <= n <= limits[raw.name][1] and abs(n) < np.inf)
+            for raw, n in self.numbers.items()
+        )
 
     @property
     def is_single(self) -> bool:
         """Whether everything is one plain number."""
         return all(
-            (type(number) is float or number is True or number is False)
-            and raw.part not in _PAIR
+            (type(number) is float or number is True or number is False) and raw.part not in _PAIR
             for raw, number in self.numbers.items()
         )
 
@@ -83,10 +90,13 @@ class Sorter:
         What needs the numbers.
     inputs : Inputs
         What may be given.
+    dtype : dtype
+        The precision of the plan.
     """
 
-    def __init__(self, program: Program, inputs: Inputs) -> None:
+    def __init__(self, program: Program, inputs: Inputs, dtype: np.dtype[Any]) -> None:
         self.inputs = inputs
+        self._widest = np.result_type(dtype, np.float64)
         found = dict.fromkeys(view.raw for view in program.leaves if not view.known)
         self.raws = {name: [r for r in found if r.name == name] for name in inputs.open}
         # A formula checks the range of a number that it reads, and of no other.
@@ -122,7 +132,7 @@ class Sorter:
                     if type(value) is CosSin and name in self._angles:
                         shapes.append(value.shape)
                         numbers |= {
-                            Raw(name, part): _number(getattr(value, part)) for part in _PAIR
+                            Raw(name, part): self._number(getattr(value, part)) for part in _PAIR
                         }
                         continue
                     if name in self._plain and _is_plain(value):
@@ -133,7 +143,7 @@ class Sorter:
                         shape = np.shape(real)
                         shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
                     for raw in self.raws[name]:
-                        numbers[raw] = _number(self._part(raw, real, present))
+                        numbers[raw] = self._number(self._part(raw, real, present))
                 return Given(numbers, np.broadcast_shapes(*shapes))
             except (OptipathError, ArithmeticError, ValueError, TypeError):
                 pass
@@ -147,6 +157,15 @@ class Sorter:
             return 0.0 if raw.part == "imag" else value
         return part_of(value, raw.part, self.inputs.tails[raw.name])
 
+    def _number(self, value: Any) -> Any:
+        """Return one number as a float or a bool, and arrays in a precision engines know."""
+        if isinstance(value, bool) or type(value) is float:
+            return value
+        array = np.asarray(value)
+        if array.dtype.char not in "fd?" or not array.dtype.isnative:
+            array = array.astype(self._widest)
+        return array if array.size != 1 or array.dtype.char == "g" else array.item()
+
     def _resolved(self, name: str, value: Any) -> Resolved:
         resolved = self.inputs.open[name].resolve(value)
         for use in self.inputs.uses:
@@ -158,14 +177,7 @@ class Sorter:
 def _is_plain(value: Any) -> bool:
     if type(value) is float:
         return True
-    return type(value) is np.ndarray and value.dtype.char in "fd"
-
-
-def _number(value: Any) -> Any:
-    """Return one number as a float or a bool, and an array as it is."""
-    if isinstance(value, (float, bool)):
-        return value
-    return value.item() if np.size(value) == 1 else value
+    return type(value) is np.ndarray and value.dtype.char in "fd" and value.dtype.isnative
 
 
 def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:

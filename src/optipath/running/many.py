@@ -83,7 +83,8 @@ class Many:
         # Exponents that are known to be 0 are asked for only where light is too faint.
         rows = len(formula.results) if self.has_exponents else self.read
         out = np.empty((rows, given.paths), formula.dtype)
-        numbers = {**{str(raw): n for raw, n in given.numbers.items()}, **self._known}
+        numbers = {str(raw): number for raw, number in given.numbers.items()}
+        numbers |= {name: given.cut(array) for name, array in self._known.items()}
         arrays = [numbers[symbol.operands[0]] for symbol in formula.inputs]
         failed = list(self._failures(arrays, given.batch, out))
         for row, result in enumerate(formula.results[:rows]):

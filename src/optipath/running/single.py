@@ -6,8 +6,6 @@ from collections import Counter
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-import numpy as np
-
 from optipath.engines.float_engine import compiled
 from optipath.formulas import lights_formula
 from optipath.parameters import ABSENT as WORD
@@ -77,12 +75,17 @@ class Single:
         if key not in self._paths:
             self._runs += 1
             if self._runs <= _SEVERAL or not self.compilable:
-                return self.stepwise.single(given.numbers) if self._within(given) else None
+                return self._stepped(given)
             self._paths[key] = self._made(given)
             if self._is_usual(given):
                 self._usual = self._unsorted(given, *self._paths[key])
         path, places = self._paths[key]
         return _called(path, [numbers[place] for place in places])
+
+    def _stepped(self, given: Given) -> Lights | None:
+        if not given.within(self.inputs.limits):
+            return None
+        return self.stepwise.single(given.numbers)
 
     def _made(self, given: Given) -> tuple[Any, list[int]]:
         """Return the function, and the places of what it takes among what is given."""
@@ -113,14 +116,6 @@ class Single:
                 return None
             order.append((raws[place].name, default))
         return path, order, frozenset(n for n, _ in order if n not in optional and parts[n] == 1)
-
-    def _within(self, given: Given) -> bool:
-        limits = self.inputs.limits
-        return all(
-            type(number) is bool
-            or (limits[raw.name][0] <= number <= limits[raw.name][1] and abs(number) < np.inf)
-            for raw, number in given.numbers.items()
-        )
 
 
 def _called(path: Any, numbers: list[Any]) -> Lights | None:
