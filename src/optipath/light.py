@@ -82,7 +82,8 @@ class Light:
         if not isinstance(exponent, int) or exponent:
             return cls(stokes, frame, exponent)
         light = cls.__new__(cls)
-        light.__dict__.update(_stokes=stokes, frame=frame)
+        own = light.__dict__
+        own["_stokes"], own["frame"] = stokes, frame
         return light
 
     def __getattr__(self, name: str) -> Any:

@@ -101,8 +101,12 @@ class Plan:
             With every unknown, missing or unsuitable parameter, or if there are
             several detectors.
         """
-        name, frame = self._detector
-        light = self._execution.lights(parameters)[name]
+        name, place, frame = self._detector
+        execution = self._execution
+        usual = execution.single.usual(parameters)
+        if usual is not None:
+            return Light.of(usual[place][:4], frame, usual[place][4])
+        light = execution.lights(parameters)[name]
         return Light.of(light.stokes, frame, light.exponent)
 
     def run_all(self, /, **parameters: Any) -> dict[str, Light]:
@@ -143,7 +147,7 @@ class Plan:
         >>> [part.where for part in plan.stream(2, angle=[0.0, 0.1, 0.2])]
         [(slice(0, 2, None),), (slice(2, 3, None),)]
         """
-        name, _ = self._detector
+        name, _, _ = self._detector
         if isinstance(size, bool) or not isinstance(size, int) or size < 1:
             raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
         for where, lights in self._execution.stream(size, parameters):
@@ -207,10 +211,11 @@ class Plan:
         return explanation(self.program, self.inputs, manner, tuple(notes))
 
     @cached_property
-    def _detector(self) -> tuple[str, Frame]:
-        """The name and the frame of the only detector."""
+    def _detector(self) -> tuple[str, int, Frame]:
+        """The name of the only detector, its place among the ends, and its frame."""
         name = self._only("detector", tuple(self.program.detectors), "run_all()")
-        return name, self.program.detectors[name].frame
+        place = list(self.program.readings).index(name)
+        return name, place, self.program.detectors[name].frame
 
     @cached_property
     def _execution(self) -> Execution:

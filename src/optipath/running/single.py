@@ -59,10 +59,8 @@ class Single:
         if self._usual is None:
             return None
         path, order, names = self._usual
-        if not parameters.keys() <= names:
-            return None
-        for value in parameters.values():
-            if type(value) is not float:
+        for name, value in parameters.items():
+            if type(value) is not float or name not in names:
                 return None
         get = parameters.get
         return _called(path, [get(name, default) for name, default in order])
