@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 import contenders
 from exact import Exact
-
 from optipath.bench import race
 from work import MATERIALS, random_angles
 

@@ -12,9 +12,9 @@ import json
 from pathlib import Path
 
 import click
+
 from contest import contest
 from report import BEGIN, END, has_place, machine, markdown, put
-
 from work import MATERIALS
 
 

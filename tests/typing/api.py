@@ -27,6 +27,11 @@ lights: dict[str, op.Light] = path.trace_all(theta=0.1, angle=0.2)
 matrix: op.Mueller = path.mueller(theta=0.1, angle=0.2) @ op.Polarizer(0.1).mueller()
 attenuated: op.Light = matrix @ light
 plan: op.Plan = op.Composer(method="textbook").compose(path)
+quick: op.Light = (
+    op.Composer(engine="numpy", threads=2).compose(path).run(theta=op.CosSin(1.0, 0.0), angle=0.2)
+)
+parts: list[op.Light] = [part.light for part in plan.stream(9, theta=0.1, angle=0.2)]
+engines: tuple[str, str] = plan.engine, plan.engine_for(1_000)
 text: str = plan.explain() + path.to_toml()
 preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)

@@ -1,9 +1,9 @@
 """Dr.Jit: the fused formulas on float64 arrays of its LLVM backend."""
 
 import drjit as dr
-import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 from drjit.llvm import Array4f64, Float64
 
+import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 from formulas import fused
 from work import Contender
 

@@ -1,9 +1,9 @@
 """katsu: its filter and its turns; it has no Fresnel equations, so the reflections are by hand."""
 
 import numpy as np
-from amplitudes import fresnel, mueller
 from katsu.mueller import linear_polarizer, mueller_rotation
 
+from amplitudes import fresnel, mueller
 from work import INTENSITY, Contender
 
 

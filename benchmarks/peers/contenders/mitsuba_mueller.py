@@ -1,9 +1,9 @@
 """Mitsuba 3: its Mueller matrices, in the only precision that its LLVM variants have."""
 
 import drjit as dr
-import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 import mitsuba
 
+import llvm_backend  # noqa: F401 - says in words where LLVM is missing
 from work import INTENSITY, Contender
 
 VARIANT = "llvm_ad_rgb"

@@ -3,8 +3,8 @@
 from functools import partial
 
 import numpy as np
-from amplitudes import fresnel, mueller
 
+from amplitudes import fresnel, mueller
 from formulas import fused
 from work import INTENSITY, Contender
 

@@ -1,10 +1,10 @@
 """py_pol: Mueller objects of all paths together."""
 
 import numpy as np
-from amplitudes import fresnel, parts
 from py_pol.mueller import Mueller
 from py_pol.stokes import Stokes
 
+from amplitudes import fresnel, parts
 from work import INTENSITY, Contender
 
 

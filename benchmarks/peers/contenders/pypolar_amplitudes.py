@@ -1,9 +1,9 @@
 """pypolar: its amplitudes, and the light from them by hand in NumPy."""
 
 import numpy as np
-from amplitudes import light
 from pypolar.fresnel import r_par_amplitude, r_per_amplitude
 
+from amplitudes import light
 from work import Contender
 
 

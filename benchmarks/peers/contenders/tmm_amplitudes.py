@@ -1,9 +1,9 @@
 """tmm: its amplitudes of one interface for whole arrays, and the light from them by hand."""
 
 import numpy as np
-from amplitudes import light
 from tmm import interface_r
 
+from amplitudes import light
 from work import Contender
 
 
