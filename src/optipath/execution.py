@@ -17,6 +17,7 @@ from optipath.running.many import Many
 from optipath.running.pieces import pieces
 from optipath.running.single import Single
 from optipath.running.stepwise import Stepwise, way_of
+from optipath.views import ONE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -81,11 +82,24 @@ class Execution:
         self.engine = engine
         self.threads = threads
         self.way = way_of(program, composing)
-        self.compilable = len(program.steps) <= self.longest and dtype in ("float64", "float32")
         self.sorter = Sorter(program, inputs, self.dtype)
         self.stepwise = Stepwise(program, self.way, self.dtype)
-        self.single = Single(program, inputs, self.stepwise, compilable=self.compilable)
+        self.single = Single(program, inputs, self.stepwise, lambda: self.compilable)
         self._many: dict[Any, Many] = {}
+
+    @cached_property
+    def compilable(self) -> bool:
+        """Whether the program can be made a formula."""
+        kind = self.dtype.name
+        if len(self.program.steps) > self.longest or kind not in ("float64", "float32"):
+            return False
+        forms = dict.fromkeys((v.raw for v in self.program.leaves if not v.known), ONE)
+        limits = self.inputs.limits
+        try:
+            lights_formula(self.program, self.way, kind, forms, limits, polynomials=True)
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            return False
+        return True
 
     def engine_for(self, count: int) -> str:
         """Return the engine for a batch of so many paths."""

@@ -203,7 +203,7 @@ class Plan:
             longest = self._execution.longest
             notes.append(
                 f"all batches are run step by step: paths of at most {longest} steps are "
-                f"compiled, in float64 and float32"
+                f"compiled, in float64 and float32, if all elements compute with xp alone"
             )
         elif self.chosen != "jax":
             notes.append(batches(self.chosen))

@@ -433,3 +433,28 @@ def test_damaged_code_is_compiled_anew(tmp_path, monkeypatch):
         [sys.executable, "-c", COMPILES], capture_output=True, text=True, check=True
     )
     assert again.stdout.splitlines()[-1] == first.stdout.splitlines()[-1]
+
+
+class Branching(op.Element, kind="test-branching"):
+    """An element that asks what its numbers are, and computes with NumPy itself."""
+
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        del xp
+        c, s = np.cos(2 * angle), np.sin(2 * angle)
+        s = s if np.all(c > -2.0) else -s
+        return (1, 0, 0, 0), (0, c, -s, 0), (0, s, c, 0), (0, 0, 0, 1)
+
+
+@pytest.mark.parametrize("engine", ["auto", "numpy", "numba"])
+def test_an_element_that_cannot_be_compiled_is_run_step_by_step(engine):
+    path = chain([Branching(op.Parameter("angle"))], [1.0, 1.0, 0.0, 0.0])
+    plan = op.Composer(engine=engine).compose(path)
+    expected = [1.0, np.cos(0.6), np.sin(0.6), 0.0]
+    np.testing.assert_allclose(plan.run(angle=np.full(2000, 0.3)).stokes[-1], expected)
+    for _ in range(6):
+        np.testing.assert_allclose(plan.run(angle=0.3).stokes, expected)
+    assert plan.engine == "numpy"
+    assert "compute with xp alone" in plan.explain()

@@ -12,7 +12,7 @@ from optipath.parameters import ABSENT as WORD
 from optipath.views import ABSENT, ONE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from optipath.inputs import Inputs
     from optipath.program import Program
@@ -36,12 +36,16 @@ class Single:
         What may be given.
     stepwise : Stepwise
         Runs it until a function is made.
-    compilable : bool
-        Whether a function may be made.
+    compilable : callable
+        Tells whether a function may be made.
     """
 
     def __init__(
-        self, program: Program, inputs: Inputs, stepwise: Stepwise, *, compilable: bool
+        self,
+        program: Program,
+        inputs: Inputs,
+        stepwise: Stepwise,
+        compilable: Callable[[], bool],
     ) -> None:
         self.program = program
         self.inputs = inputs
@@ -72,7 +76,7 @@ class Single:
         key = tuple(number for number in numbers if number is True or number is False)
         if key not in self._paths:
             self._runs += 1
-            if self._runs <= _SEVERAL or not self.compilable:
+            if self._runs <= _SEVERAL or not self.compilable():
                 return self._stepped(given)
             self._paths[key] = self._made(given)
             if self._is_usual(given):
