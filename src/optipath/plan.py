@@ -192,7 +192,8 @@ class Plan:
         Examples
         --------
         >>> import optipath as op
-        >>> print(op.Composer().compose(op.load_preset("malus")).explain().splitlines()[0])
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> print(plan.explain().splitlines()[0])
         1 source, 1 detector, 5 steps; method stable, model full, engine numpy, float64
         """
         manner = f"method {self.method}, model {self.model}, engine {self.engine}, {self.dtype}" + (
