@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from optipath.program import Program
 
 
+_LARGE = 1 << 30
+"""A batch for which any engine is worth its while."""
+
 _MADE = ("_detector", "_execution")
 
 
@@ -68,7 +71,7 @@ class Plan:
     @property
     def engine(self) -> str:
         """What runs large batches; `engine_for` says what runs smaller ones."""
-        return self.engine_for(1 << 30).partition(",")[0]
+        return self.engine_for(_LARGE).partition(",")[0]
 
     def engine_for(self, count: int, /) -> str:
         """Return what runs a batch of so many paths.
@@ -200,7 +203,7 @@ class Plan:
             ", composing Jones columns" if self.composing == "jones" else ""
         )
         notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
-        if self.engine_for(1 << 30) != self.engine:
+        if self.engine_for(_LARGE) != self.engine:
             longest = self._execution.longest
             notes.append(
                 f"all batches are run step by step: paths of at most {longest} steps are "

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
 
 from optipath.cli.preset_command import JSON, PresetGroup
+from optipath.cli.progress_bar import progress_bar
 from optipath.presets import load_preset
 
 if TYPE_CHECKING:
@@ -55,21 +55,16 @@ def _bench(
     def load() -> Any:
         return load_preset(preset, case=case, **values)
 
-    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
-    console = Console(stderr=True)
     chosen = engines or ENGINES
     steps = 5 + len(chosen) * (4 * len(str(largest)) + 4)
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as bar:
-        task = bar.add_task("", total=steps)
+    with progress_bar(steps) as tell:
         report = bench(
             _opened(preset, case, values),
             load,
             largest=largest,
             engines=chosen,
             threads=threads,
-            progress=lambda what: bar.update(task, description=what, advance=1),
+            progress=lambda what: tell(what, advance=1),
         )
     if as_json:
         click.echo(json.dumps({"preset": preset, **asdict(report)}))

@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
-from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
 from optipath.cli.preset_command import PresetGroup
+from optipath.cli.progress_bar import progress_bar
 from optipath.cli.text_files import read_text
 from optipath.presets import load_preset, preset_names
 
@@ -117,13 +116,8 @@ def _measure_and_draw(
             file if file.exists() else file.absolute().parent, os.W_OK
         ):
             raise click.ClickException(f"'{file}' cannot be written: permission denied")
-    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
-    console = Console(stderr=True)
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as bar:
-        task = bar.add_task("", total=1.0)
-        chart = measure(lambda what, done: bar.update(task, description=what, completed=done))
+    with progress_bar(1.0) as tell:
+        chart = measure(lambda what, done: tell(what, completed=done))
     if data is not None:
         _write(data, lambda: data.write_text(chart_text(chart), "utf-8"))
     _write(out, lambda: draw(chart, out))

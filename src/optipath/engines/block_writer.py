@@ -54,7 +54,7 @@ class BlockWriter:
                 else:
                     lines.append(f"t{symbol.index} = a{symbol.index}")
         for rest in formula.rests:
-            whole = next(s.index for s in formula.inputs if s.operands == rest.operands)
+            whole = formula.whole_of(rest).index
             lines.append(f"t{rest.index} = (a{whole} - t{whole}).astype(T)")
         for step in formula.body:
             lines += self._lines(step)
@@ -115,9 +115,7 @@ class BlockWriter:
                 lines.append(f"bitwise_and({bits}, {mask}, out={bits})")
             lines.append(f"bitwise_xor({bits}, {second}, out={bits})")
         self._names[step.index] = name
-        for operand in step.operands:
-            if isinstance(operand, Symbol):
-                self._release(operand)
+        self._release(step)
         self._chosen[condition.index] -= 1
         if not self._chosen[condition.index]:
             self._free["mask"].append(self._masks.pop(condition.index))
@@ -139,16 +137,12 @@ class BlockWriter:
         a, b, c = map(self._read, step.operands)
         name = self._name(step)
         self._names[step.index] = name
-        for operand in step.operands:
-            if isinstance(operand, Symbol):
-                self._release(operand)
+        self._release(step)
         return [f"multiply({a}, {b}, out={name})", f"add({name}, {c}, out={name})"]
 
     def _line(self, step: Symbol) -> str:
         operands = ", ".join(map(self._read, step.operands))
-        for operand in step.operands:
-            if isinstance(operand, Symbol):
-                self._release(operand)
+        self._release(step)
         name = self._name(step)
         self._names[step.index] = name
         if name.startswith("t"):
@@ -179,8 +173,11 @@ class BlockWriter:
         self.buffers[name] = kind
         return name
 
-    def _release(self, operand: Symbol) -> None:
-        self._left[operand.index] -= 1
-        name = self._names.get(operand.index, "")
-        if not self._left[operand.index] and name in self.buffers:
-            self._free[self.buffers[name]].append(name)
+    def _release(self, step: Symbol) -> None:
+        """Free the arrays of operands that no later operation needs."""
+        for operand in step.operands:
+            if isinstance(operand, Symbol):
+                self._left[operand.index] -= 1
+                name = self._names.get(operand.index, "")
+                if not self._left[operand.index] and name in self.buffers:
+                    self._free[self.buffers[name]].append(name)

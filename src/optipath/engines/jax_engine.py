@@ -13,7 +13,7 @@ import numpy as np
 from optipath.errors import ComposerError
 from optipath.jax_values import is_jax, is_traced
 from optipath.kernels import Linear, Primitives, cosine, sine
-from optipath.kernels.primitives import product_and_rest
+from optipath.kernels.primitives import is_hidden, product_and_rest
 from optipath.views import part_of
 from optipath.walk import walk
 
@@ -59,7 +59,7 @@ JAX = Primitives(
     frexp=_frexp,
     ldexp=_ldexp,
     two_product=product_and_rest,
-    hidden=lambda larger, number: (larger + number == larger) & (jnp.abs(number) < 1e-6),
+    hidden=is_hidden,
     fixed=jax.lax.stop_gradient,
 )
 

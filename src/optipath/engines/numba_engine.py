@@ -93,7 +93,10 @@ def source(formula: Formula) -> str:
 
 def _loads(formula: Formula) -> tuple[list[str], list[str]]:
     """Return what is read before the loop and in it."""
-    before, inside = [], [f"t{rest.index} = l{_whole(formula, rest)}[i]" for rest in formula.rests]
+    before, inside = (
+        [],
+        [f"t{rest.index} = l{formula.whole_of(rest).index}[i]" for rest in formula.rests],
+    )
     for symbol in formula.inputs:
         kind = "T" if symbol.kind == "float" else ""
         if symbol.uniform:
@@ -109,7 +112,7 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
 
     In loops of their own, since the widest number in a loop says how many fit at a time.
     """
-    with_rest = {_whole(formula, rest) for rest in formula.rests}
+    with_rest = {formula.whole_of(rest).index for rest in formula.rests}
     arrays, loops = [], []
     for symbol in formula.inputs:
         n = symbol.index
@@ -126,11 +129,6 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
                 lines.append(f"l{n}[i] = T(x{n}[i] - high)")
             loops += ["for i in range(end - begin):", *_indented(*lines)]
     return arrays, loops
-
-
-def _whole(formula: Formula, rest: Symbol) -> int:
-    """Return the number of the input that a rest belongs to."""
-    return next(s.index for s in formula.inputs if s.operands == rest.operands)
 
 
 def _indented(*lines: str) -> list[str]:

@@ -54,6 +54,10 @@ class Formula:
         """What the precision of the formula loses of numbers that are given."""
         return tuple(symbol for symbol in self.needed if symbol.operation == "rest")
 
+    def whole_of(self, rest: Symbol) -> Symbol:
+        """Return the input that a rest belongs to."""
+        return next(symbol for symbol in self.inputs if symbol.operands == rest.operands)
+
     @cached_property
     def steps(self) -> tuple[Symbol, ...]:
         """The operations on what is given."""

@@ -61,15 +61,16 @@ def _itself(value: Any) -> Any:
 _SMALL = 1e-6
 
 
-def _is_hidden(larger: Any, number: Any) -> Any:
+def is_hidden(larger: Any, number: Any) -> Any:
+    """Tell whether a small number is no more than the rounding of a larger one."""
     return (larger + number == larger) & (abs(number) < _SMALL)
 
 
 def _hidden_in_arrays(larger: Any, number: Any) -> Any:
     if np.result_type(larger) == np.longdouble:
         # Angles come as doubles, whatever they are computed with.
-        return _is_hidden(larger.astype(np.float64), number.astype(np.float64))
-    return _is_hidden(larger, number)
+        return is_hidden(larger.astype(np.float64), number.astype(np.float64))
+    return is_hidden(larger, number)
 
 
 def product_rest(a: Any, b: Any) -> Any:
@@ -137,6 +138,6 @@ FLOAT = Primitives(
     frexp=math.frexp,
     ldexp=math.ldexp,
     two_product=_fused_two_product if hasattr(math, "fma") else product_and_rest,
-    hidden=_is_hidden,
+    hidden=is_hidden,
     fixed=_itself,
 )

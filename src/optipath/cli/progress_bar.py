@@ -1,0 +1,28 @@
+"""A bar that shows how far a measurement is, on a terminal and nowhere else."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+@contextmanager
+def progress_bar(total: float) -> Iterator[Callable[..., None]]:
+    """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
+    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+    console = Console(stderr=True)
+    with Progress(
+        *columns, console=console, transient=True, disable=not console.is_terminal
+    ) as bar:
+        task = bar.add_task("", total=total)
+
+        def tell(what: str, **change: Any) -> None:
+            bar.update(task, description=what, **change)
+
+        yield tell
