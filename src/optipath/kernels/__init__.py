@@ -21,43 +21,79 @@ from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
 from optipath.kernels.linear import Linear
 from optipath.kernels.plain import Plain
+from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
+from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
 from optipath.kernels.scaled import Scaled
 from optipath.kernels.stable import (
+    denser_reflection,
     lossless_reflection,
     lossless_transmission,
     stable_reflection,
     stable_transmission,
 )
-from optipath.kernels.structures import BLOCK, FULL, ROTATION, SCALE, Structure, turn_linear
+from optipath.kernels.structures import (
+    BLOCK,
+    FULL,
+    POWERS,
+    ROTATION,
+    SCALE,
+    Structure,
+    turn_linear,
+)
 from optipath.kernels.textbook import textbook_reflection, textbook_transmission
 
 
-def _fresnel(what: str, **methods: tuple[Factory, Factory | None]) -> KernelFamily:
-    found = {}
-    for method, (factory, lossless) in methods.items():
-        name = f"{what} ({method}"
-        # Of (n1, n, k, cos, sin), k is the third.
-        without = (2, Kernel(f"{name}, lossless)", BLOCK, lossless)) if lossless else None
-        found[method] = Kernel(f"{name})", BLOCK, factory, without)
-    return KernelFamily(what, found)
+def _fresnel(
+    what: str, method: str, factory: Factory, *cheaper: Factory, powers: tuple[Factory, ...] = ()
+) -> Kernel:
+    """Return the kernel of a method: for any media, for k = 0, and for n >= n1 besides."""
+    found: Kernel | None = None
+    words = ("", ", lossless", ", lossless, from the rarer side")
+    factories = (factory, *cheaper)
+    for place, made_by in reversed(list(enumerate(factories))):
+        name = f"{what} ({method}{words[place]})"
+        alone = Kernel(f"{name}, powers", POWERS, powers[place]) if powers else None
+        # Of (n1, n, k, cos, sin), k is the third; of (n1, n, cos, sin), n is to be n1 or more.
+        without = (2, found) if place == 0 and found else None
+        denser = (1, 0, found) if place == 1 and found else None
+        found = Kernel(name, BLOCK, made_by, without, denser, alone)
+    assert found is not None  # noqa: S101 - there is one factory at least
+    return found
 
 
-REFLECTION = _fresnel(
-    "Fresnel reflection",
-    stable=(stable_reflection, lossless_reflection),
-    compensated=(compensated_reflection, compensated_lossless_reflection),
-    amplitude=(amplitude_reflection, None),
-    textbook=(textbook_reflection, None),
+def _family(what: str, **methods: Kernel) -> KernelFamily:
+    return KernelFamily(what, methods)
+
+
+_REFLECTED = "Fresnel reflection"
+REFLECTION = _family(
+    _REFLECTED,
+    stable=_fresnel(
+        _REFLECTED,
+        "stable",
+        stable_reflection,
+        lossless_reflection,
+        denser_reflection,
+        powers=(reflected_powers, lossless_powers, denser_powers),
+    ),
+    compensated=_fresnel(
+        _REFLECTED, "compensated", compensated_reflection, compensated_lossless_reflection
+    ),
+    amplitude=_fresnel(_REFLECTED, "amplitude", amplitude_reflection),
+    textbook=_fresnel(_REFLECTED, "textbook", textbook_reflection),
 )
-TRANSMISSION = _fresnel(
-    "Fresnel transmission",
-    stable=(stable_transmission, lossless_transmission),
-    compensated=(compensated_transmission, compensated_lossless_transmission),
-    amplitude=(amplitude_transmission, None),
-    textbook=(textbook_transmission, None),
+_REFRACTED = "Fresnel transmission"
+TRANSMISSION = _family(
+    _REFRACTED,
+    stable=_fresnel(_REFRACTED, "stable", stable_transmission, lossless_transmission),
+    compensated=_fresnel(
+        _REFRACTED, "compensated", compensated_transmission, compensated_lossless_transmission
+    ),
+    amplitude=_fresnel(_REFRACTED, "amplitude", amplitude_transmission),
+    textbook=_fresnel(_REFRACTED, "textbook", textbook_transmission),
 )
-Way: TypeAlias = Plain | Scaled | Jones | Linear
+Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers
 
 METHODS = tuple(REFLECTION.methods)
 
@@ -90,6 +126,7 @@ __all__ = [
     "NUMPY",
     "POLARIZED",
     "POLARIZER",
+    "POWERS",
     "REFLECTION",
     "RETARDER",
     "ROTATION",
@@ -106,6 +143,7 @@ __all__ = [
     "KernelFamily",
     "Linear",
     "Plain",
+    "Powers",
     "Primitives",
     "Scaled",
     "Structure",

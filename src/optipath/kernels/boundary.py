@@ -64,21 +64,26 @@ def near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return divided
 
 
+_SMALL, _FAR = 2.0**-60, 2.0**100
+"""What has a square that may vanish in float32, and what takes it back among the others."""
+
+
 def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
-    """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0, without squares that overflow or vanish.
+    """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0 within 1e-180 .. 1e18, or 0.
 
     Examples
     --------
     >>> from optipath.kernels import FLOAT
-    >>> hypotenuse(FLOAT)(3e-200, 4e-200)
-    5e-200
+    >>> hypotenuse(FLOAT)(3e-170, 4e-170)
+    5e-170
     """
-    sqrt, where, maximum, minimum = xp.sqrt, xp.where, xp.maximum, xp.minimum
+    sqrt, where, maximum = xp.sqrt, xp.where, xp.maximum
 
     def length(x: Any, y: Any) -> Any:
-        most = maximum(x, y)
-        share = minimum(x, y) / where(most > 0.0, most, 1.0)
-        return most * sqrt(1.0 + share * share)
+        small = maximum(x, y) < _SMALL
+        x, y = where(small, _FAR * x, x), where(small, _FAR * y, y)
+        squared = sqrt(x * x + y * y)
+        return where(small, squared * (1.0 / _FAR), squared)
 
     return length
 
@@ -125,12 +130,11 @@ def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
 
 def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
     """Make ``(n1, n, cos, sin) -> Boundary``, for media that absorb nothing."""
-    divided, wave = near_one(xp), _wave(xp)
+    wave = _lossless_wave(xp)
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
     def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
-        n1, n = divided(n1, n)
-        p, contrast, u = wave(n1, n, 0.0, c, s)
+        n1, n, p, contrast, u = wave(n1, n, c, s)
         squared = absolute(u)
         size = sqrt(squared)
         forward = u >= 0.0
@@ -138,6 +142,30 @@ def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
         return Boundary(p, a, b, squared, contrast, 0.0, s, c, n1, n, 0.0)
 
     return boundary
+
+
+def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
+    """Make ``(n1, n, cos, sin) -> Boundary`` for n >= n1 without absorption.
+
+    The same again, where nothing is reflected totally: Re g^2 is never negative.
+    """
+    sqrt, wave = xp.sqrt, _lossless_wave(xp)
+
+    def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
+        n1, n, p, contrast, u = wave(n1, n, c, s)
+        return Boundary(p, sqrt(u), 0.0, u, contrast, 0.0, s, c, n1, n, 0.0)
+
+    return boundary
+
+
+def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    divided, wave = near_one(xp), _wave(xp)
+
+    def lossless(n1: Any, n: Any, c: Any, s: Any) -> tuple[Any, ...]:
+        n1, n = divided(n1, n)
+        return n1, n, *wave(n1, n, 0.0, c, s)
+
+    return lossless
 
 
 def _wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any]]:

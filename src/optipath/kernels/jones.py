@@ -44,12 +44,16 @@ class Jones:
         self.xp = xp
         self._incoherent = Scaled(xp)
 
-    def emit(self, stokes: Components) -> JonesState:
+    def emit(self, stokes: Components, count: int = 4) -> JonesState:
         """Return the columns of a light: the Cholesky factor of its coherency matrix."""
+        del count  # A column is carried whole.
         return self._settled(_columns(self.xp, carry(self.xp, stokes)), 0)
 
-    def act(self, structure: Structure, numbers: Numbers, state: JonesState) -> JonesState:
+    def act(
+        self, structure: Structure, numbers: Numbers, state: JonesState, count: int = 4
+    ) -> JonesState:
         """Return the state behind an element."""
+        del count
         columns, exponent = state
         return self._settled(structure.jones_for(self.xp)(numbers, columns), exponent)
 
@@ -61,8 +65,9 @@ class Jones:
         carried = tuple(self.xp.ldexp(component, odd) for component in carried)
         return self._settled(_columns(self.xp, carried), (exponent - odd) // 2)
 
-    def read(self, state: JonesState) -> tuple[Components, Any]:
+    def read(self, state: JonesState, count: int = 4) -> tuple[Components, Any]:
         """Return the Stokes components, and the exponent of the power of two times them."""
+        del count
         carried, exponent = self._carried(state)
         return stokes_of(self.xp, carried), exponent
 

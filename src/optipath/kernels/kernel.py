@@ -32,12 +32,19 @@ class Kernel:
     without : tuple of int and Kernel, optional
         A cheaper kernel for where one argument is 0: the position of that argument, and
         the kernel that takes the others.
+    denser : tuple of int, int and Kernel, optional
+        A cheaper kernel for where one argument is never less than another: their positions,
+        and the kernel, which takes the same arguments.
+    powers : Kernel, optional
+        What is left of the kernel where only intensities are asked.
     """
 
     name: str
     structure: Structure | None
     factory: Factory
     without: tuple[int, Kernel] | None = None
+    denser: tuple[int, int, Kernel] | None = None
+    powers: Kernel | None = None
 
     def made_for(self, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
         """Return the function in terms of these primitives, made once and kept."""
@@ -52,6 +59,16 @@ class Kernel:
             return self, tuple(arguments)
         position, cheaper = self.without
         return cheaper, (*arguments[:position], *arguments[position + 1 :])
+
+    def never_less(
+        self, arguments: Sequence[Any], ranges: Callable[[Any], tuple[float, float]]
+    ) -> Kernel:
+        """Return the cheapest kernel for the ranges that the arguments are known to be in."""
+        if self.denser is None:
+            return self
+        larger, smaller, cheaper = self.denser
+        known = ranges(arguments[larger])[0] >= ranges(arguments[smaller])[1]
+        return cheaper if known else self
 
     def by_method(self, method: str) -> Kernel:
         """Return the kernel itself: it has one method only."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.kernels.carried import products
+
 if TYPE_CHECKING:
     from optipath.kernels.carried import Components
     from optipath.kernels.primitives import Primitives
@@ -24,14 +26,19 @@ class Linear:
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
 
-    def emit(self, stokes: Components) -> Components:
-        """Return the state of what is emitted."""
+    def emit(self, stokes: Components, count: int = 4) -> Components:
+        """Return the state of what is emitted; all four components, whatever is asked for."""
+        del count
         return stokes
 
-    def act(self, structure: Structure, numbers: Numbers, state: Components) -> Components:
+    def act(
+        self, structure: Structure, numbers: Numbers, state: Components, count: int = 4
+    ) -> Components:
         """Return the state behind an element."""
+        del count
         rows = structure.rows(self.xp, numbers)
-        first, second, third, fourth = (_product(row, state) for row in rows)
+        # Entries that a shape of matrix never has are plain zeros.
+        first, second, third, fourth = (products(*zip(row, state, strict=True)) for row in rows)
         return first, second, third, fourth
 
     def add(self, first: Components, second: Components) -> Components:
@@ -39,12 +46,7 @@ class Linear:
         s0, s1, s2, s3 = (one + other for one, other in zip(first, second, strict=True))
         return s0, s1, s2, s3
 
-    def read(self, state: Components) -> tuple[Components, Any]:
+    def read(self, state: Components, count: int = 4) -> tuple[Components, Any]:
         """Return the components, and the exponent of the power of two times them."""
+        del count
         return state, 0
-
-
-def _product(row: Components, state: Components) -> Any:
-    # Entries that a shape of matrix never has are plain zeros.
-    terms = [m * s for m, s in zip(row, state, strict=True) if type(m) is not float or m]
-    return sum(terms[1:], start=terms[0]) if terms else 0.0 * state[0]

@@ -4,7 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.carried import Carried, Components, add, at_most_polarised, carry, stokes_of
+from optipath.kernels.carried import (
+    Carried,
+    Components,
+    add,
+    at_most_polarised,
+    carry,
+    leaving,
+    stokes_of,
+)
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
@@ -17,18 +25,21 @@ class Plain:
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
 
-    def emit(self, stokes: Components) -> Carried:
-        """Return the state of emitted light."""
-        return carry(self.xp, stokes)
+    def emit(self, stokes: Components, count: int = 4) -> Carried:
+        """Return the state of emitted light, the first components alone."""
+        return carry(self.xp, stokes, count)
 
-    def act(self, structure: Structure, numbers: Numbers, state: Carried) -> Carried:
-        """Return the state behind an element."""
-        return structure.made_for(self.xp)(numbers, state)
+    def act(
+        self, structure: Structure, numbers: Numbers, state: Carried, count: int = 4
+    ) -> Carried:
+        """Return the state behind an element, the first components alone."""
+        return structure.made_for(self.xp)(numbers, state, count)
 
     def add(self, first: Carried, second: Carried) -> Carried:
         """Return the state of two lights together, incoherently."""
         return add(self.xp, first, second)
 
-    def read(self, state: Carried) -> tuple[Components, Any]:
-        """Return the Stokes components, and the exponent of the power of two times them."""
-        return stokes_of(self.xp, at_most_polarised(self.xp, state)), 0
+    def read(self, state: Carried, count: int = 4) -> tuple[Components, Any]:
+        """Return the first components, and the exponent of the power of two times them."""
+        read = at_most_polarised(self.xp, leaving(self.xp, state, count))
+        return stokes_of(self.xp, read), 0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import add
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.circular import cosine, sine
@@ -13,9 +15,14 @@ if TYPE_CHECKING:
 
 
 def turn(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(angle,) -> (cos 2a, sin 2a)``."""
+    """Make ``(angle, ...) -> (cos 2a, sin 2a)``, for one angle or several turns in a row."""
     sin, cos = sine(xp), cosine(xp)
-    return lambda angle: (cos(2.0 * angle), sin(2.0 * angle))
+
+    def turned(*angles: Any) -> tuple[Any, Any]:
+        twice = 2.0 * reduce(add, angles)
+        return cos(twice), sin(twice)
+
+    return turned
 
 
 def turn_back(xp: Primitives) -> Callable[..., tuple[Any, ...]]:

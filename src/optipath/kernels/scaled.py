@@ -5,7 +5,15 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.carried import Carried, Components, add, at_most_polarised, carry, stokes_of
+from optipath.kernels.carried import (
+    Carried,
+    Components,
+    add,
+    at_most_polarised,
+    carry,
+    leaving,
+    stokes_of,
+)
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
@@ -37,14 +45,16 @@ class Scaled:
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
 
-    def emit(self, stokes: Components) -> ScaledState:
-        """Return the state of emitted light."""
-        return self._settled(carry(self.xp, stokes), 0)
+    def emit(self, stokes: Components, count: int = 4) -> ScaledState:
+        """Return the state of emitted light, the first components alone."""
+        return self._settled(carry(self.xp, stokes, count), 0)
 
-    def act(self, structure: Structure, numbers: Numbers, state: ScaledState) -> ScaledState:
-        """Return the state behind an element."""
+    def act(
+        self, structure: Structure, numbers: Numbers, state: ScaledState, count: int = 4
+    ) -> ScaledState:
+        """Return the state behind an element, the first components alone."""
         carried, exponent = state
-        return self._settled(structure.made_for(self.xp)(numbers, carried), exponent)
+        return self._settled(structure.made_for(self.xp)(numbers, carried, count), exponent)
 
     def add(self, first: ScaledState, second: ScaledState) -> ScaledState:
         """Return the state of two lights together, incoherently."""
@@ -57,10 +67,10 @@ class Scaled:
         other = _times_two_to(self.xp, other, of_other - most)
         return self._settled(add(self.xp, light, other), most)
 
-    def read(self, state: ScaledState) -> tuple[Components, Any]:
-        """Return the Stokes components, and the exponent of the power of two times them."""
+    def read(self, state: ScaledState, count: int = 4) -> tuple[Components, Any]:
+        """Return the first components, and the exponent of the power of two times them."""
         carried, exponent = state
-        return stokes_of(self.xp, carried), exponent
+        return stokes_of(self.xp, leaving(self.xp, carried, count)), exponent
 
     def _settled(self, carried: Carried, exponent: Any) -> ScaledState:
         carried = at_most_polarised(self.xp, carried)

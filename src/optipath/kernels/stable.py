@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optipath.kernels.boundary import (
     Boundary,
     absorbing_boundary,
+    denser_boundary,
     hypotenuse,
     lossless_boundary,
 )
@@ -37,6 +38,12 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 def lossless_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make the kernel ``(n1, n, cos, sin) -> (Fs, Fp, B, C, S)``: the same, cheaper, for k = 0."""
     boundary, reflected = lossless_boundary(xp), _reflected(xp)
+    return lambda n1, n, c, s: reflected(boundary(n1, n, c, s))
+
+
+def denser_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the kernel ``(n1, n, cos, sin) -> (Fs, Fp, B, C, S)``: cheaper again, for n >= n1."""
+    boundary, reflected = denser_boundary(xp), _reflected(xp)
     return lambda n1, n, c, s: reflected(boundary(n1, n, c, s))
 
 
@@ -91,7 +98,7 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
 
     def first(at: Boundary) -> tuple[Any, Any]:
         """Return Fs and Ts."""
-        P = at.p * at.p + (2.0 * at.p * at.a + at.squared)
+        P = front(at)
         # P vanishes only at grazing incidence on an equal medium, which is no interface.
         there = P > 0.0
         P = where(there, P, 1.0)
@@ -104,7 +111,12 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
     return first
 
 
-class _Slant(NamedTuple):
+def front(at: Boundary) -> Any:
+    """Return P = |p + g|^2."""
+    return at.p * at.p + (2.0 * at.p * at.a + at.squared)
+
+
+class Slant(NamedTuple):
     """How r_p differs from r_s: by z and p g, all of it divided by n1.
 
     `z2` and `g2` are the squares of z = n1 sin^2 and of c|g|, and `q` is |z + p g|^2.
@@ -115,21 +127,31 @@ class _Slant(NamedTuple):
     cb: Any
     z2: Any
     g2: Any
-    there: Any
     q: Any
 
+    @property
+    def less(self) -> Any:
+        """|z - p g|^2, the square of which r_p / r_s has the root over q."""
+        return (self.z - self.ca) * (self.z - self.ca) + self.cb * self.cb
 
-def _second(xp: Primitives) -> Callable[[Boundary], _Slant]:
+
+def slant(at: Boundary) -> Slant:
+    """Return how the two polarisations differ at a boundary."""
+    z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
+    z2, g2 = z * z, at.c * at.c * at.squared
+    return Slant(z, ca, cb, z2, g2, z2 + (2.0 * z * ca + g2))
+
+
+def _second(xp: Primitives) -> Callable[[Boundary], tuple[Slant, Any, Any]]:
     where = xp.where
 
-    def second(at: Boundary) -> _Slant:
-        z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
-        z2, g2 = z * z, at.c * at.c * at.squared
-        q = z2 + (2.0 * z * ca + g2)
+    def second(at: Boundary) -> tuple[Slant, Any, Any]:
+        """Return the slant, whether q is there, and q where it is."""
+        found = slant(at)
         # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
         # where the limits are known; at 90 degrees they are exact.
-        there = (_LOST * q > 0.0) & (q > _LEAST)
-        return _Slant(z, ca, cb, z2, g2, there, where(there, q, 1.0))
+        there = (_LOST * found.q > 0.0) & (found.q > _LEAST)
+        return found, there, where(there, found.q, 1.0)
 
     return second
 
@@ -139,14 +161,14 @@ def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
 
     def reflected(at: Boundary) -> tuple[Any, ...]:
         Fs, _ = first(at)
-        z, ca, cb, z2, g2, there, q = second(at)
+        along, there, q = second(at)
         f = Fs / q
         # Factors that may be tiny come last: no digit is lost to an underflow before them.
         parted = 2.0 * f * (at.s * at.s) * at.c
         B, S = parted * at.a * at.n1, parted * at.b * at.n1
         # The difference is the better one unless it cancels, and exact in total reflection.
-        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * ((z - ca) * (z - ca) + cb * cb))
-        C = where(there & (at.c > 0.0), f * (z2 - g2), where(at.c < z, Fs, -Fs))
+        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
+        C = where(there & (at.c > 0.0), f * (along.z2 - along.g2), where(at.c < along.z, Fs, -Fs))
         return Fs, Fp, B, C, S
 
     return reflected
@@ -158,10 +180,10 @@ def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
     def transmitted(at: Boundary) -> tuple[Any, ...]:
         """Return (Ts, Tp, B), (z + p g) / n1, |g|^2 + z, and |z + p g|^2 / n1^2."""
         Fs, Ts = first(at)
-        slant = second(at)
-        behind = at.squared + at.n1 * slant.z
-        B = 0.0 - 2.0 * Fs / slant.q * (at.s * at.s) * at.c * at.a * at.n1
-        powers = Ts, Ts * (behind / slant.q), B
-        return powers, (slant.z + slant.ca, slant.cb), behind, slant.q
+        along, _, q = second(at)
+        behind = at.squared + at.n1 * along.z
+        B = 0.0 - 2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
+        powers = Ts, Ts * (behind / q), B
+        return powers, (along.z + along.ca, along.cb), behind, q
 
     return transmitted

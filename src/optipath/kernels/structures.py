@@ -10,15 +10,32 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.carried import Carried, along_axes, carry, not_below_rounding, stokes_of
+from optipath.kernels.carried import (
+    Carried,
+    all_four,
+    along_axes,
+    carry,
+    leaving,
+    not_below_rounding,
+    products,
+    stokes_of,
+)
 from optipath.kernels.jones_actions import Columns, block_jones, rotation_jones, scale_jones
+from optipath.kernels.powers_actions import (
+    PowersAction,
+    block_powers,
+    fraction_powers,
+    full_powers,
+    rotation_powers,
+    scale_powers,
+)
 from optipath.kernels.primitives import made
 
 if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 Numbers: TypeAlias = Sequence[Any]
-Action: TypeAlias = Callable[[Numbers, Carried], Carried]
+Action: TypeAlias = Callable[[Numbers, Carried, int], Carried]
 JonesAction: TypeAlias = Callable[[Numbers, Columns], Columns]
 Row: TypeAlias = tuple[Any, Any, Any, Any]
 
@@ -34,9 +51,13 @@ class Structure:
     identity : tuple of float
         The numbers that leave every light as it is.
     action : callable
-        ``action(primitives)`` makes ``act(numbers, carried) -> carried``.
+        ``action(primitives)`` makes ``act(numbers, carried, count) -> carried``, the first
+        `count` components of the light behind.
     rows : callable
         ``rows(primitives, numbers)`` gives the four rows of the matrix.
+    powers : callable
+        ``powers(primitives)`` makes ``act(numbers, powers, count) -> powers`` for intensities
+        over one denominator.
     jones : callable, optional
         ``jones(primitives)`` makes ``act(numbers, columns) -> columns`` for two Jones
         columns; None for a shape that may depolarise.
@@ -46,6 +67,7 @@ class Structure:
     identity: tuple[float, ...]
     action: Callable[[Primitives], Action]
     rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
+    powers: Callable[[Primitives], PowersAction]
     jones: Callable[[Primitives], JonesAction] | None = None
 
     def made_for(self, primitives: Primitives) -> Action:
@@ -59,6 +81,11 @@ class Structure:
         action: JonesAction = made(self.jones, primitives)
         return action
 
+    def powers_for(self, primitives: Primitives) -> PowersAction:
+        """Return the action on intensities along x and y, made once and kept."""
+        action: PowersAction = made(self.powers, primitives)
+        return action
+
 
 def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
     """Return (S1, S2) in a frame turned by a, from (cos 2a, sin 2a)."""
@@ -67,12 +94,9 @@ def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
 
 
 def _scale(xp: Primitives) -> Action:
-    del xp
-
-    def act(numbers: Numbers, carried: Carried) -> Carried:
+    def act(numbers: Numbers, carried: Carried, count: int) -> Carried:
         (t,) = numbers
-        weak, s1, s2, s3 = carried
-        return t * weak, t * s1, t * s2, t * s3
+        return tuple(t * component for component in leaving(xp, carried, count))
 
     return act
 
@@ -80,16 +104,19 @@ def _scale(xp: Primitives) -> Action:
 def _rotation(xp: Primitives) -> Action:
     absolute, where = xp.absolute, xp.where
 
-    def act(numbers: Numbers, carried: Carried) -> Carried:
+    def act(numbers: Numbers, carried: Carried, count: int) -> Carried:
+        if count == 1:
+            return leaving(xp, carried, 1)
         c, s = numbers
-        weak, s1, s2, s3 = carried
+        weak, s1, s2, s3 = all_four(carried)
         t1, t2 = turn_linear(numbers, s1, s2)
         # |s1| - |t1| without a difference: 1 - |cos| is sin^2 / (1 + |cos|).
         forward = t1 >= 0.0
         larger = 1.0 + absolute(c)
         share = where(forward == (c * s1 >= 0.0), s * s / larger, larger)
         turned = weak + 0.5 * (absolute(s1) * share - where(forward, s * s2, -s * s2))
-        return not_below_rounding(xp, turned, absolute(s1) + absolute(s2)), t1, t2, s3
+        weak = not_below_rounding(xp, turned, absolute(s1) + absolute(s2))
+        return (weak, t1, t2, s3)[:count]
 
     return act
 
@@ -97,27 +124,44 @@ def _rotation(xp: Primitives) -> Action:
 def _block(xp: Primitives) -> Action:
     where, minimum = xp.where, xp.minimum
 
-    def act(numbers: Numbers, carried: Carried) -> Carried:
+    def act(numbers: Numbers, carried: Carried, count: int) -> Carried:
         Fs, Fp, B, C, S = numbers
-        weak, s1, s2, s3 = carried
         x, y = along_axes(xp, carried)
-        return (
-            minimum(Fs * x, Fp * y),
-            2.0 * B * weak + where(s1 >= 0.0, Fs, Fp) * s1,
-            C * s2 + S * s3,
-            C * s3 - S * s2,
-        )
+        if count == 1:
+            return (0.5 * (Fs * x + Fp * y),)
+        weak, s1, s2, s3 = all_four(carried)
+        behind = minimum(Fs * x, Fp * y), 2.0 * B * weak + where(s1 >= 0.0, Fs, Fp) * s1
+        if count == 2:
+            return behind
+        across = products((C, s2), (S, s3))
+        return *behind, across, *([products((C, s3), (-S, s2))] if count == 4 else [])
 
     return act
+
+
+def _block_of_powers(xp: Primitives) -> Action:
+    block = _block(xp)
+    return lambda numbers, carried, count: block(_block_numbers(numbers), carried, min(count, 2))
+
+
+def _block_numbers(numbers: Numbers) -> Numbers:
+    Fs, Fp, divisor = numbers
+    Fs, Fp = Fs / divisor, Fp / divisor
+    return Fs, Fp, 0.5 * (Fs - Fp), 0.0, 0.0
 
 
 def _full(xp: Primitives) -> Action:
-    def act(m: Numbers, carried: Carried) -> Carried:
-        s0, s1, s2, s3 = stokes_of(xp, carried)
-        rows = (m[i] * s0 + m[i + 1] * s1 + m[i + 2] * s2 + m[i + 3] * s3 for i in (0, 4, 8, 12))
-        return carry(xp, tuple(rows))
+    def act(m: Numbers, carried: Carried, count: int) -> Carried:
+        stokes = stokes_of(xp, carried)
+        rows = [_product(m[4 * row : 4 * row + 4], stokes) for row in range(count)]
+        s0, s1, s2, s3 = (*rows, 0.0, 0.0, 0.0)[:4]
+        return carry(xp, (s0, s1, s2, s3), count)
 
     return act
+
+
+def _product(row: Numbers, stokes: Numbers) -> Any:
+    return products(*zip(row, stokes, strict=True))
 
 
 def _scale_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
@@ -140,20 +184,31 @@ def _block_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     return (A, B, 0.0, 0.0), (B, A, 0.0, 0.0), (0.0, 0.0, C, S), (0.0, 0.0, -S, C)
 
 
+def _powers_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
+    return _block_rows(xp, _block_numbers(numbers))
+
+
 def _full_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     del xp
     m = tuple(numbers)
     return m[0:4], m[4:8], m[8:12], m[12:16]
 
 
-SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_jones)
+SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_powers, scale_jones)
 """One number t: t times the unit matrix."""
 
-ROTATION = Structure("rotation", (1.0, 0.0), _rotation, _rotation_rows, rotation_jones)
+ROTATION = Structure(
+    "rotation", (1.0, 0.0), _rotation, _rotation_rows, rotation_powers, rotation_jones
+)
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
 BLOCK = Structure(
-    "retarding diattenuator", (1.0, 1.0, 0.0, 1.0, 0.0), _block, _block_rows, block_jones
+    "retarding diattenuator",
+    (1.0, 1.0, 0.0, 1.0, 0.0),
+    _block,
+    _block_rows,
+    block_powers,
+    block_jones,
 )
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
 
@@ -161,5 +216,10 @@ Fs = A + B and Fp = A - B act along x and y; each of the three keeps digits that
 other two have lost.
 """
 
-FULL = Structure("full", tuple(float(i % 5 == 0) for i in range(16)), _full, _full_rows)
+POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, fraction_powers)
+"""(Fs d, Fp d, d): what acts along x and y over one denominator, and nothing of the phase."""
+
+FULL = Structure(
+    "full", tuple(float(i % 5 == 0) for i in range(16)), _full, _full_rows, full_powers
+)
 """Sixteen numbers, row by row."""
