@@ -30,6 +30,7 @@ ROOMS = [
     "fresnel",
     "elements",
     "program",
+    "reduction",
     "walk",
     "formulas",
     "engines",

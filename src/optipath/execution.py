@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from optipath.formulas import Formula
     from optipath.inputs import Inputs
     from optipath.program import Program, Reading
+    from optipath.reduction import Reduction
 
     Array = np.ndarray[Any, Any]
 
@@ -47,8 +48,10 @@ class Execution:
 
     Parameters
     ----------
-    program : Program
-        The steps.
+    reduction : Reduction
+        The steps that give light.
+    whole : Program
+        The steps that give matrices.
     inputs : Inputs
         What may be given.
     method, composing, dtype, engine : str
@@ -66,7 +69,8 @@ class Execution:
 
     def __init__(
         self,
-        program: Program,
+        reduction: Reduction,
+        whole: Program,
         inputs: Inputs,
         *,
         method: str,
@@ -75,7 +79,10 @@ class Execution:
         engine: str,
         threads: int,
     ) -> None:
+        program = reduction.program
         self.program = program
+        self.whole = whole
+        self.as_it_stands = reduction.as_it_stands
         self.inputs = inputs
         self.method = method
         self.dtype = np.dtype(dtype)
@@ -146,14 +153,14 @@ class Execution:
         """
         if self._is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
-            name = next(n for n, end in self.program.readings.items() if end is reading)
-            found = self._jax.matrix(resolved, batch, source, name)
+            name = next(n for n, end in self.whole.readings.items() if end is reading)
+            found = self._whole_jax.matrix(resolved, batch, source, name)
             self._refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
-        given = self.sorter.sort(parameters)
+        given = self._whole_sorter.sort(parameters)
 
         def careful(part: Given) -> Array:
-            found = self.stepwise.matrix(part, source, reading)
+            found = self._whole_steps.matrix(part, source, reading)
             self._refuse_infinite(found[..., : reading.components, :])
             return found
 
@@ -164,7 +171,7 @@ class Execution:
 
         def formula(forms: Any) -> Formula:
             limits = self.inputs.limits
-            return matrix_formula(self.program, source, reading, self.dtype.name, forms, limits)
+            return matrix_formula(self.whole, source, reading, self.dtype.name, forms, limits)
 
         out, _ = self._filled(
             engine,
@@ -197,8 +204,15 @@ class Execution:
             return dict(zip(ends, joined, strict=True))
 
         def formula(forms: Any) -> Formula:
-            kind, limits = self.dtype.name, self.inputs.limits
-            return lights_formula(self.program, self.way, kind, forms, limits, polynomials=True)
+            return lights_formula(
+                self.program,
+                self.way,
+                self.dtype.name,
+                forms,
+                self.inputs.limits,
+                polynomials=True,
+                as_it_stands=self.as_it_stands,
+            )
 
         def careful(part: Given) -> Array:
             found = self._careful(part)
@@ -236,6 +250,18 @@ class Execution:
     def _jax(self) -> Any:
         return jax_path(self.program, self.way, self.dtype)
 
+    @cached_property
+    def _whole_jax(self) -> Any:
+        return jax_path(self.whole, self.way, self.dtype)
+
+    @cached_property
+    def _whole_sorter(self) -> Sorter:
+        return Sorter(self.whole, self.inputs, self.dtype)
+
+    @cached_property
+    def _whole_steps(self) -> Stepwise:
+        return Stepwise(self.whole, self.way, self.dtype)
+
     def _named(self, lights: list[tuple[Any, ...]]) -> dict[str, Found]:
         """Return lights of plain floats by the names of their ends."""
         return {
@@ -259,7 +285,8 @@ class Execution:
         if key not in self._many:
             made = formula(dict(forms))
             path = compile_array_path(engine, made)
-            self._many[key] = Many(self.program, made, path, threads=self.threads, read=read)
+            program = self.program if what is None else self.whole
+            self._many[key] = Many(program, made, path, threads=self.threads, read=read)
         many = self._many[key]
         if not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)

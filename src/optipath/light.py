@@ -77,10 +77,10 @@ class Light:
     def of(cls, stokes: Any, frame: Frame, exponent: Any = 0) -> Light:
         """Return light out of what a plan has computed, which needs no check.
 
-        Four floats become an array when somebody asks for it.
+        A tuple of four, floats or arrays, becomes one array when somebody asks for it.
         """
         if not isinstance(exponent, int) or exponent:
-            return cls(stokes, frame, exponent)
+            return cls(_stacked(stokes) if type(stokes) is tuple else stokes, frame, exponent)
         light = cls.__new__(cls)
         own = light.__dict__
         own["_stokes"], own["frame"] = stokes, frame
@@ -94,7 +94,7 @@ class Light:
             own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
         else:
             stokes = own["_stokes"]
-            own["stokes"] = own["mantissa"] = np.array(stokes) if type(stokes) is tuple else stokes
+            own["stokes"] = own["mantissa"] = _stacked(stokes) if type(stokes) is tuple else stokes
         return own[name]
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -107,6 +107,9 @@ class Light:
     @property
     def intensity(self) -> npt.NDArray[Any]:
         """S0, of shape (...)."""
+        parts = self.__dict__.get("_stokes")
+        if type(parts) is tuple and "stokes" not in self.__dict__:
+            return np.asarray(parts[0])
         return namespace(self.stokes).asarray(self.stokes[..., 0])  # type: ignore[no-any-return]
 
     @property
@@ -171,3 +174,13 @@ class Light:
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _stacked(components: tuple[Any, Any, Any, Any]) -> npt.NDArray[Any]:
+    """Return four components as one array (..., 4)."""
+    if type(components[0]) is float:
+        return np.array(components)
+    stokes = np.empty((4, *components[0].shape), components[0].dtype)
+    for row, component in zip(stokes, components, strict=True):
+        row[...] = component
+    return np.moveaxis(stokes, 0, -1)

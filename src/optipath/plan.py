@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.program import Program
+    from optipath.reduction import Reduction
 
 
 _LARGE = 1 << 30
@@ -40,33 +41,45 @@ class Plan:
 
     Attributes
     ----------
-    program : Program
-        The steps.
+    whole : Program
+        The path as it stands.
+    reduction : Reduction
+        What is left of it for what the detectors read.
     inputs : Inputs
         The parameters that are open, and what may be given for them.
     outlets : tuple of str
         Ports whose light leaves the path unread.
     copied : tuple of str
         Ports whose light goes to several links, whole to each.
-    method, model, composing, dtype : str
-        How Fresnel's equations are computed, what is carried along, whether as Stokes or
-        as Jones vectors, and in which precision.
+    method, composing, dtype : str
+        How Fresnel's equations are computed, whether light is carried as Stokes or as Jones
+        vectors, and in which precision.
     chosen : str
         The engine that the composer was asked for.
     threads : int
         How many threads share a large batch.
     """
 
-    program: Program
+    whole: Program
+    reduction: Reduction
     inputs: Inputs
     outlets: tuple[str, ...]
     copied: tuple[str, ...]
     method: str
-    model: str
     composing: str
     dtype: str
     chosen: str = "auto"
     threads: int = 1
+
+    @property
+    def program(self) -> Program:
+        """The steps that are run."""
+        return self.reduction.program
+
+    @property
+    def model(self) -> str:
+        """What is carried along: ``"scalar"``, ``"sp"``, ``"linear"`` or ``"full"``."""
+        return self.reduction.model
 
     @property
     def engine(self) -> str:
@@ -181,7 +194,7 @@ class Plan:
         ParameterError
             As in `run`, or if a source or detector is not named or not known.
         """
-        program = self.program
+        program = self.whole
         begin = self._only("source", tuple(program.sources), "mueller(source, detector)", source)
         ends = tuple(program.readings if detector else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
@@ -227,7 +240,8 @@ class Plan:
         from optipath.execution import Execution  # noqa: PLC0415
 
         return Execution(
-            self.program,
+            self.reduction,
+            self.whole,
             self.inputs,
             method=self.method,
             composing=self.composing,

@@ -7,7 +7,7 @@ makes them, evaluations and leaves by their place in their lists.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -92,6 +92,9 @@ class Program:
         The emitting step and the frame of each source.
     detectors, dumps : mapping of str to Reading
         Where light ends.
+    counts : tuple of int
+        How many of (S0, S1, S2, S3) each light is carried by, the first ones; all four where
+        it is empty.
     """
 
     leaves: tuple[View, ...]
@@ -100,6 +103,30 @@ class Program:
     sources: Mapping[str, tuple[int, Frame]]
     detectors: Mapping[str, Reading]
     dumps: Mapping[str, Reading]
+    counts: tuple[int, ...] = ()
+
+    def count(self, light: int) -> int:
+        """Return by how many components a light is carried."""
+        return self.counts[light] if self.counts else 4
+
+    def parts(self, evaluation: int) -> tuple[Kernel, tuple[View, ...], View | None]:
+        """Return the kernel of an evaluation, what it is given, and where it is there at all."""
+        found = self.evaluations[evaluation]
+        there = None if found.presence is None else self.leaves[found.presence]
+        return found.kernel, tuple(self.leaves[leaf] for leaf in found.arguments), there
+
+    @cached_property
+    def for_powers(self) -> Program | None:
+        """The same for intensities alone, or None where more is carried or read."""
+        reads = {reading.components for reading in self.readings.values()}
+        if not self.counts or max(self.counts) > 2 or reads != {1}:
+            return None
+        kernels = [evaluation.kernel.powers or evaluation.kernel for evaluation in self.evaluations]
+        evaluations = (
+            replace(evaluation, kernel=kernel)
+            for evaluation, kernel in zip(self.evaluations, kernels, strict=True)
+        )
+        return replace(self, evaluations=tuple(evaluations))
 
     @cached_property
     def light_uses(self) -> tuple[int, ...]:

@@ -26,6 +26,10 @@ ZERO, ONE, MANY, WIDE, ABSENT = "zero", "one", "many", "wide", "absent"
 """What is given: 0, one number, an array, one of more digits than the plan's, or nothing."""
 
 
+_COMPARED = 1 << 20
+"""How many bytes of an array are compared with those of another."""
+
+
 class Raw(NamedTuple):
     """A number that is given for a parameter, before anything is done to it.
 
@@ -131,12 +135,32 @@ class View:
         """Return where an optional parameter is there."""
         return self._resolved(given or {}).present
 
+    @property
+    def span(self) -> tuple[float, float]:
+        """The least and the largest number that it can be, as far as that is known."""
+        if self.traced or self.part == "present":
+            return -np.inf, np.inf
+        if self.known:
+            numbers = self.numbers({})
+            return (float(numbers.min()), float(numbers.max())) if numbers.size else (0.0, 0.0)
+        if self.part not in ("value", "real") or self.tail:
+            return -np.inf, np.inf
+        low, high = self.value.minimum, self.value.maximum
+        return (-high, -low) if self.value.negative else (low, high)
+
+    def negated(self) -> View:
+        """Return the same view of the value with the other sign."""
+        return View(-self.value, self.part, self.tail)
+
     def key(self) -> Hashable:
-        """Return what equal views share; None for arrays, which are not compared."""
+        """Return what equal views share; None for large arrays, which are not compared."""
         if isinstance(self.value, Parameter):
             return self.value.name, self.value.negative, self.part
         if isinstance(self.value, (int, float, complex)):
             return repr(complex(self.value)), self.part
+        if isinstance(self.value, np.ndarray) and self.value.nbytes <= _COMPARED:
+            value = self.value
+            return value.tobytes(), value.dtype.str, value.shape, self.part, self.tail
         return None
 
     def _resolved(self, given: Mapping[str, Resolved]) -> Resolved:

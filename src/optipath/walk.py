@@ -47,7 +47,9 @@ def walk(
         For each light that is read, its four Stokes components, and the exponent of
         the power of two that they are to be taken times.
     """
-    kept = {reading.light for reading in program.readings.values()}
+    reads: dict[int, int] = {}
+    for reading in program.readings.values():
+        reads[reading.light] = max(reading.components, reads.get(reading.light, 1))
     states: dict[int, Any] = {}
     states_left = list(program.light_uses)
     numbers: dict[int, Numbers] = {}
@@ -55,7 +57,7 @@ def walk(
 
     for light, step in enumerate(program.steps):
         if emitted is not None and light in emitted:
-            states[light] = way.emit(emitted[light])
+            states[light] = way.emit(emitted[light], program.count(light))
             continue
         arriving = [states[source] for source in step.inputs]
         state: Any = reduce(way.add, arriving) if arriving else None
@@ -68,9 +70,9 @@ def walk(
             structure = program.evaluations[index].kernel.structure
             if structure is None:
                 s0, s1, s2, s3 = numbers[index]
-                state = way.emit((s0, s1, s2, s3))
+                state = way.emit((s0, s1, s2, s3), program.count(light))
             else:
-                state = way.act(structure, numbers[index], state)
+                state = way.act(structure, numbers[index], state, program.count(light))
             numbers_left[index] -= 1
             if not numbers_left[index]:
                 del numbers[index]
@@ -79,7 +81,7 @@ def walk(
             states_left[source] -= 1
             if not states_left[source]:
                 del states[source]
-    return {light: way.read(states[light]) for light in kept}
+    return {light: way.read(states[light], count) for light, count in reads.items()}
 
 
 def _evaluate(evaluation: Evaluation, leaves: Sequence[Any], way: Way) -> Numbers:

@@ -53,7 +53,7 @@ def operations(program: Program) -> dict[str, int]:
             continue
         structure = program.evaluations[step.evaluation].kernel.structure
         if structure is not None:
-            structure.action(xp)([number] * len(structure.identity), (number,) * 4)
+            structure.action(xp)([number] * len(structure.identity), (number,) * 4, 4)
     return {"sqrt": counts["sqrt"], "div": counts["div"]}
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import networkx as nx
 
 from optipath.composer.collection import put_off
 from optipath.composer.lower import lower, refuse_depolarizers
+from optipath.composer.reduce import as_it_stands, for_jones, reduced
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import Wiring
@@ -17,10 +18,15 @@ from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
 from optipath.plan import Plan
 from optipath.precision import precision
+from optipath.reduction import MODELS
+
+if TYPE_CHECKING:
+    from optipath.program import Program
+    from optipath.reduction import Reduction
 
 CHOICES = {
     "method": METHODS,
-    "model": ("auto", "full"),
+    "model": ("auto", *MODELS),
     "engine": ENGINES,
     "composing": ("stokes", "jones"),
 }
@@ -42,8 +48,10 @@ class Composer:
     ----------
     method : {"stable", "compensated", "amplitude", "textbook"}, optional
         How Fresnel's equations are computed.
-    model : {"auto", "full"}, optional
-        What is carried along: all four Stokes components.
+    model : {"auto", "scalar", "sp", "linear", "full"}, optional
+        What is carried along: S0 alone; S0 and S1, the intensities along s and p; S0, S1 and
+        S2; or all four through every step as it stands, nothing folded. By default the
+        smallest that is exact for what the detectors read, with all that is known done once.
     engine : {"auto", "numpy", "numba", "jax"}, optional
         What runs large batches: by default Numba where it is installed, and else NumPy. One
         path, and a few, never need more than NumPy.
@@ -100,6 +108,11 @@ class Composer:
             faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
         if self.tolerance is not None:
             faults.append("tolerance is not available in this version; leave it None")
+        if self.composing == "jones" and self.model in MODELS[:-1]:
+            faults.append(
+                f"model '{self.model}' is not for composing='jones', which carries columns whole; "
+                f"use model 'auto' or composing='stokes'"
+            )
         if faults:
             raise ComposerError(*faults)
 
@@ -116,7 +129,8 @@ class Composer:
         PathError
             With every fault of the path.
         ComposerError
-            If an element may depolarise, and Jones columns are composed.
+            If an element may depolarise, and Jones columns are composed, or if the model is
+            not exact for the path.
         """
         graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
@@ -127,18 +141,27 @@ class Composer:
     def _plan(self, graph: nx.MultiDiGraph) -> Plan:
         values, wiring = Values(graph), Wiring(graph)
         refuse_faults(values, wiring)
-        program = lower(wiring, self.method)
+        whole = lower(wiring, self.method)
         if self.composing == "jones":
-            refuse_depolarizers(program)
+            refuse_depolarizers(whole)
         return Plan(
-            program=program,
+            whole=whole,
+            reduction=self._reduction(whole),
             inputs=values.inputs(),
             outlets=wiring.outlets,
             copied=wiring.copied,
             method=self.method,
-            model="full",
             composing=self.composing,
             dtype=self.dtype,
             chosen=self.engine,
             threads=self.threads,
         )
+
+    def _reduction(self, whole: Program) -> Reduction:
+        # Constants are multiplied in float64.
+        constants = self.dtype != "longdouble"
+        if self.model == "full":
+            return as_it_stands(whole)
+        if self.composing == "jones":
+            return for_jones(whole, constants=constants)
+        return reduced(whole, self.model, constants=constants)

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 import numpy as np
 
+from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
 from optipath.composer.wiring import link_text
 from optipath.elements import Detector
 from optipath.errors import ComposerError
 from optipath.frames import Frame
 from optipath.parameters import Parameter
-from optipath.program import Evaluation, Program, Reading, Step
+from optipath.program import Reading
 from optipath.views import View, view_of
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
-
     from optipath.composer.wiring import Port, Wiring
     from optipath.elements import Coupling, Operation
+    from optipath.program import Program
 
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
@@ -30,10 +30,10 @@ def lower(wiring: Wiring, method: str) -> Program:
 
     Ports from which no light reaches a detector or a dump are left out.
     """
-    builder = _Builder(wiring, method)
+    lowering = _Lowering(wiring, method)
     for port in nx.lexicographical_topological_sort(wiring.wanted):
-        builder.add_port(port)
-    return builder.program()
+        lowering.add_port(port)
+    return lowering.program()
 
 
 def refuse_depolarizers(program: Program) -> None:
@@ -58,22 +58,18 @@ def refuse_depolarizers(program: Program) -> None:
         raise ComposerError(*faults)
 
 
-class _Builder:
-    """Collects leaves, evaluations and steps; equal ones are entered once."""
+class _Lowering:
+    """Takes the ports of a path one after the other."""
 
     def __init__(self, wiring: Wiring, method: str) -> None:
         self.wiring = wiring
         self.method = method
-        self.leaves: list[View] = []
-        self.evaluations: list[Evaluation] = []
-        self.steps: list[Step] = []
+        self.builder = Builder()
         self.lights: dict[Port, int] = {}
         self.sources: dict[str, tuple[int, Frame]] = {}
-        self._leaf_at: dict[Hashable, int] = {}
-        self._evaluation_at: dict[Evaluation, int] = {}
 
     def program(self) -> Program:
-        """Return what has been collected."""
+        """Return the steps that have been added, and where their light ends."""
         detectors: dict[str, Reading] = {}
         dumps: dict[str, Reading] = {}
         for name, port in self.wiring.ends:
@@ -82,14 +78,7 @@ class _Builder:
             kept = detectors if isinstance(element, Detector) else dumps
             light, frame = self.lights[name, port], self._reading_frame(name, port)
             kept[name] = Reading(light, frame, _COMPONENTS[reads])
-        return Program(
-            tuple(self.leaves),
-            tuple(self.evaluations),
-            tuple(self.steps),
-            self.sources,
-            detectors,
-            dumps,
-        )
+        return self.builder.program(self.sources, detectors, dumps)
 
     def add_port(self, port: Port) -> None:
         """Add the steps that make the light at a port."""
@@ -102,7 +91,7 @@ class _Builder:
             for coupling in self.wiring.couplings[name]
             if coupling.leaves == way and self._is_lit(name, coupling)
         ]
-        self.lights[port] = self._sum(f"{name}.{way}", lights)
+        self.lights[port] = self.builder.sum(f"{name}.{way}", lights)
 
     def _add_arrivals(self, port: Port) -> None:
         name, way = port
@@ -116,7 +105,7 @@ class _Builder:
             if turn is not None:
                 light = self._step(link_text(link), (light,), turn, None)
             lights.append(light)
-        self.lights[port] = self._sum(f"{name}.{way}", lights)
+        self.lights[port] = self.builder.sum(f"{name}.{way}", lights)
 
     def _is_lit(self, name: str, coupling: Coupling) -> bool:
         return coupling.enters is None or (name, coupling.enters) in self.lights
@@ -139,28 +128,8 @@ class _Builder:
         self, label: str, inputs: tuple[int, ...], operation: Operation, presence: View | None
     ) -> int:
         views = [view_of(argument) for argument in operation.arguments]
-        kernel, left = operation.kernel.by_method(self.method).leaving_out(views, _vanishes)
-        arguments = tuple(self._leaf(view) for view in left)
-        there = None if presence is None else self._leaf(presence)
-        evaluation = Evaluation(kernel, arguments, there)
-        index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
-        if index == len(self.evaluations):
-            self.evaluations.append(evaluation)
-        self.steps.append(Step(label, inputs, index))
-        return len(self.steps) - 1
-
-    def _sum(self, label: str, lights: list[int]) -> int:
-        if len(lights) == 1:
-            return lights[0]
-        self.steps.append(Step(label, tuple(lights)))
-        return len(self.steps) - 1
-
-    def _leaf(self, view: View) -> int:
-        key = view.key()
-        index = len(self.leaves) if key is None else self._leaf_at.setdefault(key, len(self.leaves))
-        if index == len(self.leaves):
-            self.leaves.append(view)
-        return index
+        kernel = operation.kernel.by_method(self.method)
+        return self.builder.step(label, inputs, kernel, views, presence)
 
     def _reading_frame(self, name: str, port: str) -> Frame:
         own = frame_at(self.wiring, name, port)
@@ -171,10 +140,6 @@ class _Builder:
             for start, _, (leaves, _) in self.wiring.links_to[name, port]
         ]
         return next((frame for frame in arriving if frame is not None), Frame())
-
-
-def _vanishes(view: View) -> bool:
-    return view.known and not view.traced and not np.any(view.numbers({}))
 
 
 def _presence(operations: tuple[Operation, ...]) -> View | None:

@@ -26,11 +26,14 @@ class Formula:
         Symbols, or numbers that are known; the last is whether the formula holds.
     wide : mapping of str to (float, float)
         The inputs whose arrays have more digits than the formula, and their ranges.
+    constants : mapping of str to float
+        The inputs whose numbers are known.
     """
 
     dtype: np.dtype[Any]
     outputs: tuple[Any, ...]
     wide: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    constants: Mapping[str, Any] = field(default_factory=dict)
 
     @cached_property
     def needed(self) -> tuple[Symbol, ...]:

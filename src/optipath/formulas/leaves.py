@@ -13,7 +13,7 @@ from optipath.precision import wide
 from optipath.views import ABSENT, ONE, WIDE, ZERO
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from optipath.formulas.recorder import Recorder
     from optipath.kernels import Primitives
@@ -39,6 +39,8 @@ class Leaves:
         The range of each parameter; a value outside it is against a requirement.
     polynomials : bool
         Whether sines and cosines are to be polynomials.
+    known : callable, optional
+        What is done to each number that is known.
     """
 
     def __init__(
@@ -48,11 +50,13 @@ class Leaves:
         limits: Mapping[str, Limits],
         *,
         polynomials: bool,
+        known: Callable[[Any], Any] | None = None,
     ) -> None:
         self.recorder = recorder
         self.forms = forms
         self.limits = limits
         self.polynomials = polynomials
+        self.known = known
 
     @property
     def primitives(self) -> Primitives:
@@ -61,7 +65,10 @@ class Leaves:
 
     def of(self, program: Program) -> list[Any]:
         """Return a symbol, or a number that is known, for each leaf."""
-        return [self._leaf(view, f".{place}") for place, view in enumerate(program.leaves)]
+        found = [self._leaf(view, f".{place}") for place, view in enumerate(program.leaves)]
+        if self.known is None:
+            return found
+        return [leaf if isinstance(leaf, bool) else self.known(leaf) for leaf in found]
 
     def _leaf(self, view: View, name: str) -> Any:
         if view.known:

@@ -11,7 +11,7 @@ from optipath.faint import FAINT
 from optipath.formulas.formula import Formula
 from optipath.formulas.leaves import Leaves, Limits
 from optipath.formulas.recorder import Recorder
-from optipath.kernels import Linear, Plain
+from optipath.kernels import Linear, Plain, Powers
 from optipath.walk import walk
 
 if TYPE_CHECKING:
@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from optipath.views import Raw
 
 
+_SPARE = 2.0**60
+"""How far the numbers of a quotient keep from where they lose digits."""
+
+
 def lights_formula(
     program: Program,
     way: type[Way],
@@ -30,16 +34,24 @@ def lights_formula(
     limits: Mapping[str, Limits],
     *,
     polynomials: bool,
+    as_it_stands: bool = False,
 ) -> Formula:
     """Return the formula of the light at every end.
 
-    Its results are the four components of each reading in turn, NaN where they are not
-    read, and then the exponents. It holds for values within their limits whose light is
-    finite and not too faint.
+    With `as_it_stands`, numbers that are known are taken like those that are given, and all
+    four components are computed, read or not. The results are the four components of each
+    reading in turn, NaN where they are not read, and then the exponents. It holds for values
+    within their limits whose light is finite and not too faint.
     """
     recorder = Recorder(np.dtype(dtype))
-    leaves = Leaves(recorder, forms, limits, polynomials=polynomials)
-    found = walk(program, leaves.of(program), way(leaves.primitives))
+    known = recorder.hidden if as_it_stands else None
+    leaves = Leaves(recorder, forms, limits, polynomials=polynomials, known=known)
+    xp, tiny = leaves.primitives, recorder.dtype.type(np.finfo(recorder.dtype).tiny)
+    carried: Way = way(xp)
+    if way is Plain and program.for_powers is not None:
+        program, carried = program.for_powers, Powers(xp, tiny * _SPARE)
+    numbers = {} if known is None else {"number": known}
+    found = walk(program, leaves.of(program), carried, **numbers)
     outputs: list[Any] = []
     exponents: list[Any] = []
     holds: list[Any] = []
@@ -48,9 +60,9 @@ def lights_formula(
         read = components[: reading.components]
         outputs += [*read, *[np.nan] * (4 - len(read))]
         exponents.append(exponent)
-        holds.append(_finite(read, recorder.dtype))
+        holds.append(_finite(components if as_it_stands else read, recorder.dtype))
         if way is Plain:
-            holds.append(components[0] >= np.finfo(recorder.dtype).tiny * FAINT)
+            holds.append(components[0] >= tiny * FAINT)
     return _formula(recorder, [*outputs, *exponents], holds)
 
 
@@ -88,4 +100,4 @@ def _finite(numbers: Any, dtype: np.dtype[Any]) -> Any:
 
 def _formula(recorder: Recorder, outputs: list[Any], holds: list[Any]) -> Formula:
     together = reduce(lambda one, other: one & other, [*recorder.requirements, *holds], np.True_)
-    return Formula(recorder.dtype, (*outputs, together), recorder.wide)
+    return Formula(recorder.dtype, (*outputs, together), recorder.wide, recorder.constants)

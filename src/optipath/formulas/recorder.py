@@ -33,7 +33,16 @@ class Recorder:
         self.symbols: list[Symbol] = []
         self.requirements: list[Any] = []
         self.wide: dict[str, tuple[float, float]] = {}
+        self.constants: dict[str, Any] = {}
         self._known: dict[Any, Symbol] = {}
+
+    def hidden(self, number: Any) -> Any:
+        """Return a symbol for a number that is known, so that nothing comes of knowing it."""
+        if isinstance(number, Symbol):
+            return number
+        name = f"={number!r}"
+        self.constants[name] = number
+        return self.input(name, uniform=True)
 
     def input(
         self,

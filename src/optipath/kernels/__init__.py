@@ -53,8 +53,11 @@ def _fresnel(
     factories = (factory, *cheaper)
     for place, made_by in reversed(list(enumerate(factories))):
         name = f"{what} ({method}{words[place]})"
-        alone = Kernel(f"{name}, powers", POWERS, powers[place]) if powers else None
         # Of (n1, n, k, cos, sin), k is the third; of (n1, n, cos, sin), n is to be n1 or more.
+        alone = None
+        if powers:
+            cheap = (2, found.powers) if place == 0 and found and found.powers else None
+            alone = Kernel(f"{name}, powers", POWERS, powers[place], cheap)
         without = (2, found) if place == 0 and found else None
         denser = (1, 0, found) if place == 1 and found else None
         found = Kernel(name, BLOCK, made_by, without, denser, alone)
@@ -107,6 +110,7 @@ RETARDER = Kernel("retarder", BLOCK, filters.retarder)
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
+CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)
 
 UNPOLARIZED = Kernel("unpolarized light", None, emission.unpolarized)
@@ -117,6 +121,7 @@ __all__ = [
     "ATTENUATOR",
     "BLOCK",
     "COMPLEMENT",
+    "CONSTANT_BLOCK",
     "FLOAT",
     "FULL",
     "GIVEN_TURN",

@@ -15,6 +15,13 @@ if TYPE_CHECKING:
 class Powers:
     """The way of intensities over one denominator, which is divided by at the very end.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    least : float, optional
+        Numerators and denominators below this have lost digits: what is read is 0.
+
     Examples
     --------
     >>> from optipath.kernels import BLOCK, FLOAT
@@ -24,8 +31,9 @@ class Powers:
     ((0.375, 0.0, 0.0, 0.0), 0)
     """
 
-    def __init__(self, xp: Primitives) -> None:
+    def __init__(self, xp: Primitives, least: float = 0.0) -> None:
         self.xp = xp
+        self.least = least
 
     def emit(self, stokes: Components, count: int = 2) -> Intensities:
         """Return the state of emitted light: in all, or along x and y."""
@@ -52,4 +60,5 @@ class Powers:
         """Return the intensity, and the exponent of the power of two times it."""
         del count
         total, over = in_all(state)
-        return (total / over, 0.0, 0.0, 0.0), 0
+        kept = (total >= self.least) & (over >= self.least)
+        return (self.xp.where(kept, total / over, 0.0), 0.0, 0.0, 0.0), 0

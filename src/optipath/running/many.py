@@ -82,21 +82,23 @@ class Many:
         formula = self.formula
         # Exponents that are known to be 0 are asked for only where light is too faint.
         rows = len(formula.results) if self.has_exponents else self.read
-        out = np.empty((rows, given.paths), formula.dtype)
+        computed = [r for r in range(rows) if isinstance(formula.results[r], Symbol)]
+        out = np.empty((len(computed), given.paths), formula.dtype)
         numbers = {str(raw): number for raw, number in given.numbers.items()}
+        numbers |= formula.constants
         numbers |= {name: given.cut(array) for name, array in self._known.items()}
         arrays = [numbers[symbol.operands[0]] for symbol in formula.inputs]
         failed = list(self._failures(arrays, given.batch, out))
-        for row, result in enumerate(formula.results[:rows]):
-            if not isinstance(result, Symbol):
-                out[row] = result
+        found: list[Any] = list(formula.results)
+        for row, place in enumerate(computed):
+            found[place] = out[row]
         if failed:
             refused()
-            more = np.zeros((len(formula.results) - rows, given.paths), formula.dtype)
-            out = np.concatenate([out, more])
+            found = [np.array(np.broadcast_to(r, given.paths), formula.dtype) for r in found]
         for piece in failed:
-            out[:, piece.start : piece.stop] = careful(given.part(piece.where))
-        return out, bool(failed)
+            for row, result in zip(found, careful(given.part(piece.where)), strict=True):
+                row[piece.start : piece.stop] = result
+        return found, bool(failed)
 
     def _failures(self, arrays: list[Any], batch: tuple[int, ...], out: Rows) -> Iterator[Piece]:
         """Fill the results; yield the pieces for which the formula does not hold."""

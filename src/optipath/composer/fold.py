@@ -1,0 +1,183 @@
+"""Folding: what is known is done once, what does nothing is left out, what is cheaper is taken."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from optipath.composer.builder import Builder
+from optipath.composer.constants import Constant, multiplied
+from optipath.composer.entries import number_of, vanishes
+from optipath.kernels import FLOAT, FULL, TURN, TURN_BACK
+from optipath.views import View
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.kernels import Kernel
+    from optipath.program import Program, Step
+
+
+_WORDS = 60
+"""How long the name of a step may become that is made of several."""
+
+
+@dataclass(frozen=True, eq=False)
+class Item:
+    """A step that does something to one light."""
+
+    label: str
+    kernel: Kernel
+    views: tuple[View, ...]
+    presence: View | None
+
+    def constant(self) -> Constant | None:
+        """Return its numbers, if all are known."""
+        numbers = tuple(map(number_of, self.views))
+        if self.presence is not None or None in numbers or self.kernel.structure is None:
+            return None
+        try:
+            found = self.kernel.made_for(FLOAT)(*numbers)
+            return Constant(self.kernel.structure, tuple(map(float, found)))
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            return None
+
+
+def fold(program: Program, *, constants: bool, matrices: bool) -> tuple[Program, list[str]]:
+    """Return a program that gives the same light with less work, and what was folded.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    constants : bool
+        Whether constants may be multiplied, which is done in float64.
+    matrices : bool
+        Whether the product may be a whole matrix.
+    """
+    folding = _Folding(program, constants=constants, matrices=matrices)
+    return folding.program(), folding.notes
+
+
+class _Folding:
+    """Goes along a program; a light that is used once waits for what becomes of it."""
+
+    def __init__(self, program: Program, *, constants: bool, matrices: bool) -> None:
+        self.old = program
+        self.constants = constants
+        self.matrices = matrices
+        self.builder = Builder()
+        self.notes: list[str] = []
+        self._waiting: dict[int, tuple[int, list[Item]]] = {}
+
+    def program(self) -> Program:
+        """Return the folded program."""
+        for light, step in enumerate(self.old.steps):
+            self._waiting[light] = self._of(step)
+        return self.builder.instead_of(self.old, self._settled)
+
+    def _of(self, step: Step) -> tuple[int, list[Item]]:
+        if step.evaluation is None:
+            return self.builder.sum(step.label, [self._settled(i) for i in step.inputs]), []
+        item = self._cheapest(Item(step.label, *self.old.parts(step.evaluation)))
+        if not step.inputs:
+            return self.builder.step(step.label, (), item.kernel, item.views), []
+        (light,) = step.inputs
+        base, items = self._waiting[light]
+        if self.old.light_uses[light] > 1 or not items:
+            return self._settled(light), [item]
+        del self._waiting[light]
+        items.append(item)
+        return base, items
+
+    def _settled(self, light: int) -> int:
+        """Return the new light of an old one, its steps added."""
+        base, items = self._waiting[light]
+        for item in self._folded(items):
+            base = self.builder.step(item.label, (base,), item.kernel, item.views, item.presence)
+        self._waiting[light] = base, []
+        return base
+
+    def _cheapest(self, item: Item) -> Item:
+        kernel, views = item.kernel.leaving_out(item.views, vanishes)
+        kernel = kernel.never_less(views, lambda view: view.span)
+        if kernel is not item.kernel:
+            self.notes.append(f"'{item.label}' is {kernel.name}")
+        return replace(item, kernel=kernel, views=views)
+
+    def _folded(self, items: list[Item]) -> list[Item]:
+        found: list[Item] = []
+        for item in items:
+            if found and _is_turn(item) and _is_turn(found[-1]):
+                found[-1:] = self._turned(found[-1], item)
+            else:
+                found.append(item)
+        return self._multiplied(found) if self.constants else found
+
+    def _turned(self, first: Item, second: Item) -> list[Item]:
+        """Return two turns as one, or as none if they undo each other."""
+        label = f"{first.label}, {second.label}"
+        self.notes.append(f"the turns at '{first.label}' and '{second.label}' are one")
+        views = [*_angles(first), *_angles(second)]
+        numbers = [number_of(view) for view in views]
+        known = sum(number for number in numbers if number is not None)
+        left: list[View] = []
+        for view in (v for v, number in zip(views, numbers, strict=True) if number is None):
+            opposite = view.negated().key()
+            undone = [w for w in left if opposite is not None and w.key() == opposite]
+            if undone:
+                left.remove(undone[0])
+            else:
+                left.append(view)
+        if known:
+            left.append(View(known))
+        return [Item(label, TURN, tuple(left), None)] if left else []
+
+    def _multiplied(self, items: list[Item]) -> list[Item]:
+        found: list[Item] = []
+        run: list[tuple[Item, Constant]] = []
+        for item in items:
+            constant = item.constant()
+            if constant is None:
+                found += self._as_one(run)
+                run = []
+                found.append(item)
+            elif constant.is_identity:
+                self.notes.append(f"'{item.label}' changes nothing")
+            elif run and (both := run[-1][1].then(constant)):
+                run[-1] = self._joined([run[-1][0], item], both), both
+            else:
+                run.append((item, constant))
+        return found + self._as_one(run)
+
+    def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
+        """Return neighbours as one matrix where that is less work and loses no digit."""
+        constants = [constant for _, constant in run]
+        items = [item for item, _ in run]
+        cost = sum(constant.cost for constant in constants)
+        dear = self.matrices and len(run) > 1 and cost > Constant(FULL, ()).cost
+        if not (dear and all(constant.lets_through for constant in constants)):
+            return items
+        found: list[tuple[Item, Constant]] = []
+        for item, constant in run:
+            both = found and multiplied(found[-1][1], constant)
+            if both:
+                found[-1] = self._joined([found[-1][0], item], both), both
+            else:
+                found.append((item, constant))
+        return [item for item, _ in found]
+
+    def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
+        labels = ", ".join(item.label for item in items)
+        if len(labels) > _WORDS:
+            labels = f"{items[0].label.split(', ')[0]} .. {items[-1].label}"
+        self.notes.append(f"'{labels}' are constant, and one")
+        return Item(labels, constant.kernel, tuple(map(View, constant.numbers)), None)
+
+
+def _is_turn(item: Item) -> bool:
+    return item.presence is None and item.kernel in (TURN, TURN_BACK)
+
+
+def _angles(item: Item) -> list[View]:
+    return [view.negated() for view in item.views] if item.kernel is TURN_BACK else [*item.views]

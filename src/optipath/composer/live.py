@@ -1,0 +1,103 @@
+"""Live components: which of (S0, S1, S2, S3) light may have and somebody needs, step by step."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from optipath.composer.builder import Builder
+from optipath.composer.entries import entries_of
+
+if TYPE_CHECKING:
+    from optipath.composer.entries import Entries
+    from optipath.program import Program
+
+
+class Live:
+    """What of each light of a program is alive.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+
+    Attributes
+    ----------
+    reached : list of set of int
+        For each light, the components that may differ from 0.
+    needed : list of set of int
+        For each light, the components on which something depends that is read.
+    """
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        known = [entries_of(program, place) for place in range(len(program.evaluations))]
+        self.entries: list[Entries | None] = [
+            None if step.evaluation is None else known[step.evaluation] for step in program.steps
+        ]
+        self.reached = self._forward()
+        self.needed = self._backward()
+
+    @property
+    def components(self) -> list[tuple[int, ...]]:
+        """For each light, the components that are alive; an intensity always is."""
+        pairs = zip(self.reached, self.needed, strict=True)
+        return [tuple(sorted((reached & needed) | {0})) for reached, needed in pairs]
+
+    @property
+    def counts(self) -> tuple[int, ...]:
+        """For each light, how many of the first components hold all that are alive."""
+        return tuple(components[-1] + 1 for components in self.components)
+
+    def does_nothing(self, light: int) -> bool:
+        """Tell whether a step leaves everything as it is that is alive."""
+        rows, step = self.entries[light], self.program.steps[light]
+        if rows is None or len(step.inputs) != 1:
+            return False
+        (before,) = step.inputs
+        return all(
+            rows[row][column] == float(row == column)
+            for row in self.needed[light] | {0}
+            for column in self.reached[before]
+        )
+
+    def _forward(self) -> list[set[int]]:
+        reached: list[set[int]] = []
+        for step, rows in zip(self.program.steps, self.entries, strict=True):
+            arriving = set().union(*(reached[light] for light in step.inputs))
+            if rows is None:
+                reached.append(arriving)
+            elif not step.inputs:
+                reached.append({i for i, entry in enumerate(rows[0]) if entry != 0.0})
+            else:
+                reached.append({i for i in range(4) if any(rows[i][j] != 0.0 for j in arriving)})
+        return reached
+
+    def _backward(self) -> list[set[int]]:
+        needed: list[set[int]] = [set() for _ in self.program.steps]
+        for reading in self.program.readings.values():
+            needed[reading.light] |= set(range(reading.components))
+        for light in reversed(range(len(needed))):
+            rows, asked = self.entries[light], needed[light]
+            for before in self.program.steps[light].inputs:
+                if rows is None:
+                    needed[before] |= asked
+                else:
+                    needed[before] |= {j for j in range(4) if any(rows[i][j] != 0.0 for i in asked)}
+        return needed
+
+
+def trim(live: Live) -> tuple[Program, list[str]]:
+    """Return a program without the steps that do nothing to what is alive, and their labels."""
+    old, builder = live.program, Builder()
+    moved: list[int] = []
+    left_out = []
+    for light, step in enumerate(old.steps):
+        inputs = tuple(moved[i] for i in step.inputs)
+        if live.does_nothing(light):
+            left_out.append(step.label)
+            moved.append(inputs[0])
+        elif step.evaluation is None:
+            moved.append(builder.sum(step.label, inputs))
+        else:
+            moved.append(builder.step(step.label, inputs, *old.parts(step.evaluation)))
+    return builder.instead_of(old, moved.__getitem__), left_out
