@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -13,7 +13,8 @@ from optipath.faint import folded
 from optipath.formulas import lights_formula, matrix_formula
 from optipath.jax_values import is_jax, is_traced
 from optipath.running.given import Given, Sorter
-from optipath.running.many import Many
+from optipath.running.layout import Layout
+from optipath.running.many import Many, known_arrays
 from optipath.running.pieces import pieces
 from optipath.running.single import Single
 from optipath.running.stepwise import Stepwise, way_of
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from optipath.inputs import Inputs
     from optipath.program import Program, Reading
     from optipath.reduction import Reduction
+    from optipath.running.many import Results
 
     Array = np.ndarray[Any, Any]
 
@@ -36,7 +38,7 @@ _CACHED = 8192
 class Found(NamedTuple):
     """The light at an end: its Stokes vectors, times two to the power of an exponent.
 
-    `stokes` is an array (..., 4), or for one path a tuple of four floats.
+    `stokes` is an array (..., 4), or a tuple of its four components.
     """
 
     stokes: Any
@@ -169,9 +171,9 @@ class Execution:
             self.inputs.resolve(parameters)
             return _joined([careful(part) for part in self._parts(given)], given.batch, (4, 4))
 
-        def formula(forms: Any) -> Formula:
-            limits = self.inputs.limits
-            return matrix_formula(self.whole, source, reading, self.dtype.name, forms, limits)
+        def formula(forms: Any, axes: Any) -> Formula:
+            limits, kind = self.inputs.limits, self.dtype.name
+            return matrix_formula(self.whole, source, reading, kind, forms, limits, axes)
 
         out, _ = self._filled(
             engine,
@@ -182,7 +184,9 @@ class Execution:
             lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
             16,
         )
-        return np.moveaxis(out.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
+        block = out.together(0, 16)
+        block = self._stacked(out, 0, 16) if block is None else block
+        return np.moveaxis(block.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
 
     def _lights(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
         ends = self.program.readings
@@ -203,7 +207,7 @@ class Execution:
             ]
             return dict(zip(ends, joined, strict=True))
 
-        def formula(forms: Any) -> Formula:
+        def formula(forms: Any, axes: Any) -> Formula:
             return lights_formula(
                 self.program,
                 self.way,
@@ -211,6 +215,7 @@ class Execution:
                 forms,
                 self.inputs.limits,
                 polynomials=True,
+                axes=axes,
                 as_it_stands=self.as_it_stands,
             )
 
@@ -223,14 +228,26 @@ class Execution:
         out, faint = self._filled(engine, None, formula, given, parameters, careful, read)
         found = {}
         for end, name in enumerate(ends):
-            stokes = out[4 * end : 4 * end + 4].reshape(4, *given.batch)
-            stokes = np.moveaxis(stokes, 0, -1)
+            block = out.together(4 * end, 4 * end + 4)
+            if block is None and not faint:
+                parts = out.each[4 * end : 4 * end + 4]
+                found[name] = Found(tuple(_in_shape(part, given.batch) for part in parts), 0)
+                continue
+            block = self._stacked(out, 4 * end, 4 * end + 4) if block is None else block
+            stokes = np.moveaxis(block.reshape(4, *given.batch), 0, -1)
             if faint:
-                exponent = out[read + end].astype(np.int64).reshape(given.batch)
-                found[name] = Found(*folded(stokes, exponent))
+                exponent = np.broadcast_to(out.each[read + end], given.paths).astype(np.int64)
+                found[name] = Found(*folded(stokes, exponent.reshape(given.batch)))
             else:
                 found[name] = Found(stokes, 0)
         return found
+
+    def _stacked(self, results: Results, start: int, stop: int) -> Array:
+        """Return results, some of which may be known, as an array (results, paths)."""
+        rows = np.empty((stop - start, results.out.shape[1]), self.dtype)
+        for row, result in zip(rows, results.each[start:stop], strict=True):
+            row[...] = result
+        return rows
 
     def _is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
@@ -249,6 +266,14 @@ class Execution:
     @cached_property
     def _jax(self) -> Any:
         return jax_path(self.program, self.way, self.dtype)
+
+    @cached_property
+    def _known_arrays(self) -> dict[str, Array]:
+        return known_arrays(self.program, self.dtype)
+
+    @cached_property
+    def _whole_arrays(self) -> dict[str, Array]:
+        return known_arrays(self.whole, self.dtype)
 
     @cached_property
     def _whole_jax(self) -> Any:
@@ -273,25 +298,37 @@ class Execution:
         self,
         engine: str,
         what: Any,
-        formula: Callable[[Any], Formula],
+        formula: Callable[[Any, Any], Formula],
         given: Given,
         parameters: Mapping[str, Any],
         careful: Callable[[Given], Array],
         read: int,
-    ) -> tuple[Array, bool]:
+    ) -> tuple[Results, bool]:
         """Return the results of a formula, and whether their exponents say anything."""
         forms = given.forms(self.dtype)
-        key = engine, what, forms
+        all_known = self._known_arrays if what is None else self._whole_arrays
+        known = {name: given.cut(array) for name, array in all_known.items()}
+        arrays = {str(raw): n for raw, n in given.numbers.items() if isinstance(n, np.ndarray)}
+        layout = Layout(given.batch, arrays | known)
+        key = engine, what, forms, layout.key
         if key not in self._many:
-            made = formula(dict(forms))
-            path = compile_array_path(engine, made)
-            program = self.program if what is None else self.whole
-            self._many[key] = Many(program, made, path, threads=self.threads, read=read)
+            made = formula(dict(forms), layout.axes)
+            compiled = partial(compile_array_path, engine)
+            self._many[key] = Many(
+                made,
+                compiled,
+                layout,
+                threads=self.threads,
+                read=read,
+                staged=not self.as_it_stands,
+            )
         many = self._many[key]
         if not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)
-        out, failed = many.results(given, lambda: self.inputs.resolve(parameters), careful)
-        return out, failed or many.has_exponents
+        found, failed = many.results(
+            given, layout, known, lambda: self.inputs.resolve(parameters), careful
+        )
+        return found, failed or many.has_exponents
 
     def _careful(self, given: Given) -> list[Found]:
         found = [Found(*light) for light in self.stepwise.lights(given)]
@@ -318,3 +355,8 @@ def _joined(parts: list[Array], batch: tuple[int, ...], tail: tuple[int, ...]) -
     if len(parts) == 1:
         return parts[0]
     return np.concatenate([part.reshape(-1, *tail) for part in parts]).reshape(*batch, *tail)
+
+
+def _in_shape(part: Any, batch: tuple[int, ...]) -> Any:
+    """Return a component as an array of the batch's shape, or the number that it is."""
+    return part.reshape(batch) if isinstance(part, np.ndarray) else part

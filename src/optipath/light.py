@@ -177,10 +177,11 @@ class Light:
 
 
 def _stacked(components: tuple[Any, Any, Any, Any]) -> npt.NDArray[Any]:
-    """Return four components as one array (..., 4)."""
-    if type(components[0]) is float:
+    """Return four components, floats or arrays of one shape, as one array (..., 4)."""
+    arrays = [component for component in components if isinstance(component, np.ndarray)]
+    if not arrays:
         return np.array(components)
-    stokes = np.empty((4, *components[0].shape), components[0].dtype)
+    stokes = np.empty((4, *arrays[0].shape), arrays[0].dtype)
     for row, component in zip(stokes, components, strict=True):
         row[...] = component
     return np.moveaxis(stokes, 0, -1)

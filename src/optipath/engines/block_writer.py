@@ -32,8 +32,7 @@ class BlockWriter:
         )
         self._rows = {
             result.index: f"out[{row}]"
-            for row, result in reversed(list(enumerate(formula.results)))
-            if isinstance(result, Symbol)
+            for row, result in reversed(list(enumerate(formula.computed)))
         }
 
     def text(self) -> str:
@@ -43,8 +42,8 @@ class BlockWriter:
         for symbol in formula.inputs:
             if not symbol.uniform:
                 self._names[symbol.index] = f"t{symbol.index}"
-                if symbol.operands[0] in formula.wide:
-                    low, high = formula.wide[symbol.operands[0]]
+                if formula.name_of(symbol) in formula.wide:
+                    low, high = formula.wide[formula.name_of(symbol)]
                     inside = (
                         f"({low!r} <= a{symbol.index}.min()) & (a{symbol.index}.max() <= {high!r})"
                     )
@@ -58,8 +57,8 @@ class BlockWriter:
             lines.append(f"t{rest.index} = (a{whole} - t{whole}).astype(T)")
         for step in formula.body:
             lines += self._lines(step)
-        for row, result in enumerate(formula.results):
-            if isinstance(result, Symbol) and self._read(result) != f"out[{row}]":
+        for row, result in enumerate(formula.computed):
+            if self._read(result) != f"out[{row}]":
                 lines.append(f"out[{row}][...] = {self._read(result)}")
         lines.append(f"return {self._read(formula.holds)}")
         names = [

@@ -37,24 +37,26 @@ def compiled(formula: Formula) -> ArrayPath:
     text = source(formula)
     function = compiled_once(text)
 
-    def path(start: int, stop: int, given: list[Any], out: Any, at: int) -> bool:
+    def path(
+        rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
+    ) -> bool:
         nonlocal function
         try:
-            return bool(function(start, stop, *given, out, at))
+            return bool(function(*rows, *columns, *given, out, at))
         except Exception:  # noqa: BLE001 - a damaged file may raise anything while it is read
             forget(text)
             function = compiled_once(text)
-            return bool(function(start, stop, *given, out, at))
+            return bool(function(*rows, *columns, *given, out, at))
 
     return path
 
 
 def source(formula: Formula) -> str:
-    """Return the text of a function ``path(start, stop, *given, out, at) -> bool``.
+    """Return the text of a function ``path(top, bottom, start, stop, *given, out, at) -> bool``.
 
-    One number for the whole batch is done before the loop. Arrays are cut to the block
-    before it, so that its index begins at 0: a loop whose index might be negative is not
-    vectorised.
+    One number for the whole batch is done before the loops, one for a row before the inner
+    loop. Arrays are cut to the block before it, so that its index begins at 0: a loop whose
+    index might be negative is not vectorised.
     """
     constants: dict[str, str] = {}
 
@@ -65,46 +67,57 @@ def source(formula: Formula) -> str:
             return repr(operand.item() if isinstance(operand, np.generic) else operand)
         return constants.setdefault(repr(float(operand)), f"c{len(constants)}")
 
-    before, inside = _loads(formula)
+    before, in_row, cuts, inside = _loads(formula)
     before += assignments(formula.prologue, written)
     inside += assignments(formula.body, written)
-    cuts = [f"x{s.index} = a{s.index}[begin:end]" for s in formula.inputs if not s.uniform]
-    for row, result in enumerate(formula.results):
-        if isinstance(result, Symbol):
-            cuts.append(f"o{row} = out[{row}, at + begin:at + end]")
-            inside.append(f"o{row}[i] = {written(result)}")
+    for row, result in enumerate(formula.computed):
+        cuts.append(f"o{row} = out[{row}, at + first + begin:at + first + end]")
+        inside.append(f"o{row}[i] = {written(result)}")
     inside.append(f"good = good & {written(formula.holds)}")
     parts, splits = _splits(formula)
     lines = [
         *(f"{name} = T({number})" for number, name in constants.items()),
         *before,
         "good = True",
+        "width = stop - start",
         *(f"{name} = np.empty({_BLOCK}, T)" for name in parts),
-        f"for begin in range(start, stop, {_BLOCK}):",
-        *_indented(f"end = min(begin + {_BLOCK}, stop)", *cuts, *splits),
-        "    for i in range(end - begin):",
-        *_indented(*_indented(*inside)),
+        "for row in range(top, bottom):",
+        *_indented(
+            "first = (row - top) * width", *in_row, f"for begin in range(0, width, {_BLOCK}):"
+        ),
+        *_indented(*_indented(f"end = min(begin + {_BLOCK}, width)", *cuts, *splits)),
+        "        for i in range(end - begin):",
+        *_indented(*_indented(*_indented(*inside))),
         "return good",
     ]
     given = "".join(f"a{s.index}, " for s in formula.inputs)
     head = _HEAD.format(dtype=formula.dtype.name)
-    return "\n".join([head, f"def path(start, stop, {given}out, at):", *_indented(*lines), ""])
+    text = f"def path(top, bottom, start, stop, {given}out, at):"
+    return "\n".join([head, text, *_indented(*lines), ""])
 
 
-def _loads(formula: Formula) -> tuple[list[str], list[str]]:
-    """Return what is read before the loop and in it."""
-    before, inside = (
-        [],
-        [f"t{rest.index} = l{formula.whole_of(rest).index}[i]" for rest in formula.rests],
-    )
+_CUTS = {
+    "column": "x{0} = a{0}[start + begin:start + end]",
+    "cell": "x{0} = a{0}[first + begin:first + end]",
+}
+
+
+def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]]:
+    """Return what is read before the loops, in a row, at a block, and in the inner loop."""
+    before, in_row, cuts = [], [], []
+    inside = [f"t{rest.index} = l{formula.whole_of(rest).index}[i]" for rest in formula.rests]
     for symbol in formula.inputs:
+        n, place = symbol.index, formula.place_of(symbol)
         kind = "T" if symbol.kind == "float" else ""
-        if symbol.uniform:
-            before.append(f"t{symbol.index} = {kind}(a{symbol.index})")
+        if place == "one":
+            before.append(f"t{n} = {kind}(a{n})")
+        elif place == "row":
+            in_row.append(f"t{n} = {kind}(a{n}[row])")
         else:
-            array = "h" if symbol.operands[0] in formula.wide else "x"
-            inside.append(f"t{symbol.index} = {kind}({array}{symbol.index}[i])")
-    return before, inside
+            cuts.append(_CUTS[place].format(n))
+            array = "h" if formula.name_of(symbol) in formula.wide else "x"
+            inside.append(f"t{n} = {kind}({array}{n}[i])")
+    return before, in_row, cuts, inside
 
 
 def _splits(formula: Formula) -> tuple[list[str], list[str]]:
@@ -116,11 +129,11 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
     arrays, loops = [], []
     for symbol in formula.inputs:
         n = symbol.index
-        if symbol.operands[0] in formula.wide:
+        if formula.name_of(symbol) in formula.wide:
             arrays.append(f"h{n}")
-            low, top = formula.wide[symbol.operands[0]]
+            low, most = formula.wide[formula.name_of(symbol)]
             lines = [
-                f"good = good & ({low!r} <= x{n}[i]) & (x{n}[i] <= {top!r})",
+                f"good = good & ({low!r} <= x{n}[i]) & (x{n}[i] <= {most!r})",
                 f"high = T(x{n}[i])",
                 f"h{n}[i] = high",
             ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,24 +28,43 @@ def compiled(formula: Formula) -> ArrayPath:
     bits = np.dtype(f"i{formula.dtype.itemsize}")
     kinds = {"float": formula.dtype, "bool": np.dtype(bool), "mask": bits}
 
+    places = [formula.place_of(symbol) for symbol in formula.inputs]
+
     @np.errstate(all="ignore")
-    def path(start: int, stop: int, given: list[Any], out: Any, at: int) -> bool:
+    def path(
+        rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
+    ) -> bool:
         known = dict(zip((s.index for s in formula.inputs), given, strict=True))
         uniform = [*_prologue(formula, known), *writer.constants.values()]
-        arrays = [n for s, n in zip(formula.inputs, given, strict=True) if not s.uniform]
-        blocks = max(1, -(-(stop - start) // _BLOCK))
-        size = -(-(stop - start) // blocks)
-        free = [np.empty(size, kinds[kind]) for kind in buffers]
+        (top, bottom), (start, stop), width = rows, columns, columns[1] - columns[0]
+        alone = bottom - top == 1
+        # Whole rows as long as they fit, or else parts of one.
+        deep = max(1, min(bottom - top, _BLOCK // max(width, 1)))
+        parts = -(-width // _BLOCK) if deep == 1 else 1
+        wide = -(-width // max(parts, 1))
+        free = [np.empty((deep, wide), kinds[kind]) for kind in buffers]
         holds = True
-        for begin in range(start, stop, size):
-            end = min(begin + size, stop)
-            parts = [array[begin:end] for array in arrays]
-            cut = free if end - begin == size else [buffer[: end - begin] for buffer in free]
-            seen = [
-                buffer.view(bits) if buffer.dtype == formula.dtype else buffer for buffer in cut
+        for row, begin in product(range(top, bottom, deep), range(start, stop, max(wide, 1))):
+            tall, long = min(deep, bottom - row), min(wide, stop - begin)
+            first = (row - top) * width + begin - start
+            cells = slice(first, first + tall * long)
+            shape = (long,) if alone else (tall, long)
+            cut = {
+                "row": (slice(row, row + tall), *([] if alone else [np.newaxis])),
+                "column": slice(begin, begin + long),
+                "cell": cells,
+            }
+            arrays = [
+                n[cut[place]].reshape(shape) if place == "cell" else n[cut[place]]
+                for place, n in zip(places, given, strict=True)
+                if place != "one"
             ]
-            results = out[:, at + begin : at + end]
-            holds &= bool(np.all(block(*parts, *uniform, *cut, *seen, *results)))
+            own = [buffer[:tall, :long].reshape(shape) for buffer in free]
+            seen = [
+                buffer.view(bits) if buffer.dtype == formula.dtype else buffer for buffer in own
+            ]
+            results = [n[at:][cells].reshape(shape) for n in out]
+            holds &= bool(np.all(block(*arrays, *uniform, *own, *seen, *results)))
         return holds
 
     return path

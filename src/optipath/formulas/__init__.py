@@ -2,6 +2,7 @@
 
 from optipath.formulas.formula import Formula
 from optipath.formulas.path_formula import lights_formula, matrix_formula
+from optipath.formulas.stages import stages
 from optipath.formulas.symbol import Symbol
 
-__all__ = ["Formula", "Symbol", "lights_formula", "matrix_formula"]
+__all__ = ["Formula", "Symbol", "lights_formula", "matrix_formula", "stages"]

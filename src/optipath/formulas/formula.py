@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from optipath.formulas.recorder import ONE_AXIS
 from optipath.formulas.symbol import Symbol
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-    import numpy as np
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,40 +23,77 @@ class Formula:
     ----------
     dtype : dtype
         The precision of the operations.
-    outputs : tuple
-        Symbols, or numbers that are known; the last is whether the formula holds.
+    results : tuple
+        Symbols, or numbers that are known.
+    conditions : tuple
+        What must be true for the formula to hold.
     wide : mapping of str to (float, float)
         The inputs whose arrays have more digits than the formula, and their ranges.
     constants : mapping of str to float
         The inputs whose numbers are known.
+    axes : frozenset of int
+        The axes of the batch that are gone through.
+    last : int or None
+        The axis of the inner loop where there is one of its own; None where paths follow
+        each other in one loop.
+    earlier : frozenset of int
+        Symbols, by their places in the record, that have been computed before.
     """
 
     dtype: np.dtype[Any]
-    outputs: tuple[Any, ...]
+    results: tuple[Any, ...]
+    conditions: tuple[Any, ...] = ()
     wide: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     constants: Mapping[str, Any] = field(default_factory=dict)
+    axes: frozenset[int] = ONE_AXIS
+    last: int | None = None
+    earlier: frozenset[int] = frozenset()
+
+    @cached_property
+    def holds(self) -> Any:
+        """Whether the results are what the path gives."""
+        return reduce(lambda one, other: one & other, self.conditions, np.True_)
 
     @cached_property
     def needed(self) -> tuple[Symbol, ...]:
-        """What the outputs need, in the order in which it can be done."""
+        """What the results need, in the order in which it can be done."""
         found: dict[int, Symbol] = {}
-        waiting = [output for output in self.outputs if isinstance(output, Symbol)]
+        waiting = [output for output in (*self.results, self.holds) if isinstance(output, Symbol)]
         while waiting:
             symbol = waiting.pop()
             if symbol.index not in found:
                 found[symbol.index] = symbol
-                waiting += [o for o in symbol.operands if isinstance(o, Symbol)]
+                if symbol.index not in self.earlier:
+                    waiting += [o for o in symbol.operands if isinstance(o, Symbol)]
         return tuple(found[index] for index in sorted(found))
 
     @cached_property
     def inputs(self) -> tuple[Symbol, ...]:
-        """The numbers that are given."""
-        return tuple(symbol for symbol in self.needed if symbol.operation == "input")
+        """The numbers that are given, or computed before."""
+        return tuple(s for s in self.needed if s.operation == "input" or s.index in self.earlier)
 
     @cached_property
     def rests(self) -> tuple[Symbol, ...]:
         """What the precision of the formula loses of numbers that are given."""
         return tuple(symbol for symbol in self.needed if symbol.operation == "rest")
+
+    def name_of(self, symbol: Symbol) -> str:
+        """Return what an input is called."""
+        return f"#{symbol.index}" if symbol.index in self.earlier else str(symbol.operands[0])
+
+    def place_of(self, symbol: Symbol) -> str:
+        """Return where an input differs.
+
+        ``"one"`` for one number, ``"row"`` and ``"column"`` for an array along all but the
+        inner loop, or along that alone, and ``"cell"`` for one along all axes.
+        """
+        if symbol.uniform:
+            return "one"
+        if self.last is None or self.name_of(symbol) in self.wide:
+            return "cell"
+        if self.last not in symbol.axes:
+            return "row"
+        return "column" if len(symbol.axes) == 1 else "cell"
 
     def whole_of(self, rest: Symbol) -> Symbol:
         """Return the input that a rest belongs to."""
@@ -64,24 +102,20 @@ class Formula:
     @cached_property
     def steps(self) -> tuple[Symbol, ...]:
         """The operations on what is given."""
-        return tuple(s for s in self.needed if s.operation not in ("input", "rest"))
+        given = {symbol.index for symbol in (*self.inputs, *self.rests)}
+        return tuple(symbol for symbol in self.needed if symbol.index not in given)
 
-    @property
-    def results(self) -> tuple[Any, ...]:
-        """The outputs but for the last."""
-        return self.outputs[:-1]
-
-    @property
-    def holds(self) -> Any:
-        """Whether the results are what the path gives."""
-        return self.outputs[-1]
+    @cached_property
+    def computed(self) -> tuple[Symbol, ...]:
+        """The results that are not known, in order."""
+        return tuple(result for result in self.results if isinstance(result, Symbol))
 
     @cached_property
     def uses(self) -> dict[int, int]:
         """How often each symbol is an operand or an output."""
         counts: dict[int, int] = {}
         operands = [o for step in self.steps for o in step.operands]
-        for operand in (*operands, *self.outputs):
+        for operand in (*operands, *self.results, self.holds):
             if isinstance(operand, Symbol):
                 counts[operand.index] = counts.get(operand.index, 0) + 1
         return counts

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.formulas.recorder import ONE_AXIS
 from optipath.formulas.symbolic import SYMBOLIC, record, with_polynomials
 from optipath.kernels import cosine, sine, without_rounding
 from optipath.kernels.trigonometry import DIGITS, any_quadrant, first_quadrant
 from optipath.precision import wide
-from optipath.views import ABSENT, ONE, WIDE, ZERO
+from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -39,6 +40,9 @@ class Leaves:
         The range of each parameter; a value outside it is against a requirement.
     polynomials : bool
         Whether sines and cosines are to be polynomials.
+    axes : mapping of str to frozenset of int
+        Along which axes of the batch each array differs, by its name as an input; along the
+        only one where nothing is said.
     known : callable, optional
         What is done to each number that is known.
     """
@@ -50,12 +54,14 @@ class Leaves:
         limits: Mapping[str, Limits],
         *,
         polynomials: bool,
+        axes: Mapping[str, frozenset[int]],
         known: Callable[[Any], Any] | None = None,
     ) -> None:
         self.recorder = recorder
         self.forms = forms
         self.limits = limits
         self.polynomials = polynomials
+        self.axes = axes
         self.known = known
 
     @property
@@ -73,10 +79,10 @@ class Leaves:
     def _leaf(self, view: View, name: str) -> Any:
         if view.known:
             if view.part == "present":
-                return self.recorder.input(name, "bool") if view.present().ndim else True
+                return self._input(name, MANY, "bool") if view.present().ndim else True
             numbers = view.numbers({}, wide(self.recorder.dtype))
             if numbers.ndim:
-                return self.recorder.input(name)
+                return self._input(name, MANY)
             with np.errstate(over="ignore", under="ignore"):
                 return self.recorder.dtype.type(numbers[()])
         raw = view.raw
@@ -84,7 +90,7 @@ class Leaves:
             return self._of_pair(view)
         form = self.forms[raw]
         if raw.part == "present":
-            return form == ONE if form in (ONE, ABSENT) else self.recorder.input(str(raw), "bool")
+            return form == ONE if form in (ONE, ABSENT) else self._input(str(raw), form, "bool")
         if form == ZERO:
             return self.recorder.dtype.type(view.part == "cos")
         if form == ABSENT:
@@ -92,16 +98,20 @@ class Leaves:
         given = self._given(raw, form)
         rest: Any = 0.0
         if form == WIDE:
-            rest = self.recorder.input(str(raw), rest=True)
+            rest = self._input(str(raw), form, rest=True)
         if view.value.negative:
             given, rest = -given, -rest
         if view.part in ("cos", "sin"):
             return self._circular(view, given, rest)
         return given
 
+    def _input(self, name: str, form: str, kind: str = "float", *, rest: bool = False) -> Any:
+        axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
+        return self.recorder.input(name, kind, axes=axes, rest=rest)
+
     def _given(self, raw: Raw, form: str) -> Any:
         low, high = self.limits[raw.name]
-        given = self.recorder.input(str(raw), uniform=form == ONE)
+        given = self._input(str(raw), form)
         if form == WIDE:
             # What is looked at is the number that is given, not what is left of it.
             most = float(np.finfo(np.float64).max)
@@ -132,7 +142,7 @@ class Leaves:
             return kind(0.0)
         if self.forms[raw] == WIDE:
             self.recorder.wide[str(raw)] = least, 1.0
-        given = self.recorder.input(str(raw), uniform=self.forms[raw] == ONE)
+        given = self._input(str(raw), self.forms[raw])
         self.recorder.require(kind(least) <= given)
         self.recorder.require(given <= kind(1.0))
         given.positive = least == 0.0

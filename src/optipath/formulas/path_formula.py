@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import reduce
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from optipath.views import Raw
 
 
+NO_AXES: Mapping[str, frozenset[int]] = MappingProxyType({})
+"""Nothing is said of the axes of arrays: all differ from path to path."""
+
 _SPARE = 2.0**60
 """How far the numbers of a quotient keep from where they lose digits."""
 
@@ -34,6 +38,7 @@ def lights_formula(
     limits: Mapping[str, Limits],
     *,
     polynomials: bool,
+    axes: Mapping[str, frozenset[int]] = NO_AXES,
     as_it_stands: bool = False,
 ) -> Formula:
     """Return the formula of the light at every end.
@@ -45,7 +50,7 @@ def lights_formula(
     """
     recorder = Recorder(np.dtype(dtype))
     known = recorder.hidden if as_it_stands else None
-    leaves = Leaves(recorder, forms, limits, polynomials=polynomials, known=known)
+    leaves = Leaves(recorder, forms, limits, polynomials=polynomials, axes=axes, known=known)
     xp, tiny = leaves.primitives, recorder.dtype.type(np.finfo(recorder.dtype).tiny)
     carried: Way = way(xp)
     if way is Plain and program.for_powers is not None:
@@ -73,10 +78,11 @@ def matrix_formula(
     dtype: str,
     forms: Mapping[Raw, str],
     limits: Mapping[str, Limits],
+    axes: Mapping[str, frozenset[int]] = NO_AXES,
 ) -> Formula:
     """Return the formula of the Mueller matrix from a source to a reading, row by row."""
     recorder = Recorder(np.dtype(dtype))
-    leaves = Leaves(recorder, forms, limits, polynomials=True)
+    leaves = Leaves(recorder, forms, limits, polynomials=True, axes=axes)
     symbols, way = leaves.of(program), Linear(leaves.primitives)
     none, one = recorder.dtype.type(0.0), recorder.dtype.type(1.0)
     columns = []
@@ -98,6 +104,6 @@ def _finite(numbers: Any, dtype: np.dtype[Any]) -> Any:
     return total <= np.finfo(dtype).max
 
 
-def _formula(recorder: Recorder, outputs: list[Any], holds: list[Any]) -> Formula:
-    together = reduce(lambda one, other: one & other, [*recorder.requirements, *holds], np.True_)
-    return Formula(recorder.dtype, (*outputs, together), recorder.wide, recorder.constants)
+def _formula(recorder: Recorder, results: list[Any], holds: list[Any]) -> Formula:
+    conditions = (*recorder.requirements, *holds)
+    return Formula(recorder.dtype, tuple(results), conditions, recorder.wide, recorder.constants)

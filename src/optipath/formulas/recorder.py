@@ -10,6 +10,9 @@ from optipath.formulas.operations import OPERATIONS
 from optipath.formulas.simplify import UNKNOWN, simplified, stays_positive
 from optipath.formulas.symbol import Symbol
 
+ONE_AXIS = frozenset({0})
+"""What differs from path to path, where paths have no order of their own."""
+
 
 class Recorder:
     """A record of operations in the order in which they can be done.
@@ -42,19 +45,19 @@ class Recorder:
             return number
         name = f"={number!r}"
         self.constants[name] = number
-        return self.input(name, uniform=True)
+        return self.input(name, axes=frozenset())
 
     def input(
         self,
         name: str,
         kind: str = "float",
         *,
-        uniform: bool = False,
+        axes: frozenset[int] = ONE_AXIS,
         rest: bool = False,
     ) -> Symbol:
         """Return the symbol of a number that is given, or of what its rounding has lost."""
         operation = "rest" if rest else "input"
-        return self._entered((operation, name), operation, (name,), kind, uniform=uniform)
+        return self._entered((operation, name), operation, (name,), kind, axes)
 
     def record(self, operation: str, *operands: Any) -> Any:
         """Return what an operation comes to: a symbol, or a number where that is known."""
@@ -71,8 +74,8 @@ class Recorder:
         if about.commutes:
             names.sort(key=str)
         kind = _kind(operands[-1]) if about.kind == "same" else about.kind
-        uniform = all(symbol.uniform for symbol in symbols)
-        symbol = self._entered((operation, *names), operation, operands, kind, uniform=uniform)
+        axes = frozenset().union(*(symbol.axes for symbol in symbols))
+        symbol = self._entered((operation, *names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
         return symbol
 
@@ -98,12 +101,10 @@ class Recorder:
         return {"bool": np.bool_, "int": np.int64, "float": self.dtype.type}[kind](value)
 
     def _entered(
-        self, key: Any, operation: str, operands: tuple[Any, ...], kind: str, *, uniform: bool
+        self, key: Any, operation: str, operands: tuple[Any, ...], kind: str, axes: frozenset[int]
     ) -> Symbol:
         if key not in self._known:
-            symbol = Symbol(
-                self, operation, operands, kind, uniform=uniform, index=len(self.symbols)
-            )
+            symbol = Symbol(self, operation, operands, kind, axes=axes, index=len(self.symbols))
             self._known[key] = symbol
             self.symbols.append(symbol)
         return self._known[key]

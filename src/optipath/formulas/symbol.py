@@ -22,15 +22,15 @@ class Symbol:
         Symbols and NumPy scalars.
     kind : str
         ``"float"``, ``"bool"`` or ``"int"``.
-    uniform : bool
-        Whether it is one number for the whole batch.
+    axes : frozenset of int
+        The axes of the batch along which it differs; none for one number for all of it.
     index : int
         Its place in the record; operands come first.
     positive : bool
         Whether it is known not to be negative.
     """
 
-    __slots__ = ("index", "kind", "operands", "operation", "positive", "recorder", "uniform")
+    __slots__ = ("axes", "index", "kind", "operands", "operation", "positive", "recorder")
     __array_ufunc__ = None  # So that NumPy's scalars leave operators to this class.
     __hash__ = object.__hash__
 
@@ -41,7 +41,7 @@ class Symbol:
         operands: tuple[Any, ...],
         kind: str,
         *,
-        uniform: bool,
+        axes: frozenset[int],
         index: int,
         positive: bool = False,
     ) -> None:
@@ -49,9 +49,14 @@ class Symbol:
         self.operation = operation
         self.operands = operands
         self.kind = kind
-        self.uniform = uniform
+        self.axes = axes
         self.index = index
         self.positive = positive
+
+    @property
+    def uniform(self) -> bool:
+        """Whether it is one number for the whole batch."""
+        return not self.axes
 
     def __bool__(self) -> bool:
         raise TypeError("a number that is not known yet is neither true nor false; use xp.where")

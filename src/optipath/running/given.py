@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.angles import CosSin
 from optipath.errors import OptipathError
+from optipath.running.layout import sliced
 from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
 
 if TYPE_CHECKING:
@@ -46,15 +47,15 @@ class Given(NamedTuple):
         return int(np.prod(self.batch, dtype=np.int64))
 
     def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-        """Return the part of an array over the whole batch that belongs to this part."""
+        """Return what belongs to this part of an array that broadcasts to the whole batch."""
         if self.before is None or not array.ndim:
             return array
-        return np.broadcast_to(self.before.cut(array), self.before.batch)[self.where]
+        return sliced(self.before.cut(array), self.before.batch, self.where)
 
     def part(self, where: tuple[int | slice, ...]) -> Given:
         """Return a part of what is given."""
         numbers = {
-            raw: np.broadcast_to(n, self.batch)[where] if isinstance(n, np.ndarray) else n
+            raw: sliced(n, self.batch, where) if isinstance(n, np.ndarray) else n
             for raw, n in self.numbers.items()
         }
         return Given(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
