@@ -305,7 +305,7 @@ def test_steps_grow_with_the_elements():
         path = op.PathGraph()
         node = path.add("lamp", op.Source())
         for i in range(count):
-            node = node >> path.add(f"m{i}", op.Interface(1.5, 0.3, azimuth=0.1))
+            node = node >> path.add(f"m{i}", op.Interface(1.5, op.Parameter("a"), azimuth=0.1))
         node >> path.add("eye", op.Detector())
         return len(path.compose().program.steps)
 

@@ -223,7 +223,7 @@ def test_a_tolerance_is_refused_while_there_are_only_exact_plans():
 
 def test_the_explanation_lists_steps_readings_and_what_leaves():
     text = NPGR026.compose().explain()
-    assert text.splitlines()[0].startswith("1 source, 1 detector, 7 steps; method stable")
+    assert text.splitlines()[0].startswith("1 source, 1 detector, 6 steps; method stable")
     for part in ("X2.reflected -> X1.in", "E reads S0, S1, S2, S3", "X1.transmitted", "delta"):
         assert part in text
 

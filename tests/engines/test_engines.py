@@ -327,7 +327,8 @@ def test_what_runs_a_batch_can_be_asked():
     assert plan.engine_for(5000) == "numpy"
     assert plan.engine_for(100_000) == plan.engine == "numba"
     assert "from 65,536 by numba" in plan.explain()
-    long = chain([op.Rotator(0.1)] * 100, [1.0, 0, 0, 0])
+    turning = [op.Polarizer(op.Parameter("a")), op.Retarder(op.Parameter("b"), 0.3)]
+    long = chain(turning * 30, [1.0, 0, 0, 0])
     assert op.Composer(engine="numba").compose(long).engine == "numpy"
     assert "step by step" in op.Composer(engine="numba").compose(long).explain()
 

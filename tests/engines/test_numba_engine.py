@@ -25,7 +25,7 @@ def test_a_path_is_computed_many_at_a_time(tmp_path, monkeypatch):
     )
     path = compiled_once.__wrapped__(source(formula))
     given = [np.full(64, 0.5) for _ in formula.inputs]
-    assert path(0, 64, *given, np.empty((4, 64)), 0)
+    assert path(0, 1, 0, 64, *given, np.empty((4, 64)), 0)
     (assembly,) = path.inspect_asm().values()
     packed, single = assembly.count("mulpd"), assembly.count("mulsd")
     assert packed > 50

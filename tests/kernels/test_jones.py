@@ -109,9 +109,9 @@ def test_no_number_changes_its_precision_on_the_way(dtype, way):
     for path in paths:
         plan = op.Composer(dtype=dtype).compose(path)
         given_, _ = plan.inputs.resolve({"theta": 0.3} if "theta" in plan.inputs.open else {})
-        leaves = [view.numbers(given_) for view in plan.program.leaves]
+        leaves = [view.numbers(given_) for view in plan.whole.leaves]
         leaves = [n if n.dtype == bool else n.astype(dtype) for n in leaves]
         for stokes, _ in walk(
-            plan.program, leaves, way(NUMPY), None, lambda number: np.asarray(number, dtype)
+            plan.whole, leaves, way(NUMPY), None, lambda number: np.asarray(number, dtype)
         ).values():
             assert {np.asarray(component).dtype for component in stokes} == {np.dtype(dtype)}

@@ -172,6 +172,17 @@ def test_the_cheaper_kernel_for_lossless_media_gives_the_same_bits(
         for kernel, arguments in ((whole, (outside, n, 0.0, c, s)), (cheaper, given_))
     )
     assert [float(number) for number in one] == [float(number) for number in other]
+    denser = cheaper.never_less(given_, lambda number: (number, number))
+    assert [float(number) for number in denser.made_for(FLOAT)(*given_)] == list(map(float, one))
+
+
+@given(n=INDICES, k=EXTINCTIONS, outside=st.floats(0.5, 3.0), angle=ANGLES)
+def test_powers_alone_are_those_of_the_whole_kernel(n, k, outside, angle):
+    c, s = float(np.cos(angle)), float(np.sin(angle))
+    whole = REFLECTION.by_method("stable")
+    Fs, Fp, over = whole.powers.made_for(FLOAT)(outside, n, k, c, s)
+    for found, wanted in zip((Fs / over, Fp / over), whole.made_for(FLOAT)(outside, n, k, c, s)):
+        assert found == pytest.approx(wanted, rel=4e-15, abs=4e-15 * Fs / over)
 
 
 def test_an_index_that_absorbs_nothing_takes_the_cheaper_kernel():
@@ -180,7 +191,7 @@ def test_an_index_that_absorbs_nothing_takes_the_cheaper_kernel():
     path.add("lamp", op.Source()) >> glass >> path.add("metal", op.Interface(0.2 + 3j, 0.4))
     path["metal"] >> path.add("eye", op.Detector())
     names = [evaluation.kernel.name for evaluation in path.compose().program.evaluations]
-    assert "Fresnel reflection (stable, lossless)" in names
+    assert "Fresnel reflection (stable, lossless, from the rarer side)" in names
     assert "Fresnel reflection (stable)" in names
 
 

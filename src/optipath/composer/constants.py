@@ -94,13 +94,14 @@ def multiplied(first: Constant, second: Constant) -> Constant | None:
         for row in range(4)
         for column in range(4)
     )
-    return _kept(Constant(FULL, product))
+    found = _kept(Constant(FULL, product))
+    return found if found and found.lets_through else None
 
 
 def _kept(product: Constant) -> Constant | None:
     """Return a product unless its intensity is so faint, or so large, that it might get lost."""
     first = product.structure.rows(FLOAT, product.numbers)[0][0]
-    return product if first == 0.0 or _LEAST < first < 1.0 / _LEAST else None
+    return product if _LEAST < first < 1.0 / _LEAST else None
 
 
 def _blocks(first: tuple[float, ...], second: tuple[float, ...]) -> tuple[float, ...]:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from optipath.program import Program, Step
 
 
+_MOST = 16
+"""How many constants are multiplied, lest their roundings gather."""
+
 _WORDS = 60
 """How long the name of a step may become that is made of several."""
 
@@ -108,7 +111,8 @@ class _Folding:
     def _folded(self, items: list[Item]) -> list[Item]:
         found: list[Item] = []
         for item in items:
-            if found and _is_turn(item) and _is_turn(found[-1]):
+            turns = found and _is_turn(item) and _is_turn(found[-1])
+            if turns and len(found[-1].views) < _MOST:
                 found[-1:] = self._turned(found[-1], item)
             else:
                 found.append(item)
@@ -116,7 +120,6 @@ class _Folding:
 
     def _turned(self, first: Item, second: Item) -> list[Item]:
         """Return two turns as one, or as none if they undo each other."""
-        label = f"{first.label}, {second.label}"
         self.notes.append(f"the turns at '{first.label}' and '{second.label}' are one")
         views = [*_angles(first), *_angles(second)]
         numbers = [number_of(view) for view in views]
@@ -131,7 +134,7 @@ class _Folding:
                 left.append(view)
         if known:
             left.append(View(known))
-        return [Item(label, TURN, tuple(left), None)] if left else []
+        return [Item(_label([first, second]), TURN, tuple(left), None)] if left else []
 
     def _multiplied(self, items: list[Item]) -> list[Item]:
         found: list[Item] = []
@@ -158,9 +161,15 @@ class _Folding:
         dear = self.matrices and len(run) > 1 and cost > Constant(FULL, ()).cost
         if not (dear and all(constant.lets_through for constant in constants)):
             return items
+        found: list[Item] = []
+        for start in range(0, len(run), _MOST):
+            found += self._multiplied_out(run[start : start + _MOST])
+        return found
+
+    def _multiplied_out(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         found: list[tuple[Item, Constant]] = []
         for item, constant in run:
-            both = found and multiplied(found[-1][1], constant)
+            both = multiplied(found[-1][1], constant) if found else None
             if both:
                 found[-1] = self._joined([found[-1][0], item], both), both
             else:
@@ -168,11 +177,18 @@ class _Folding:
         return [item for item, _ in found]
 
     def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
-        labels = ", ".join(item.label for item in items)
-        if len(labels) > _WORDS:
-            labels = f"{items[0].label.split(', ')[0]} .. {items[-1].label}"
-        self.notes.append(f"'{labels}' are constant, and one")
-        return Item(labels, constant.kernel, tuple(map(View, constant.numbers)), None)
+        label = _label(items)
+        self.notes.append(f"'{label}' are constant, and one")
+        return Item(label, constant.kernel, tuple(map(View, constant.numbers)), None)
+
+
+def _label(items: Sequence[Item]) -> str:
+    """Return the names of steps as one, the first and the last where they would be too long."""
+    whole = ", ".join(item.label for item in items)
+    if len(whole) <= _WORDS:
+        return whole
+    first, last = items[0].label, items[-1].label
+    return f"{first.split(', ')[0].split(' .. ')[0]} .. {last.split(', ')[-1].split(' .. ')[-1]}"
 
 
 def _is_turn(item: Item) -> bool:
