@@ -7,6 +7,7 @@ values or on millions.
 
 from optipath.angles import CosSin
 from optipath.cases import Case
+from optipath.certificate import Certificate, intensity_bounds
 from optipath.composer import Composer
 from optipath.domains import (
     Angle,
@@ -61,6 +62,7 @@ __all__ = [
     "Attenuator",
     "BeamSplitter",
     "Case",
+    "Certificate",
     "Combiner",
     "Composer",
     "ComposerError",
@@ -101,6 +103,7 @@ __all__ = [
     "ValueFault",
     "fresnel_reflection",
     "fresnel_transmission",
+    "intensity_bounds",
     "load_preset",
     "plane_of_incidence",
     "preset_names",

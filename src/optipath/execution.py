@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.certificate import Certificate
 from optipath.engines import NUMPY_STEPS, compile_array_path, engine_for, jax_path
 from optipath.errors import ParameterError
 from optipath.faint import folded
-from optipath.formulas import lights_formula, matrix_formula
+from optipath.formulas import bounds_formula, lights_formula, matrix_formula
 from optipath.jax_values import is_jax, is_traced
 from optipath.running.given import Given, Sorter
 from optipath.running.layout import Layout
@@ -43,6 +44,13 @@ class Found(NamedTuple):
 
     stokes: Any
     exponent: Any
+
+    def whole(self, batch: tuple[int, ...]) -> tuple[Array, Array]:
+        """Return Stokes vectors (..., 4) and exponents (...) as arrays."""
+        if not isinstance(self.stokes, tuple):
+            return self.stokes, np.broadcast_to(self.exponent, batch)
+        parts = [np.broadcast_to(part, batch) for part in self.stokes]
+        return np.stack(parts, axis=-1), np.broadcast_to(self.exponent, batch)
 
 
 class Execution:
@@ -125,25 +133,28 @@ class Execution:
         lights = self.single.usual(parameters)
         if lights is not None:
             return self._named(lights)
-        if self._is_for_jax(parameters):
+        if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
             found = self._jax.lights(resolved, batch)
             for stokes, reading in zip(found, self.program.readings.values(), strict=True):
                 self._refuse_infinite(stokes[..., : reading.components])
             return {n: Found(s, 0) for n, s in zip(self.program.readings, found, strict=True)}
-        return self._lights(self.sorter.sort(parameters), parameters)
+        return self.lights_of(self.sorter.sort(parameters), parameters)
 
     def stream(
         self, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, dict[str, Found]]]:
         """Yield the index of a part of the batch, and the light at every end for it."""
-        if self._is_for_jax(parameters):
+        if self.is_for_jax(parameters):
             raise ParameterError(
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
             )
-        given = self.sorter.sort(parameters)
-        for piece in pieces(given.batch, size):
-            yield piece.where, self._lights(given.part(piece.where), parameters)
+        for where, part in self.parts(self.sorter.sort(parameters), size):
+            yield where, self.lights_of(part, parameters)
+
+    def parts(self, given: Given, size: int) -> Iterator[tuple[Any, Given]]:
+        """Yield the index of each part of what is given, and the part."""
+        return ((piece.where, given.part(piece.where)) for piece in pieces(given.batch, size))
 
     def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Array:
         """Return the Mueller matrices (..., 4, 4) from a source to a reading.
@@ -153,7 +164,7 @@ class Execution:
         ParameterError
             With every fault of what is given, or if a matrix is not finite.
         """
-        if self._is_for_jax(parameters):
+        if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
             name = next(n for n, end in self.whole.readings.items() if end is reading)
             found = self._whole_jax.matrix(resolved, batch, source, name)
@@ -188,7 +199,45 @@ class Execution:
         block = self._stacked(out, 0, 16) if block is None else block
         return np.moveaxis(block.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
 
-    def _lights(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
+    def given(self, parameters: Mapping[str, Any]) -> Given:
+        """Return what is given, checked, for both the bounds and the light.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given.
+        """
+        self.inputs.resolve(parameters)
+        return self._whole_sorter.sort(parameters)
+
+    def certificates(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
+        """Return bounds of the intensity at every end."""
+        ends = self.whole.readings
+        engine = self.engine_for(given.paths)
+        if engine not in ("numpy", "numba"):
+            parts = [self._whole_steps.bounds(part) for part in self._parts(given)]
+            joined = [
+                np.concatenate([part[end].reshape(4, -1) for part in parts], axis=1)
+                for end in range(len(ends))
+            ]
+        else:
+
+            def formula(forms: Any, axes: Any) -> Formula:
+                kind, limits = self.dtype.name, self.inputs.limits
+                return bounds_formula(self.whole, kind, forms, limits, axes)
+
+            def careful(part: Given) -> Array:
+                found = self._whole_steps.bounds(part)
+                return np.concatenate([rows.reshape(4, -1) for rows in found])
+
+            read = 4 * len(ends)
+            out, _ = self._filled(engine, "bounds", formula, given, parameters, careful, read)
+            joined = [self._stacked(out, 4 * end, 4 * end + 4) for end in range(len(ends))]
+        shaped = (rows[:3].reshape(3, *given.batch) for rows in joined)
+        return {name: Certificate(*rows) for name, rows in zip(ends, shaped, strict=True)}
+
+    def lights_of(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
+        """Return the light at every end for what is given."""
         ends = self.program.readings
         if not given.batch and self.dtype == np.float64 and given.is_single:
             lights = self.single.lights(given)
@@ -249,7 +298,7 @@ class Execution:
             row[...] = result
         return rows
 
-    def _is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
+    def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
         traced = self._has_traced or any(map(is_jax, parameters.values()))
         if traced and self.engine not in ("auto", "jax"):

@@ -15,17 +15,19 @@ from optipath.mueller import Mueller
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from optipath.approximation import Approximation
+    from optipath.certificate import Certificate
     from optipath.execution import Execution, Found
     from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.program import Program
-    from optipath.reduction import Reduction
+    from optipath.reduction import Reduction, Tolerance
 
 
 _LARGE = 1 << 30
 """A batch for which any engine is worth its while."""
 
-_MADE = ("_detector", "_execution")
+_MADE = ("_approximation", "_detector", "_execution")
 
 
 class Part(NamedTuple):
@@ -51,6 +53,10 @@ class Plan:
         Ports whose light leaves the path unread.
     copied : tuple of str
         Ports whose light goes to several links, whole to each.
+    instead : Tolerance or None
+        What is taken in its place where a certificate allows it.
+    tolerance : float or None
+        What the composer was given.
     method, composing, dtype : str
         How Fresnel's equations are computed, whether light is carried as Stokes or as Jones
         vectors, and in which precision.
@@ -70,6 +76,8 @@ class Plan:
     dtype: str
     chosen: str = "auto"
     threads: int = 1
+    instead: Tolerance | None = None
+    tolerance: float | None = None
 
     @property
     def program(self) -> Program:
@@ -78,8 +86,11 @@ class Plan:
 
     @property
     def model(self) -> str:
-        """What is carried along: ``"scalar"``, ``"sp"``, ``"linear"`` or ``"full"``."""
-        return self.reduction.model
+        """What is carried along: ``"scalar"``, ``"sp"``, ``"linear"`` or ``"full"``.
+
+        With a tolerance, what is carried wherever a certificate allows it.
+        """
+        return self.instead.model if self.instead else self.reduction.model
 
     @property
     def engine(self) -> str:
@@ -118,6 +129,8 @@ class Plan:
             several detectors.
         """
         name, place, frame = self._detector
+        if self._approximation:
+            return self._in_frames(self._approximation.lights(parameters))[name]
         execution = self._execution
         usual = execution.single.usual(parameters)
         if usual is not None:
@@ -133,7 +146,7 @@ class Plan:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        return self._in_frames(self._execution.lights(parameters))
+        return self._in_frames(self._runner.lights(parameters))
 
     def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
         """Yield the light of a batch part by part, in memory that the parts need.
@@ -166,7 +179,7 @@ class Plan:
         name, _, _ = self._detector
         if isinstance(size, bool) or not isinstance(size, int) or size < 1:
             raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
-        for where, lights in self._execution.stream(size, parameters):
+        for where, lights in self._runner.stream(size, parameters):
             yield Part(where, self._in_frames(lights)[name])
 
     def _in_frames(self, lights: Mapping[str, Found]) -> dict[str, Light]:
@@ -202,6 +215,35 @@ class Plan:
         matrix = self._execution.matrix(begin, reading, parameters)
         return Mueller(matrix, program.sources[begin][1], reading.frame)
 
+    def certificate(self, detector: str | None = None, /, **parameters: Any) -> Certificate:
+        """Return how far the intensity at a detector can be from that without polarisation.
+
+        Parameters
+        ----------
+        detector : str, optional
+            Its name; needed only where there are several.
+        **parameters : float or array_like
+            As in `run`.
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if a detector is not named or not known.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import optipath as op
+        >>> gold = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
+        >>> found = op.load_preset("npgr026").compose().certificate(**gold, phi=[0.2, 1.2])
+        >>> print(found.error.round(5))
+        [0.00018 0.00259]
+        """
+        ends = tuple(self.whole.readings if detector else self.whole.detectors)
+        end = self._only("detector", ends, "certificate(detector)", detector)
+        execution = self._execution
+        return execution.certificates(execution.given(parameters), parameters)[end]
+
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.
 
@@ -236,11 +278,29 @@ class Plan:
 
     @cached_property
     def _execution(self) -> Execution:
+        return self._executed(self.reduction)
+
+    @cached_property
+    def _approximation(self) -> Approximation | None:
+        if self.instead is None:
+            return None
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.approximation import Approximation  # noqa: PLC0415
+
+        model = self.instead.model
+        cheap = None if model == "scalar" else self._executed(self.reduction.by(model))
+        return Approximation(self._execution, cheap, model, self.instead.most)
+
+    @property
+    def _runner(self) -> Execution | Approximation:
+        return self._approximation or self._execution
+
+    def _executed(self, reduction: Reduction) -> Execution:
         # Imported where it is needed, so that the library itself is there quickly.
         from optipath.execution import Execution  # noqa: PLC0415
 
         return Execution(
-            self.reduction,
+            reduction,
             self.whole,
             self.inputs,
             method=self.method,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -38,3 +38,24 @@ class Reduction:
     live: tuple[tuple[int, ...], ...]
     folded: tuple[str, ...] = ()
     as_it_stands: bool = False
+
+    def by(self, model: str) -> Reduction:
+        """Return the same carried by another model, exact or not."""
+        counts = (MODELS.index(model) + 1,) * len(self.program.steps)
+        return replace(self, program=replace(self.program, counts=counts), model=model)
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """What is taken in place of an exact model where a certificate allows it.
+
+    Attributes
+    ----------
+    model : str
+        The cheaper model.
+    most : float
+        How large its error may be, as a share of the intensity.
+    """
+
+    model: str
+    most: float

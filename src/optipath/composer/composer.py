@@ -9,7 +9,7 @@ import networkx as nx
 
 from optipath.composer.collection import put_off
 from optipath.composer.lower import lower, refuse_depolarizers
-from optipath.composer.reduce import as_it_stands, for_jones, reduced
+from optipath.composer.reduce import as_it_stands, by_name, for_jones, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import Wiring
@@ -22,7 +22,7 @@ from optipath.reduction import MODELS
 
 if TYPE_CHECKING:
     from optipath.program import Program
-    from optipath.reduction import Reduction
+    from optipath.reduction import Reduction, Tolerance
 
 CHOICES = {
     "method": METHODS,
@@ -62,8 +62,10 @@ class Composer:
         How light is carried along a path: as a Stokes vector, or as two Jones columns,
         which no element may depolarise and whose light is never polarised by more than
         100 %, however long the path.
-    tolerance : None, optional
-        Kept for approximations; only exact plans are made in this version.
+    tolerance : float, optional
+        How large the error of an intensity may be, as a share of it; 0.01 is 1 %. Where a
+        certificate keeps the scalar model (or one asked for by name) within it, that is run,
+        and the exact model elsewhere, path by path. By default every plan is exact.
     threads : int, optional
         How many threads share a batch of more than 65,536 paths; one by default, since
         threads that wait for a busy machine cost more than they bring.
@@ -87,7 +89,7 @@ class Composer:
     engine: str = "auto"
     dtype: str = "float64"
     composing: str = "stokes"
-    tolerance: None = None
+    tolerance: float | None = None
     threads: int = 1
 
     def __post_init__(self) -> None:
@@ -106,8 +108,7 @@ class Composer:
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
             faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
-        if self.tolerance is not None:
-            faults.append("tolerance is not available in this version; leave it None")
+        faults += self._tolerance_faults()
         if self.composing == "jones" and self.model in MODELS[:-1]:
             faults.append(
                 f"model '{self.model}' is not for composing='jones', which carries columns whole; "
@@ -115,6 +116,22 @@ class Composer:
             )
         if faults:
             raise ComposerError(*faults)
+
+    def _tolerance_faults(self) -> list[str]:
+        given = self.tolerance
+        if given is None:
+            return []
+        if isinstance(given, bool) or not isinstance(given, (int, float)) or not 0.0 < given < 1.0:
+            return [
+                (
+                    f"tolerance must be a number between 0 and 1, such as 0.01 for 1 %, not {given!r}; "
+                    f"leave it None for exact plans"
+                )
+            ]
+        if self.model == "full" or self.composing == "jones":
+            what = "model 'full'" if self.model == "full" else "composing='jones'"
+            return [f"{what} is exact and takes no tolerance; leave one of them out"]
+        return []
 
     def compose(self, path: Path | nx.MultiDiGraph) -> Plan:
         """Return the plan of a path.
@@ -144,9 +161,12 @@ class Composer:
         whole = lower(wiring, self.method)
         if self.composing == "jones":
             refuse_depolarizers(whole)
+        reduction, instead = self._reduced(whole)
         return Plan(
             whole=whole,
-            reduction=self._reduction(whole),
+            reduction=reduction,
+            instead=instead,
+            tolerance=self.tolerance,
             inputs=values.inputs(),
             outlets=wiring.outlets,
             copied=wiring.copied,
@@ -157,11 +177,17 @@ class Composer:
             threads=self.threads,
         )
 
-    def _reduction(self, whole: Program) -> Reduction:
+    def _reduced(self, whole: Program) -> tuple[Reduction, Tolerance | None]:
+        """Return what is run, and what may be taken in its place."""
         # Constants are multiplied in float64.
         constants = self.dtype != "longdouble"
         if self.model == "full":
-            return as_it_stands(whole)
+            return as_it_stands(whole), None
         if self.composing == "jones":
-            return for_jones(whole, constants=constants)
-        return reduced(whole, self.model, constants=constants)
+            return for_jones(whole, constants=constants), None
+        exact = reduced(whole, constants=constants)
+        if self.tolerance is not None:
+            instead = tolerated(exact, self.model, self.tolerance)
+            if instead is not None:
+                return exact, instead
+        return (exact if self.model == "auto" else by_name(exact, self.model)), None

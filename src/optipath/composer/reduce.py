@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from optipath.composer.fold import fold
 from optipath.composer.live import Live, trim
 from optipath.errors import ComposerError
-from optipath.reduction import MODELS, Reduction
+from optipath.reduction import MODELS, Reduction, Tolerance
 
 if TYPE_CHECKING:
     from optipath.program import Program
@@ -30,22 +30,15 @@ def for_jones(whole: Program, *, constants: bool) -> Reduction:
     return Reduction(program, "full", reason, tuple(Live(program).components), tuple(notes))
 
 
-def reduced(whole: Program, model: str, *, constants: bool) -> Reduction:
+def reduced(whole: Program, *, constants: bool) -> Reduction:
     """Return the smallest program that is exact for a path.
 
     Parameters
     ----------
     whole : Program
         The path as it stands.
-    model : str
-        One of `MODELS`, or ``"auto"``.
     constants : bool
         Whether constants may be multiplied, which is done in float64.
-
-    Raises
-    ------
-    ComposerError
-        If the model is too small to be exact.
     """
     program, folded = whole, []
     for _ in range(_ROUNDS):
@@ -58,18 +51,57 @@ def reduced(whole: Program, model: str, *, constants: bool) -> Reduction:
         if len(program.steps) == before:
             break
     live = Live(program)
-    counts, size = live.counts, max(live.counts)
-    exact = MODELS[size - 1]
+    size = max(live.counts)
+    return Reduction(
+        replace(program, counts=live.counts),
+        MODELS[size - 1],
+        _reason(live, size),
+        tuple(live.components),
+        tuple(dict.fromkeys(folded)),
+    )
+
+
+def by_name(exact: Reduction, model: str) -> Reduction:
+    """Return the smallest exact program carried by a model that may be larger.
+
+    Raises
+    ------
+    ComposerError
+        If the model is too small to be exact.
+    """
+    most = MODELS.index(model)
+    for light, alive in enumerate(exact.live):
+        if alive[-1] > most:
+            raise ComposerError(
+                f"model '{model}' is not exact for this path: S{alive[-1]} is alive at "
+                f"'{exact.program.steps[light].label}'; use model '{exact.model}' or 'auto', or "
+                f"give a tolerance"
+            )
+    return replace(exact.by(model), reason=f"asked for by name; {exact.reason}")
+
+
+def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
+    """Return which model is taken where a certificate allows it; None where none is cheaper.
+
+    Raises
+    ------
+    ComposerError
+        If a model is asked for by name that is not exact, and there can be no certificate.
+    """
+    size = MODELS.index(exact.model)
+    wanted = "scalar" if model == "auto" else model
+    if MODELS.index(wanted) >= size:
+        return None
+    others = [name for name, r in exact.program.readings.items() if r.components > 1]
+    if not others:
+        return Tolerance(wanted, most)
     if model == "auto":
-        chosen, reason = exact, _reason(live, size)
-    elif MODELS.index(model) + 1 < size:
-        raise ComposerError(_too_small(live, model, exact))
-    else:
-        chosen, reason = model, f"asked for by name; {_reason(live, size)}"
-        counts = (MODELS.index(model) + 1,) * len(counts)
-    program = replace(program, counts=counts)
-    components = tuple(live.components)
-    return Reduction(program, chosen, reason, components, tuple(dict.fromkeys(folded)))
+        return None
+    raise ComposerError(
+        f"model '{model}' is not exact for this path, and certificates are for intensities: "
+        f"{_listed([repr(name) for name in others])} reads more; let it read 'intensity', or use "
+        f"model '{exact.model}'"
+    )
 
 
 def _reason(live: Live, size: int) -> str:
@@ -79,16 +111,6 @@ def _reason(live: Live, size: int) -> str:
     names = [f"S{i}" for i in range(4) if any(i in alive for alive in live.components)]
     dead = [f"S{i}" for i in range(4) if f"S{i}" not in names]
     return f"{_listed(names)} are alive" + (f", {_listed(dead)} nowhere" if dead else "")
-
-
-def _too_small(live: Live, model: str, exact: str) -> str:
-    most = MODELS.index(model)
-    light = next(i for i, alive in enumerate(live.components) if alive[-1] > most)
-    label, component = live.program.steps[light].label, live.components[light][-1]
-    return (
-        f"model '{model}' is not exact for this path: S{component} is alive at '{label}'; "
-        f"use model '{exact}' or 'auto', or give a tolerance"
-    )
 
 
 def _listed(words: list[str]) -> str:

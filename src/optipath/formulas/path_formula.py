@@ -12,7 +12,7 @@ from optipath.faint import FAINT
 from optipath.formulas.formula import Formula
 from optipath.formulas.leaves import Leaves, Limits
 from optipath.formulas.recorder import Recorder
-from optipath.kernels import Linear, Plain, Powers
+from optipath.kernels import Bounds, Linear, Plain, Powers
 from optipath.walk import walk
 
 if TYPE_CHECKING:
@@ -69,6 +69,28 @@ def lights_formula(
         if way is Plain:
             holds.append(components[0] >= tiny * FAINT)
     return _formula(recorder, [*outputs, *exponents], holds)
+
+
+def bounds_formula(
+    program: Program,
+    dtype: str,
+    forms: Mapping[Raw, str],
+    limits: Mapping[str, Limits],
+    axes: Mapping[str, frozenset[int]] = NO_AXES,
+) -> Formula:
+    """Return the formula of what `Bounds` reads at every end, four numbers in turn."""
+    recorder = Recorder(np.dtype(dtype))
+    leaves = Leaves(recorder, forms, limits, polynomials=True, axes=axes)
+    found = walk(program, leaves.of(program), Bounds(leaves.primitives, slack_of(dtype)))
+    results = [n for reading in program.readings.values() for n in found[reading.light][0]]
+    holds = [_finite(results, recorder.dtype)]
+    holds += [total >= np.finfo(recorder.dtype).tiny * FAINT for total in results[::4]]
+    return _formula(recorder, results, holds)
+
+
+def slack_of(dtype: str) -> float:
+    """Return what bounds give away for roundings in some precision."""
+    return float(256.0 * np.finfo(dtype).eps)
 
 
 def matrix_formula(

@@ -8,6 +8,7 @@ from typing import TypeAlias
 
 from optipath.kernels import emission, filters, rotation
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
+from optipath.kernels.bounds import Boosts, Bounds, boosted, ratio_bounds
 from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
 from optipath.kernels.circular import cosine, sine, without_rounding
 from optipath.kernels.compensated import (
@@ -96,7 +97,7 @@ TRANSMISSION = _family(
     amplitude=_fresnel(_REFRACTED, "amplitude", amplitude_transmission),
     textbook=_fresnel(_REFRACTED, "textbook", textbook_transmission),
 )
-Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers
+Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers | Bounds
 
 METHODS = tuple(REFLECTION.methods)
 
@@ -140,6 +141,8 @@ __all__ = [
     "TURN",
     "TURN_BACK",
     "UNPOLARIZED",
+    "Boosts",
+    "Bounds",
     "Carried",
     "Components",
     "DoubleDouble",
@@ -154,8 +157,10 @@ __all__ = [
     "Structure",
     "Way",
     "add",
+    "boosted",
     "carry",
     "cosine",
+    "ratio_bounds",
     "sine",
     "stokes_of",
     "turn_linear",

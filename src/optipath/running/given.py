@@ -39,7 +39,7 @@ class Given(NamedTuple):
     numbers: Mapping[Raw, Any]
     batch: tuple[int, ...]
     before: Given | None = None
-    where: tuple[int | slice, ...] = ()
+    where: tuple[Any, ...] = ()
 
     @property
     def paths(self) -> int:
@@ -52,8 +52,8 @@ class Given(NamedTuple):
             return array
         return sliced(self.before.cut(array), self.before.batch, self.where)
 
-    def part(self, where: tuple[int | slice, ...]) -> Given:
-        """Return a part of what is given."""
+    def part(self, where: tuple[Any, ...]) -> Given:
+        """Return a part of what is given: an index for each axis, or a mask of the paths."""
         numbers = {
             raw: sliced(n, self.batch, where) if isinstance(n, np.ndarray) else n
             for raw, n in self.numbers.items()

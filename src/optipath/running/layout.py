@@ -5,10 +5,10 @@ from __future__ import annotations
 from math import prod
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
-
-    import numpy as np
 
     Array = np.ndarray[Any, Any]
 
@@ -35,7 +35,6 @@ class Layout:
 
     Examples
     --------
-    >>> import numpy as np
     >>> layout = Layout((4, 3, 2), {"a": np.ones((4, 1, 1)), "b": np.ones((3, 2))})
     >>> layout.shape, layout.axes["b"]
     ((4, 6), frozenset({1}))
@@ -96,15 +95,18 @@ class Layout:
         return array.reshape(lengths)
 
 
-def sliced(array: Array, batch: tuple[int, ...], where: tuple[int | slice, ...]) -> Array:
+def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Array:
     """Return what belongs to a part of the batch, still without the axes along which it is one.
+
+    The part is an index for each axis, or a mask of the paths in it.
 
     Examples
     --------
-    >>> import numpy as np
     >>> sliced(np.ones((3, 1)), (3, 5), (slice(0, 2), slice(1, 4))).shape
     (2, 1)
     """
+    if where and not isinstance(where[0], (int, slice)):
+        return np.broadcast_to(array, batch)[where]
     shape = (1,) * (len(batch) - array.ndim) + array.shape
     index: list[Any] = []
     for axis, at in enumerate(where):

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.faint import FAINT, folded, is_faint
-from optipath.kernels import FLOAT, NUMPY, Jones, Linear, Plain, Scaled
+from optipath.formulas import slack_of
+from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
 from optipath.walk import walk
 
@@ -101,6 +102,26 @@ class Stepwise:
         lights = self._walk(leaves, self._ways[Linear], emitted)
         stokes = _stack(lights[reading.light][0], (4, *given.batch), reading, self.dtype)
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
+
+    def bounds(self, given: Given) -> list[np.ndarray[Any, Any]]:
+        """Return what `Bounds` reads at every end, shape (4, ...).
+
+        Where light is too faint to tell, it is bounded by nothing.
+        """
+        way = Bounds(NUMPY, slack_of(self.dtype.name))
+        found = self._walk(self._leaves(given), way)
+        read = []
+        for reading in self.program.readings.values():
+            parts = np.empty((4, *given.batch), self.dtype)
+            for row, part in enumerate(found[reading.light][0]):
+                parts[row] = part
+            faint = ~(parts[0] >= np.finfo(self.dtype).tiny * FAINT) | ~np.all(
+                np.isfinite(parts), axis=0
+            )
+            parts[1] = np.where(faint, 0.0, parts[1])
+            parts[2] = np.where(faint, np.inf, parts[2])
+            read.append(parts)
+        return read
 
     def _stacked(self, leaves: Sequence[Any], way: Way, batch: tuple[int, ...]) -> list[Any]:
         lights = self._walk(leaves, way)

@@ -1,0 +1,101 @@
+"""Certificate: how far an intensity can be from what it would be without polarisation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ParameterError
+from optipath.kernels import NUMPY, Boosts, boosted, ratio_bounds
+from optipath.shapes import check_broadcast
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """Bounds of the true intensity over that of the scalar model, for each path of a batch.
+
+    Attributes
+    ----------
+    scalar : ndarray, shape (...)
+        The intensity without polarisation: each element dims light by its mean.
+    lower, upper : ndarray, shape (...)
+        The true intensity is within ``lower * scalar .. upper * scalar``.
+    """
+
+    scalar: npt.NDArray[Any]
+    lower: npt.NDArray[Any]
+    upper: npt.NDArray[Any]
+
+    @property
+    def error(self) -> npt.NDArray[Any]:
+        """The largest error that the scalar model can have, as a share of either intensity."""
+        with np.errstate(divide="ignore"):
+            return np.maximum(1.0 / self.lower - 1.0, self.upper - 1.0)
+
+    @property
+    def width(self) -> npt.NDArray[Any]:
+        """The largest error of any model that drops components, as a share of the intensity."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(self.lower > 0.0, self.upper / self.lower - 1.0, np.inf)
+
+    def error_of(self, model: str) -> npt.NDArray[Any]:
+        """Return the largest error of a model by name."""
+        return self.error if model == "scalar" else self.width
+
+
+def intensity_bounds(
+    source_dop: npt.ArrayLike, diattenuations: Sequence[npt.ArrayLike]
+) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    """Return bounds of the true intensity of a chain over that without polarisation.
+
+    With u = artanh(source DoP), d_i = artanh(diattenuation of element i), it is
+    cosh(eta) / (cosh u prod cosh d_i), where max(0, 2 max - sum) <= eta <= sum over {u, d_i}:
+    the tightest bounds that can be had without knowing how the elements stand to each other.
+    They hold for elements that do not depolarise.
+
+    Parameters
+    ----------
+    source_dop : array_like, shape (...)
+        The degree of polarisation of the source, 0 to 1.
+    diattenuations : sequence of array_like, shape (...)
+        (Fs - Fp) / (Fs + Fp) of each element, -1 to 1, such as B / A of a reflection.
+
+    Returns
+    -------
+    lower, upper : ndarray, shape (...)
+
+    Raises
+    ------
+    ParameterError
+        If a number is out of its range.
+
+    Examples
+    --------
+    Unpolarised light on two polarisers passes at most twice as often as on two grey filters:
+
+    >>> lower, upper = intensity_bounds(0.0, [1.0, 1.0])
+    >>> print(lower, upper)
+    0.0 2.0
+    """
+    names = ["source_dop", *(f"diattenuations[{i}]" for i in range(len(diattenuations)))]
+    numbers = [np.asarray(n, dtype=np.float64) for n in (source_dop, *diattenuations)]
+    faults = [
+        f"{name} must be within {low} .. 1, not {number[~inside].ravel()[0]}"
+        for name, number, low in zip(names, numbers, [0, *[-1] * len(diattenuations)], strict=True)
+        if not np.all(inside := (low <= number) & (number <= 1.0))
+    ]
+    if faults:
+        raise ParameterError(*faults)
+    check_broadcast({name: number.shape for name, number in zip(names, numbers, strict=True)})
+    first, *others = map(np.abs, numbers)
+    boosts = reduce(lambda found, t: boosted(NUMPY, found, t), others, Boosts(first))
+    lower, upper = ratio_bounds(NUMPY, boosts)
+    return np.asarray(lower), np.asarray(upper)

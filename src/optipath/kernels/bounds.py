@@ -1,0 +1,186 @@
+"""Bounds: how far the intensity of light may be from what no polarisation would leave of it.
+
+With u = artanh(DoP of the source) and d_i = artanh(diattenuation of element i), the intensity
+behind a chain of elements that do not depolarise is that without polarisation, times
+cosh(eta) / (cosh u prod cosh d_i), where max(0, 2 max - sum) <= eta <= sum over {u, d_i}: each
+element is a boost of the Stokes vector (Barakat, J. Opt. Soc. Am. 53, 1963), and boosts of
+unknown directions add up like hyperbolic lengths. The products below are these terms without
+the artanh, so that a perfect polariser is a number like any other.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.kernels.carried import Components
+    from optipath.kernels.primitives import Primitives
+    from optipath.kernels.structures import Numbers, Structure
+
+
+class Boosts(NamedTuple):
+    """What is known of several boosts of the tangents hyperbolic t_i.
+
+    Attributes
+    ----------
+    most : float
+        The largest t_i.
+    more, less : float
+        The products of 1 + t_i and of 1 - t_i over all others.
+    """
+
+    most: Any
+    more: Any = 1.0
+    less: Any = 1.0
+
+
+def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
+    """Return the boosts with one more.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> boosted(FLOAT, Boosts(0.5), 0.25)
+    Boosts(most=0.5, more=1.25, less=0.75)
+    """
+    most, other = xp.maximum(boosts.most, t), xp.minimum(boosts.most, t)
+    return Boosts(most, boosts.more * (1.0 + other), boosts.less * (1.0 - other))
+
+
+def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
+    """Return the least and the largest ratio of the true intensity to that of no polarisation.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> ratio_bounds(FLOAT, Boosts(0.5, 1.5, 0.5))
+    (0.75, 1.25)
+    """
+    most, more, less = boosts
+    upper = 0.5 * ((1.0 + most) * more + (1.0 - most) * less)
+    opposed = 0.5 * ((1.0 + most) * less + (1.0 - most) * more)
+    # All others together may undo the largest, unless it is more than they are.
+    undone = xp.sqrt((1.0 - most) * (1.0 + most) * more * less)
+    return xp.where(most * (more + less) >= more - less, opposed, undone), upper
+
+
+def dop_bound(boosts: Boosts) -> Any:
+    """Return the largest degree of polarisation that boosts can give, or add up to.
+
+    Examples
+    --------
+    >>> dop_bound(Boosts(0.5, 1.5, 0.5))
+    0.8
+    """
+    more, less = (1.0 + boosts.most) * boosts.more, (1.0 - boosts.most) * boosts.less
+    return (more - less) / (more + less)
+
+
+class Bounded(NamedTuple):
+    """Light of which nothing is known but its intensity without polarisation, and bounds.
+
+    Attributes
+    ----------
+    total : float
+        The intensity that no polarisation would leave.
+    lower, upper : float
+        Bounds of the ratio of the true intensity to it, when the boosts began.
+    boosts : Boosts
+        What has happened since.
+    """
+
+    total: Any
+    lower: Any
+    upper: Any
+    boosts: Boosts
+
+
+class Bounds:
+    """The way of intensities without polarisation, with bounds of what polarisation does.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    slack : float, optional
+        What is given away for roundings.
+
+    Examples
+    --------
+    >>> from optipath.kernels import BLOCK, FLOAT
+    >>> way, half = Bounds(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)
+    >>> light = way.act(BLOCK, half, way.emit((1.0, 0.0, 0.0, 0.0)))
+    >>> way.read(way.act(BLOCK, half, light))
+    ((0.25, 0.75, 1.25, 0.8), 0)
+    """
+
+    def __init__(self, xp: Primitives, slack: float = 2.0**-44) -> None:
+        self.xp = xp
+        self.slack = slack
+
+    def emit(self, stokes: Components, count: int = 1) -> Bounded:
+        """Return the state of emitted light."""
+        del count
+        s0, *rest = stokes
+        return Bounded(s0, 1.0, 1.0, Boosts(self._share(rest, s0)))
+
+    def act(
+        self, structure: Structure, numbers: Numbers, state: Bounded, count: int = 1
+    ) -> Bounded:
+        """Return the state behind an element."""
+        del count
+        rows = structure.rows(self.xp, numbers)
+        mean, *first = rows[0]
+        diattenuation = self._share(first, mean)
+        total, lower, upper, boosts = state
+        after = boosted(self.xp, boosts, diattenuation)
+        if structure.jones is not None:
+            return Bounded(mean * total, lower, upper, after)
+        # What may depolarise is no boost. The intensity behind it is bounded as if it were, and
+        # its light by what the matrix can do at most.
+        least, most = ratio_bounds(self.xp, after)
+        before = dop_bound(boosts)
+        polarizance = self._share([row[0] for row in rows[1:]], mean)
+        kept = self._share([entry for row in rows[1:] for entry in row[1:]], mean)
+        left = 1.0 - diattenuation * before
+        dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
+        dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
+        return Bounded(mean * total, lower * least, upper * most, Boosts(dop))
+
+    def add(self, first: Bounded, second: Bounded) -> Bounded:
+        """Return the state of two lights together, of which the more polarised is counted."""
+        xp, sums, dop = self.xp, [0.0, 0.0, 0.0], []
+        for light in (first, second):
+            least, most = ratio_bounds(xp, light.boosts)
+            shares = 1.0, light.lower * least, light.upper * most
+            sums = [one + light.total * share for one, share in zip(sums, shares, strict=True)]
+            dop.append(dop_bound(light.boosts))
+        total, lower, upper = sums
+        lit = xp.where(total > 0.0, total, 1.0)
+        lower, upper = (xp.where(total > 0.0, part / lit, 1.0) for part in (lower, upper))
+        return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)))
+
+    def read(self, state: Bounded, count: int = 1) -> tuple[Components, Any]:
+        """Return the intensity without polarisation, the bounds, and that of the DoP."""
+        del count
+        least, most = ratio_bounds(self.xp, state.boosts)
+        lower = state.lower * least * (1.0 - self.slack)
+        upper = state.upper * most * (1.0 + self.slack)
+        return (state.total, lower, upper, dop_bound(state.boosts)), 0
+
+    def _share(self, parts: Sequence[Any], whole: Any) -> Any:
+        """Return the length of a vector over a number, at most 1; 0 where the number is 0."""
+        xp = self.xp
+        parts = [part for part in parts if not (isinstance(part, float) and part == 0.0)]
+        if not parts:
+            return 0.0
+        length = xp.absolute(parts[0])
+        if len(parts) > 1:
+            largest = reduce(xp.maximum, map(xp.absolute, parts))
+            unit = xp.where(largest > 0.0, largest, 1.0)
+            length = largest * xp.sqrt(sum((part / unit) * (part / unit) for part in parts))
+        there = whole > 0.0
+        return xp.where(there, xp.minimum(length / xp.where(there, whole, 1.0), 1.0), 0.0)
