@@ -41,6 +41,7 @@ ROOMS = [
     "explanation",
     "plan",
     "composer",
+    "polarization_matters",
     "cases",
     "binding",
     "preset_format",

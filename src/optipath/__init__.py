@@ -55,6 +55,7 @@ from optipath.mueller import Mueller
 from optipath.parameters import Parameter
 from optipath.path_graph import PathGraph
 from optipath.plan import Plan
+from optipath.polarization_matters import Polarization, polarization
 from optipath.presets import load_preset, preset_names
 
 __all__ = [
@@ -91,6 +92,7 @@ __all__ = [
     "PathGraph",
     "Plan",
     "PlaneOfIncidence",
+    "Polarization",
     "Polarizer",
     "PresetError",
     "Real",
@@ -106,5 +108,6 @@ __all__ = [
     "intensity_bounds",
     "load_preset",
     "plane_of_incidence",
+    "polarization",
     "preset_names",
 ]

@@ -230,4 +230,5 @@ OutsideIndex: TypeAlias = Annotated[
 ]
 StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
-Reads: TypeAlias = Annotated[str, Choice("reading", words=("stokes", "linear", "intensity"))]
+READINGS = ("stokes", "linear", "intensity")
+Reads: TypeAlias = Annotated[str, Choice("reading", words=READINGS)]

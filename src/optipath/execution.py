@@ -19,13 +19,14 @@ from optipath.running.many import Many, known_arrays
 from optipath.running.pieces import pieces
 from optipath.running.single import Single
 from optipath.running.stepwise import Stepwise, way_of
-from optipath.views import ONE
+from optipath.views import MANY, ONE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from optipath.formulas import Formula
     from optipath.inputs import Inputs
+    from optipath.kernels import Way
     from optipath.program import Program, Reading
     from optipath.reduction import Reduction
     from optipath.running.many import Results
@@ -307,6 +308,47 @@ class Execution:
                 f"'{self.engine}'; compose with engine='jax' or 'auto'"
             )
         return traced or self.engine == "jax"
+
+    def operations(self) -> dict[str, dict[str, int]] | None:
+        """Return how many operations a path takes, as it is run and as it stands.
+
+        None for what cannot be compiled, and so not counted.
+        """
+        if not self.compilable or len(self.whole.steps) > self.longest:
+            return None
+        limits, kind = self.inputs.limits, self.dtype.name
+
+        def counted(program: Program, way: type[Way], *, as_it_stands: bool) -> dict[str, int]:
+            forms = dict.fromkeys((v.raw for v in program.leaves if not v.known), MANY)
+            formula = lights_formula(
+                program, way, kind, forms, limits, polynomials=False, as_it_stands=as_it_stands
+            )
+            return formula.operations
+
+        return {
+            "plan": counted(self.program, self.way, as_it_stands=self.as_it_stands),
+            "full": counted(self.whole, self.way, as_it_stands=True),
+        }
+
+    def evaluations(self, parameters: Mapping[str, Any]) -> dict[str, int]:
+        """Return how often the numbers of each step are computed for a batch."""
+        given = self.sorter.sort(parameters)
+        self.inputs.resolve(parameters)
+        if self.as_it_stands:
+            return {s.label: given.paths for s in self.program.steps if s.evaluation is not None}
+        known = self._known_arrays
+        found: dict[str, int] = {}
+        for step in self.program.steps:
+            if step.evaluation is None:
+                continue
+            shapes = []
+            evaluation = self.program.evaluations[step.evaluation]
+            for leaf in evaluation.arguments:
+                view = self.program.leaves[leaf]
+                array: Any = known.get(f".{leaf}") if view.known else given.numbers.get(view.raw)
+                shapes.append(np.shape(array))
+            found[step.label] = int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+        return found
 
     @cached_property
     def _has_traced(self) -> bool:

@@ -1,90 +1,190 @@
-"""The explanation of a plan, in words."""
+"""The explanation of a plan: what it does, what it leaves out, and why."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from dataclasses import asdict, dataclass, field
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from optipath.inputs import Inputs
-    from optipath.program import Program, Step
+    from optipath.program import Program
+    from optipath.reduction import Reduction
 
 _SHOWN = 40
-_READS = {4: "S0, S1, S2, S3", 3: "S0, S1, S2", 1: "S0"}
+_FEW = 8
 
 
-def explanation(program: Program, inputs: Inputs, manner: str, notes: tuple[str, ...]) -> str:
-    """Return what a program does, in the order in which it does it.
+@dataclass(frozen=True)
+class ExplainedStep:
+    """A step in words.
 
-    Parameters
+    Attributes
     ----------
-    program : Program
-        The steps.
-    inputs : Inputs
-        The parameters.
-    manner : str
-        How the steps are run, for the first line.
-    notes : tuple of str
-        What else a reader should know, a line each.
+    light : int
+        The light that it makes.
+    label : str
+        Where it happens.
+    action : str
+        What is done.
+    live : tuple of str
+        The components of the light that are alive.
     """
-    counts = [
-        _count(len(program.sources), "source"),
-        _count(len(program.detectors), "detector"),
-        *([_count(len(program.dumps), "dump")] if program.dumps else []),
-        _count(len(program.steps), "step"),
-    ]
-    readings = program.readings.items()
-    return "\n".join(
-        [
-            f"{', '.join(counts)}; {manner}",
-            "",
-            *_step_lines(program),
-            "",
-            *(f"{name} reads {_READS[r.components]} of light {r.light}" for name, r in readings),
-            *notes,
-            *_parameter_lines(inputs),
+
+    light: int
+    label: str
+    action: str
+    live: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """What a plan does, step by step.
+
+    Attributes
+    ----------
+    counts : mapping of str to int
+        How many sources, detectors, dumps and steps there are.
+    manner : mapping of str to str
+        The method, model, engine, precision, and how light is composed.
+    reason : str
+        Why this model.
+    steps : tuple of ExplainedStep
+        The steps in order.
+    reads : mapping of str to tuple of str
+        The components that each end reads.
+    light_at : mapping of str to int
+        The light that each end reads.
+    folded : tuple of str
+        What was merged, left out, or made cheaper.
+    operations : mapping of str to mapping of str to int, optional
+        How many operations a path takes, ``"plan"``, and how many the full composition takes,
+        ``"full"``; by their sort.
+    certificate : mapping of str to Any, optional
+        Bounds of the intensity, for the values that are known.
+    tolerance : mapping of str to Any, optional
+        What is taken in place of the exact model, and when.
+    notes : tuple of str
+        What else a reader should know.
+    parameters : tuple of str
+        The parameters, a sentence each.
+    """
+
+    counts: Mapping[str, int]
+    manner: Mapping[str, str]
+    reason: str
+    steps: tuple[ExplainedStep, ...]
+    reads: Mapping[str, tuple[str, ...]]
+    light_at: Mapping[str, int]
+    folded: tuple[str, ...] = ()
+    operations: Mapping[str, Mapping[str, int]] | None = None
+    certificate: Mapping[str, Any] | None = None
+    tolerance: Mapping[str, Any] | None = None
+    notes: tuple[str, ...] = ()
+    parameters: tuple[str, ...] = field(default=())
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all of it as JSON can hold it."""
+        return asdict(self)
+
+    def __str__(self) -> str:
+        counted = [_count(n, what) for what, n in self.counts.items() if n or what != "dump"]
+        manner = self.manner
+        words = [f"{name} {manner[name]}" for name in ("method", "model", "engine")]
+        words.append(manner["dtype"])
+        if manner["composing"] == "jones":
+            words.append("composing Jones columns")
+        reads = [
+            f"{name} reads {', '.join(self.reads[name])} of light {light}"
+            for name, light in self.light_at.items()
         ]
+        lines = [
+            f"{', '.join(counted)}; {', '.join(words)}",
+            f"model {manner['model']}: {self.reason}",
+            "",
+            *_step_lines(self.steps),
+            "",
+            *reads,
+            *self._cost(),
+            *self._bounds(),
+            *_shortened([f"folded: {sentence}" for sentence in self.folded]),
+            *self.notes,
+            *self.parameters,
+        ]
+        return "\n".join(lines)
+
+    def _cost(self) -> list[str]:
+        if self.operations is None:
+            return []
+        plan, full = (_operations(self.operations[name]) for name in ("plan", "full"))
+        return [f"operations per path: {plan}; of the full 4x4 composition: {full}"]
+
+    def _bounds(self) -> list[str]:
+        lines = []
+        if self.tolerance is not None:
+            lines.append(f"tolerance {self.tolerance['most']:g}: {self.tolerance['text']}")
+        if self.certificate is not None:
+            lines.append(f"certificate: {self.certificate['text']}")
+        return lines
+
+
+def steps_of(reduction: Reduction) -> tuple[ExplainedStep, ...]:
+    """Return the steps of a reduced program in words."""
+    program = reduction.program
+    return tuple(
+        ExplainedStep(light, step.label, _action(program, light), tuple(f"S{i}" for i in live))
+        for light, (step, live) in enumerate(zip(program.steps, reduction.live, strict=True))
     )
 
 
-def _parameter_lines(inputs: Inputs) -> list[str]:
+def parameter_lines(inputs: Inputs) -> tuple[str, ...]:
+    """Return the parameters of a plan, a sentence each."""
     bound = [f"parameter {p.name} = {p.text(p.default)}" for p in inputs.bound.values()]
-    return bound + [
+    opened = [
         f"parameter {p.name}: "
         + (p.default_text() if p.default is None else f"open, {p.default_text()} if not given")
         for p in inputs.open.values()
     ]
+    return (*bound, *opened)
 
 
-def _step_lines(program: Program) -> list[str]:
-    rows = [(str(light), step.label, _action(program, step)) for light, step in _shown(program)]
-    widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
+def _operations(counts: Mapping[str, int]) -> str:
+    parts = [f"{counts[name]} {name}" for name in counts if name != "all" and counts[name]]
+    return f"{counts['all']}" + (f" ({', '.join(parts)})" if parts else "")
+
+
+def _shortened(lines: Sequence[str]) -> list[str]:
+    if len(lines) <= _FEW:
+        return list(lines)
+    return [*lines[: _FEW - 1], f"folded: {len(lines) - _FEW + 1} more like these"]
+
+
+def _step_lines(steps: Sequence[ExplainedStep]) -> list[str]:
+    shown = steps
+    if len(steps) > _SHOWN:
+        shown = (*steps[: _SHOWN // 2], *steps[-_SHOWN // 2 :])
+    rows = [(str(s.light), s.label, " ".join(s.live), s.action) for s in shown]
+    widths = [max((len(row[column]) for row in rows), default=0) for column in range(3)]
     lines = [
-        f"{light.rjust(widths[0])}  {label.ljust(widths[1])}  {action}"
-        for light, label, action in rows
+        f"{light.rjust(widths[0])}  {label.ljust(widths[1])}  {live.ljust(widths[2])}  {action}"
+        for light, label, live, action in rows
     ]
-    left_out = len(program.steps) - len(rows)
-    if left_out:
-        lines.insert(_SHOWN // 2, f"... {left_out} more steps ...")
+    if len(shown) < len(steps):
+        lines.insert(_SHOWN // 2, f"... {len(steps) - len(shown)} more steps ...")
     return lines
 
 
-def _shown(program: Program) -> list[tuple[int, Step]]:
-    numbered = list(enumerate(program.steps))
-    if len(numbered) <= _SHOWN:
-        return numbered
-    return numbered[: _SHOWN // 2] + numbered[-_SHOWN // 2 :]
-
-
-def _action(program: Program, step: Step) -> str:
+def _action(program: Program, light: int) -> str:
+    step = program.steps[light]
     inputs = " + ".join(f"light {light}" for light in step.inputs)
     if step.evaluation is None:
         return f"sum of {inputs}"
     evaluation = program.evaluations[step.evaluation]
-    structure = evaluation.kernel.structure
-    if structure is None:
+    if evaluation.kernel.structure is None:
         return f"emits {evaluation.kernel.name}"
     where = ", where it is there" if evaluation.presence is not None else ""
-    return f"{evaluation.kernel.name} ({structure.name}) of {inputs}{where}"
+    return f"{evaluation.kernel.name} of {inputs}{where}"
 
 
 def _count(number: int, what: str) -> str:

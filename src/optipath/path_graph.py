@@ -12,7 +12,7 @@ from optipath.binding import bind
 from optipath.cases import Case
 from optipath.composer import Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
-from optipath.elements import Element
+from optipath.elements import Detector, Element
 from optipath.errors import PathError
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
@@ -253,6 +253,35 @@ class PathGraph:
         """
         path = PathGraph(self.description, self.cases)
         path._graph = bind(self._graph, values)
+        return path
+
+    def reading(self, reads: str) -> PathGraph:
+        """Return a copy of the path whose detectors all read this, and no more.
+
+        Parameters
+        ----------
+        reads : {"stokes", "linear", "intensity"}
+            As `Detector` takes it.
+
+        Raises
+        ------
+        PathError
+            If there is no such reading.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> op.load_preset("malus").reading("intensity").trace().stokes
+        array([0.375,   nan,   nan,   nan])
+        """
+        path = PathGraph(self.description, self.cases)
+        path._graph = self._graph.copy()
+        for name, element in self._graph.nodes(data="element"):
+            if isinstance(element, Detector):
+                detector = Detector(reads)
+                if faults := detector.faults(name):
+                    raise PathError(*faults)
+                path._graph.nodes[name]["element"] = detector
         return path
 
     def to_toml(self) -> str:

@@ -6,9 +6,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from optipath.engines import batches
 from optipath.errors import ParameterError, did_you_mean
-from optipath.explanation import explanation
+from optipath.explanation import Explanation, parameter_lines, steps_of
 from optipath.light import Light
 from optipath.mueller import Mueller
 
@@ -23,6 +25,9 @@ if TYPE_CHECKING:
     from optipath.program import Program
     from optipath.reduction import Reduction, Tolerance
 
+
+_FEW = 8
+"""Of how many ends the bounds are written down."""
 
 _LARGE = 1 << 30
 """A batch for which any engine is worth its while."""
@@ -129,8 +134,8 @@ class Plan:
             several detectors.
         """
         name, place, frame = self._detector
-        if self._approximation:
-            return self._in_frames(self._approximation.lights(parameters))[name]
+        if self.instead is not None:
+            return self.run_all(**parameters)[name]
         execution = self._execution
         usual = execution.single.usual(parameters)
         if usual is not None:
@@ -237,7 +242,7 @@ class Plan:
         >>> gold = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
         >>> found = op.load_preset("npgr026").compose().certificate(**gold, phi=[0.2, 1.2])
         >>> print(found.error.round(5))
-        [0.00018 0.00259]
+        [3.00e-05 1.27e-03]
         """
         ends = tuple(self.whole.readings if detector else self.whole.detectors)
         end = self._only("detector", ends, "certificate(detector)", detector)
@@ -252,22 +257,112 @@ class Plan:
         >>> import optipath as op
         >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
         >>> print(plan.explain().splitlines()[0])
-        1 source, 1 detector, 5 steps; method stable, model full, engine numpy, float64
+        1 source, 1 detector, 5 steps; method stable, model linear, engine numpy, float64
         """
-        manner = f"method {self.method}, model {self.model}, engine {self.engine}, {self.dtype}" + (
-            ", composing Jones columns" if self.composing == "jones" else ""
+        return str(self.explanation())
+
+    def explanation(self) -> Explanation:
+        """Return the plan explained, part by part, as `explain` writes it down."""
+        ends = self.program.readings
+        names = {"detector": self.program.detectors, "dump": self.program.dumps}
+        counts = {"source": len(self.program.sources)}
+        counts |= {what: len(found) for what, found in names.items()}
+        return Explanation(
+            counts={**counts, "step": len(self.program.steps)},
+            manner={
+                "method": self.method,
+                "model": self.model,
+                "engine": self.engine,
+                "dtype": self.dtype,
+                "composing": self.composing,
+            },
+            reason=self._why(),
+            steps=steps_of(self.reduction),
+            reads={n: tuple(f"S{i}" for i in range(end.components)) for n, end in ends.items()},
+            light_at={name: end.light for name, end in ends.items()},
+            folded=self.reduction.folded,
+            operations=self._execution.operations(),
+            certificate=self._certified(),
+            tolerance=self._tolerated(),
+            notes=tuple(self._notes()),
+            parameters=parameter_lines(self.inputs),
         )
-        notes = [f"{port} has no link: its light leaves the path" for port in self.outlets]
+
+    def _why(self) -> str:
+        if self.instead is None:
+            return self.reduction.reason
+        exact = self.reduction
+        return f"where its certificate allows it; exact is '{exact.model}': {exact.reason}"
+
+    def _tolerated(self) -> dict[str, Any] | None:
+        if self.tolerance is None:
+            return None
+        exact = self.reduction.model
+        if self.instead is not None:
+            text = (
+                f"model {self.instead.model} where its certificate is within it, {exact} elsewhere"
+            )
+        elif self.model == "scalar":
+            text = "not needed, the scalar model is exact"
+        else:
+            text = "not used, since certificates are for intensities, and more is read"
+        return {"most": self.tolerance, "model": self.model, "otherwise": exact, "text": text}
+
+    def _certified(self) -> dict[str, Any] | None:
+        """Return the bounds for the values that are known, and defaults for others."""
+        opened = self.inputs.open.values()
+        missing = [parameter.name for parameter in opened if parameter.default is None]
+        if missing:
+            return {"text": f"depends on {', '.join(missing)}; see plan.certificate(...)"}
+        execution = self._execution
+        found = execution.certificates(execution.given({}), {})
+        bounds = {
+            name: {"lower": float(np.min(one.lower)), "upper": float(np.max(one.upper))}
+            for name, one in found.items()
+        }
+        if len(bounds) > _FEW:
+            return {"bounds": bounds, "text": f"for {len(bounds)} ends; see plan.certificate(...)"}
+        texts = [
+            f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
+            for name, each in bounds.items()
+        ]
+        at = ", for the defaults" if self.inputs.open else ""
+        return {"bounds": bounds, "text": "; ".join(texts) + at}
+
+    def _notes(self) -> Iterator[str]:
+        yield from (f"{port} has no link: its light leaves the path" for port in self.outlets)
         if self.engine_for(_LARGE) != self.engine:
-            longest = self._execution.longest
-            notes.append(
-                f"all batches are run step by step: paths of at most {longest} steps are "
-                f"compiled, in float64 and float32, if all elements compute with xp alone"
+            yield (
+                f"all batches are run step by step: paths of at most {self._execution.longest} "
+                f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
             )
         elif self.chosen != "jax":
-            notes.append(batches(self.chosen))
-        notes += [f"{port} feeds several links: each takes all its light" for port in self.copied]
-        return explanation(self.program, self.inputs, manner, tuple(notes))
+            yield batches(self.chosen)
+        yield from (f"{port} feeds several links: each takes all its light" for port in self.copied)
+
+    def evaluations(self, /, **parameters: Any) -> dict[str, int]:
+        """Return how often each step's numbers are computed for a batch.
+
+        An element is evaluated only along those axes of a batch on which it depends: an
+        interface that sees one of the two axes of a grid once for each value on it, and one
+        without open values once.
+
+        Raises
+        ------
+        ParameterError
+            As `run`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import optipath as op
+        >>> plan = op.load_preset("npgr026").compose()
+        >>> delta, phi = np.linspace(0, 1, 1000)[:, np.newaxis], np.linspace(0, 1, 1000)
+        >>> found = plan.evaluations(delta=delta, phi=phi)
+        >>> found["X1.reflected"], found["X2.reflected"]
+        (1000, 1000)
+        """
+        return self._execution.evaluations(parameters)
 
     @cached_property
     def _detector(self) -> tuple[str, int, Frame]:

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from optipath.program import Evaluation, Program
 
 
-def _itself(number: Any) -> Any:
+def itself(number: Any) -> Any:
+    """Return a number as it is."""
     return number
 
 
@@ -24,7 +25,7 @@ def walk(
     leaves: Sequence[Any],
     way: Way,
     emitted: Mapping[int, Components] | None = None,
-    number: Callable[[Any], Any] = _itself,
+    number: Callable[[Any], Any] = itself,
 ) -> dict[int, tuple[Components, Any]]:
     """Return the light of every reading, as four components and an exponent.
 

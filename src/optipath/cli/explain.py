@@ -13,10 +13,18 @@ from optipath.presets import load_preset
 
 
 def _explain(
-    preset: str, case: str | None, values: dict[str, Any], *, method: str, as_json: bool
+    preset: str,
+    case: str | None,
+    values: dict[str, Any],
+    *,
+    reads: str | None,
+    as_json: bool,
+    **options: Any,
 ) -> None:
-    text = Composer(method=method).compose(load_preset(preset, case=case, **values)).explain()
-    click.echo(json.dumps({"preset": preset, "plan": text.splitlines()}) if as_json else text)
+    path = load_preset(preset, case=case, **values)
+    path = path if reads is None else path.reading(reads)
+    found = Composer(**options).compose(path).explanation()
+    click.echo(json.dumps({"preset": preset, **found.as_dict()}) if as_json else str(found))
 
 
 explain = PresetGroup("explain", action=_explain, help="Explain the plan of a preset.")

@@ -14,6 +14,7 @@ from optipath.cli.accuracy import accuracy
 from optipath.cli.bench import bench
 from optipath.cli.chart import chart
 from optipath.cli.explain import explain
+from optipath.cli.polarization import polarization
 from optipath.cli.presets import presets
 from optipath.cli.run import run
 from optipath.cli.show import show
@@ -36,6 +37,7 @@ cli.add_command(presets)
 cli.add_command(show)
 cli.add_command(run)
 cli.add_command(explain)
+cli.add_command(polarization)
 cli.add_command(bench)
 cli.add_command(chart)
 cli.add_command(accuracy)

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from optipath.composer import CHOICES
+from optipath.domains import READINGS
 from optipath.errors import OptipathError, ParameterError, PresetError
 from optipath.kernels import METHODS
 from optipath.presets import load_preset, preset_names
@@ -22,6 +24,23 @@ METHOD = click.Option(
     default=METHODS[0],
     show_default=True,
     help="How Fresnel's equations are computed.",
+)
+MODEL = click.Option(
+    ["--model"],
+    type=click.Choice(CHOICES["model"]),
+    default="auto",
+    show_default=True,
+    help="What is carried along; by default the smallest that is exact.",
+)
+TOLERANCE = click.Option(
+    ["--tolerance"],
+    type=float,
+    help="How large the error of an intensity may be, such as 0.01; exact by default.",
+)
+READS = click.Option(
+    ["--reads"],
+    type=click.Choice(READINGS),
+    help="What all detectors read, in place of what the preset says.",
 )
 JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
 
@@ -41,7 +60,7 @@ class PresetGroup(click.Group):
         self,
         name: str,
         action: Callable[..., None],
-        options: Sequence[click.Option] = (METHOD, JSON),
+        options: Sequence[click.Option] = (METHOD, MODEL, TOLERANCE, READS, JSON),
         **keywords: Any,
     ) -> None:
         keywords.setdefault("subcommand_metavar", "PRESET [OPTIONS]")

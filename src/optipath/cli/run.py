@@ -52,10 +52,17 @@ class Result:
 
 
 def _run(
-    preset: str, case: str | None, values: dict[str, Any], *, method: str, as_json: bool
+    preset: str,
+    case: str | None,
+    values: dict[str, Any],
+    *,
+    reads: str | None,
+    as_json: bool,
+    **options: Any,
 ) -> None:
     path = load_preset(preset, case=case, **values)
-    plan = Composer(method=method).compose(path)
+    path = path if reads is None else path.reading(reads)
+    plan = Composer(**options).compose(path)
     result = Result(preset, case, path, plan, plan.run_all(), is_published_case=not values)
     if as_json:
         click.echo(json.dumps(_as_json(result)))

@@ -122,12 +122,8 @@ class Composer:
         if given is None:
             return []
         if isinstance(given, bool) or not isinstance(given, (int, float)) or not 0.0 < given < 1.0:
-            return [
-                (
-                    f"tolerance must be a number between 0 and 1, such as 0.01 for 1 %, not {given!r}; "
-                    f"leave it None for exact plans"
-                )
-            ]
+            allowed = "a number between 0 and 1, such as 0.01 for 1 %, or None for exact plans"
+            return [f"tolerance must be {allowed}, not {given!r}"]
         if self.model == "full" or self.composing == "jones":
             what = "model 'full'" if self.model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]

@@ -105,7 +105,7 @@ class _Folding:
         kernel, views = item.kernel.leaving_out(item.views, vanishes)
         kernel = kernel.never_less(views, lambda view: view.span)
         if kernel is not item.kernel:
-            self.notes.append(f"'{item.label}' is {kernel.name}")
+            self.notes.append(f"cheaper at '{item.label}': {kernel.name}")
         return replace(item, kernel=kernel, views=views)
 
     def _folded(self, items: list[Item]) -> list[Item]:
@@ -120,7 +120,7 @@ class _Folding:
 
     def _turned(self, first: Item, second: Item) -> list[Item]:
         """Return two turns as one, or as none if they undo each other."""
-        self.notes.append(f"the turns at '{first.label}' and '{second.label}' are one")
+        self.notes.append(f"the turns at {_quoted([first, second])} are one")
         views = [*_angles(first), *_angles(second)]
         numbers = [number_of(view) for view in views]
         known = sum(number for number in numbers if number is not None)
@@ -146,7 +146,7 @@ class _Folding:
                 run = []
                 found.append(item)
             elif constant.is_identity:
-                self.notes.append(f"'{item.label}' changes nothing")
+                self.notes.append(f"{item.kernel.name} at '{item.label}' changes nothing")
             elif run and (both := run[-1][1].then(constant)):
                 run[-1] = self._joined([run[-1][0], item], both), both
             else:
@@ -178,17 +178,22 @@ class _Folding:
 
     def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
         label = _label(items)
-        self.notes.append(f"'{label}' are constant, and one")
+        names = " and ".join(f"{item.kernel.name} at '{item.label}'" for item in items)
+        self.notes.append(f"constant, and multiplied: {names}")
         return Item(label, constant.kernel, tuple(map(View, constant.numbers)), None)
 
 
 def _label(items: Sequence[Item]) -> str:
     """Return the names of steps as one, the first and the last where they would be too long."""
-    whole = ", ".join(item.label for item in items)
+    whole = ", ".join(dict.fromkeys(item.label for item in items))
     if len(whole) <= _WORDS:
         return whole
     first, last = items[0].label, items[-1].label
     return f"{first.split(', ')[0].split(' .. ')[0]} .. {last.split(', ')[-1].split(' .. ')[-1]}"
+
+
+def _quoted(items: Sequence[Item]) -> str:
+    return " and ".join(dict.fromkeys(f"'{item.label}'" for item in items))
 
 
 def _is_turn(item: Item) -> bool:

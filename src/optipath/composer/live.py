@@ -51,7 +51,7 @@ class Live:
     def does_nothing(self, light: int) -> bool:
         """Tell whether a step leaves everything as it is that is alive."""
         rows, step = self.entries[light], self.program.steps[light]
-        if rows is None or len(step.inputs) != 1:
+        if rows is None or not step.inputs:
             return False
         (before,) = step.inputs
         return all(
@@ -87,14 +87,15 @@ class Live:
 
 
 def trim(live: Live) -> tuple[Program, list[str]]:
-    """Return a program without the steps that do nothing to what is alive, and their labels."""
+    """Return a program without the steps that do nothing to what is alive, and which they are."""
     old, builder = live.program, Builder()
     moved: list[int] = []
     left_out = []
     for light, step in enumerate(old.steps):
         inputs = tuple(moved[i] for i in step.inputs)
-        if live.does_nothing(light):
-            left_out.append(step.label)
+        if step.evaluation is not None and live.does_nothing(light):
+            kernel = old.parts(step.evaluation)[0]
+            left_out.append(f"{kernel.name} at '{step.label}'")
             moved.append(inputs[0])
         elif step.evaluation is None:
             moved.append(builder.sum(step.label, inputs))

@@ -47,7 +47,7 @@ def reduced(whole: Program, *, constants: bool) -> Reduction:
         folded += notes
         live = Live(program)
         program, left_out = trim(live)
-        folded += [f"'{label}' does nothing to what is alive" for label in left_out]
+        folded += [f"left out, since it changes nothing alive: {name}" for name in left_out]
         if len(program.steps) == before:
             break
     live = Live(program)

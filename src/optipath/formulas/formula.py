@@ -129,3 +129,15 @@ class Formula:
     def body(self) -> tuple[Symbol, ...]:
         """The operations on what differs from path to path."""
         return tuple(step for step in self.steps if not step.uniform)
+
+    @cached_property
+    def operations(self) -> dict[str, int]:
+        """How many operations there are, in all and of the dear sorts."""
+        counts = {"all": 0, "sqrt": 0, "divide": 0, "sin and cos": 0, "others": 0}
+        for step in self.steps:
+            name = step.operation
+            name = "sin and cos" if name in ("sin", "cos", "arctan2", "exp") else name
+            counts[name if name in counts else "others"] += 1
+        counts["all"] = sum(counts.values())
+        del counts["others"]
+        return counts

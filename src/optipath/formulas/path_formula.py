@@ -13,7 +13,7 @@ from optipath.formulas.formula import Formula
 from optipath.formulas.leaves import Leaves, Limits
 from optipath.formulas.recorder import Recorder
 from optipath.kernels import Bounds, Linear, Plain, Powers
-from optipath.walk import walk
+from optipath.walk import itself, walk
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -55,8 +55,7 @@ def lights_formula(
     carried: Way = way(xp)
     if way is Plain and program.for_powers is not None:
         program, carried = program.for_powers, Powers(xp, tiny * _SPARE)
-    numbers = {} if known is None else {"number": known}
-    found = walk(program, leaves.of(program), carried, **numbers)
+    found = walk(program, leaves.of(program), carried, number=known or itself)
     outputs: list[Any] = []
     exponents: list[Any] = []
     holds: list[Any] = []

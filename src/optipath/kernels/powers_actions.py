@@ -77,7 +77,7 @@ def rotation_powers(xp: Primitives) -> PowersAction:
 def block_powers(xp: Primitives) -> PowersAction:
     """Make the action of (Fs, Fp, ...), of which only these two are looked at."""
     del xp
-    return lambda numbers, powers, count: _passed(*numbers[:2], powers, count)
+    return lambda numbers, powers, count: _passed(numbers[0], numbers[1], powers, count)
 
 
 def fraction_powers(xp: Primitives) -> PowersAction:

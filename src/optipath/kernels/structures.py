@@ -61,6 +61,9 @@ class Structure:
     jones : callable, optional
         ``jones(primitives)`` makes ``act(numbers, columns) -> columns`` for two Jones
         columns; None for a shape that may depolarise.
+    unpolarising : callable, optional
+        ``unpolarising(numbers)`` gives those of an element that dims all light by the mean;
+        None for a shape that does so anyway.
     """
 
     name: str
@@ -69,6 +72,7 @@ class Structure:
     rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
     powers: Callable[[Primitives], PowersAction]
     jones: Callable[[Primitives], JonesAction] | None = None
+    unpolarising: Callable[[Numbers], Numbers] | None = None
 
     def made_for(self, primitives: Primitives) -> Action:
         """Return the action in terms of these primitives, made once and kept."""
@@ -137,6 +141,17 @@ def _block(xp: Primitives) -> Action:
         return *behind, across, *([products((C, s3), (-S, s2))] if count == 4 else [])
 
     return act
+
+
+def _grey_block(numbers: Numbers) -> Numbers:
+    Fs, Fp, _, C, S = numbers
+    mean = 0.5 * (Fs + Fp)
+    return mean, mean, 0.0, C, S
+
+
+def _grey_full(m: Numbers) -> Numbers:
+    rows = (m[0], 0.0, 0.0, 0.0), (0.0, *m[5:8]), (0.0, *m[9:12]), (0.0, *m[13:16])
+    return tuple(entry for row in rows for entry in row)
 
 
 def _block_of_powers(xp: Primitives) -> Action:
@@ -209,6 +224,7 @@ BLOCK = Structure(
     _block_rows,
     block_powers,
     block_jones,
+    _grey_block,
 )
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
 
@@ -220,6 +236,12 @@ POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, fr
 """(Fs d, Fp d, d): what acts along x and y over one denominator, and nothing of the phase."""
 
 FULL = Structure(
-    "full", tuple(float(i % 5 == 0) for i in range(16)), _full, _full_rows, full_powers
+    "full",
+    tuple(float(i % 5 == 0) for i in range(16)),
+    _full,
+    _full_rows,
+    full_powers,
+    None,
+    _grey_full,
 )
 """Sixteen numbers, row by row."""

@@ -106,7 +106,8 @@ def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Arra
     (2, 1)
     """
     if where and not isinstance(where[0], (int, slice)):
-        return np.broadcast_to(array, batch)[where]
+        found: Array = np.broadcast_to(array, batch)[where]
+        return found
     shape = (1,) * (len(batch) - array.ndim) + array.shape
     index: list[Any] = []
     for axis, at in enumerate(where):
@@ -114,7 +115,7 @@ def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Arra
             index.append(at)
         else:
             index.append(0 if isinstance(at, int) else slice(None))
-    found: Array = array.reshape(shape)[tuple(index)]
+    found = array.reshape(shape)[tuple(index)]
     return found
 
 

@@ -1,0 +1,152 @@
+"""Polarization: when it matters, how much, and which element brings it in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer import Composer
+from optipath.kernels import Kernel
+from optipath.program import Evaluation
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    import numpy.typing as npt
+
+    from optipath.certificate import Certificate
+    from optipath.composer.composer import Path
+    from optipath.kernels import Primitives
+    from optipath.plan import Plan
+    from optipath.program import Program
+
+
+@dataclass(frozen=True, eq=False)
+class Polarization:
+    """What polarisation does to the intensity at a detector, for each path of a batch.
+
+    Attributes
+    ----------
+    exact : ndarray, shape (...)
+        The intensity.
+    certificate : Certificate
+        The intensity of the scalar model, in which each element dims light by its mean, and
+        bounds of what polarisation can make of it.
+    elements : mapping of str to ndarray, shape (...)
+        For each element that polarises, the intensity that is there because it does, over that
+        of the scalar model; negative where light is missing for it. Elements act together,
+        so these need not add up to the difference.
+    """
+
+    exact: npt.NDArray[Any]
+    certificate: Certificate
+    elements: Mapping[str, npt.NDArray[Any]]
+
+    @property
+    def scalar(self) -> npt.NDArray[Any]:
+        """The intensity of the scalar model."""
+        return self.certificate.scalar
+
+    @property
+    def difference(self) -> npt.NDArray[Any]:
+        """The error of the scalar model, (exact - scalar) / scalar; 0 where both are dark."""
+        return _over(self.exact - self.scalar, self.scalar)
+
+    @property
+    def culprit(self) -> str:
+        """The element with the largest share on any path; empty where none polarises."""
+        largest = {n: np.max(np.abs(share), initial=0.0) for n, share in self.elements.items()}
+        found = max(largest, key=largest.__getitem__, default="")
+        return found if found and largest[found] > 0.0 else ""
+
+
+def polarization(path: Path, detector: str | None = None, /, **parameters: Any) -> Polarization:
+    """Return what polarisation does to the intensity at a detector.
+
+    Parameters
+    ----------
+    path : PathGraph or networkx.MultiDiGraph
+        The path.
+    detector : str, optional
+        Its name; needed only where there are several.
+    **parameters : float or array_like
+        As in `Plan.run`.
+
+    Raises
+    ------
+    PathError, ParameterError
+        As `Composer.compose` and `Plan.run`.
+
+    Examples
+    --------
+    Two panes of glass near Brewster's angle, one behind the other, and crossed:
+
+    >>> import numpy as np
+    >>> import optipath as op
+    >>> panes = op.load_preset("npgr026", n1=1.5, n2=1.5, delta=0.98, phi=0.98)
+    >>> found = op.polarization(panes, rho=[0.0, np.pi / 2])
+    >>> print(found.difference.round(2), found.culprit)
+    [ 1. -1.] X2
+    """
+    plan = Composer().compose(path)
+    certificate = plan.certificate(detector, **parameters)
+    name = detector if detector is not None else next(iter(plan.whole.detectors))
+    exact = _intensity(plan, plan.whole, name, parameters)
+    shares = {}
+    for node, steps in _polarising(plan.whole).items():
+        without = _intensity(plan, _without(plan.whole, steps), name, parameters)
+        shares[node] = _over(exact - without, certificate.scalar)
+    return Polarization(exact, certificate, shares)
+
+
+def _over(difference: Any, scalar: Any) -> npt.NDArray[Any]:
+    return np.asarray(difference / np.where(scalar > 0.0, scalar, 1.0))
+
+
+def _intensity(plan: Plan, program: Program, end: str, parameters: Mapping[str, Any]) -> Any:
+    """Return the intensity at an end of a program that stands in for that of a plan."""
+    reduction = replace(plan.reduction, program=program, as_it_stands=False)
+    return replace(plan, reduction=reduction, whole=program).run_all(**parameters)[end].intensity
+
+
+def _polarising(program: Program) -> dict[str, list[int]]:
+    """Return the steps of each element that may polarise, by its name."""
+    found: dict[str, list[int]] = {}
+    for light, step in enumerate(program.steps):
+        if step.evaluation is None or not step.inputs:
+            continue
+        kernel = program.evaluations[step.evaluation].kernel
+        if kernel.structure is not None and kernel.structure.unpolarising is not None:
+            found.setdefault(step.label.rpartition(".")[0], []).append(light)
+    return found
+
+
+def _without(program: Program, steps: list[int]) -> Program:
+    """Return a program in which some steps dim all light alike, by their mean."""
+    evaluations, changed = list(program.evaluations), list(program.steps)
+    for light in steps:
+        step = changed[light]
+        old = evaluations[step.evaluation or 0]
+        kernel = Kernel(old.kernel.name, old.kernel.structure, _Unpolarising(old.kernel))
+        changed[light] = replace(step, evaluation=len(evaluations))
+        evaluations.append(Evaluation(kernel, old.arguments, old.presence))
+    return replace(program, evaluations=tuple(evaluations), steps=tuple(changed))
+
+
+@dataclass(frozen=True)
+class _Unpolarising:
+    """Makes the function of a kernel whose element polarises no light."""
+
+    kernel: Kernel
+
+    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        function, structure = self.kernel.made_for(xp), self.kernel.structure
+        assert structure is not None and structure.unpolarising is not None  # noqa: S101, PT018
+        unpolarising = structure.unpolarising
+
+        def numbers(*arguments: Any) -> tuple[Any, ...]:
+            return tuple(unpolarising(function(*arguments)))
+
+        return numbers
