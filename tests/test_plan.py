@@ -216,11 +216,6 @@ def test_unknown_composer_options_are_refused(option):
         op.Composer(**{option: "x"})
 
 
-def test_a_tolerance_is_refused_while_there_are_only_exact_plans():
-    with pytest.raises(op.ComposerError, match="tolerance"):
-        op.Composer(tolerance=0.01)
-
-
 def test_the_explanation_lists_steps_readings_and_what_leaves():
     text = NPGR026.compose().explain()
     assert text.splitlines()[0].startswith("1 source, 1 detector, 6 steps; method stable")

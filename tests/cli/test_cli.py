@@ -105,10 +105,48 @@ def test_show_draws_into_a_file(capsys, tmp_path):
 
 
 def test_explain_tells_the_steps(capsys):
-    status, out, _ = run(capsys, "explain", "npgr026", "--case", "1")
+    status, out, _ = run(capsys, "explain", "npgr026", "--case", "1", "--rho", "20")
     assert status == 0
-    assert "4 steps" in out.splitlines()[0]
+    assert "6 steps" in out.splitlines()[0]
     assert "X2.reflected" in out
+
+
+def test_explain_tells_the_model_the_cost_and_the_certificate(capsys):
+    values = ["--n1", "0.2", "--k1", "3.4", "--n2", "0.2", "--k2", "3.4", "--filter", "none"]
+    arguments = ["explain", "npgr026", *values, "--reads", "intensity", "--tolerance", "0.1"]
+    status, out, _ = run(capsys, *arguments)
+    assert status == 0
+    assert "model scalar: where its certificate allows it; exact is 'sp'" in out
+    assert "operations per path" in out
+    assert "certificate: at E" in out
+    assert len(out.splitlines()) < 35
+    found = json.loads(run(capsys, *arguments, "--json")[1])
+    assert found["operations"]["plan"]["all"] < found["operations"]["full"]["all"]
+    assert 0.9 < found["certificate"]["bounds"]["E"]["lower"] <= 1.0
+    assert found["tolerance"] == {
+        "most": 0.1,
+        "model": "scalar",
+        "otherwise": "sp",
+        "text": "model scalar where its certificate is within it, sp elsewhere",
+    }
+    assert all(step["live"][0] == "S0" for step in found["steps"])
+
+
+def test_polarization_tells_the_exact_result_beside_the_scalar_one(capsys):
+    panes = ["polarization", "npgr026", "--n1", "1.5", "--n2", "1.5", "--rho", "90"]
+    status, out, _ = run(capsys, *panes)
+    assert status == 0
+    assert "polarisation changes S0 by up to" in out
+    found = json.loads(run(capsys, *panes, "--json")[1])["detectors"]["E"]
+    assert found["culprit"] in ("X1", "X2")
+    share = found["exact"] / found["scalar"]
+    assert found["lower"] <= share <= found["upper"]
+
+
+def test_a_model_that_is_not_exact_is_refused_in_one_line(capsys):
+    status, out, err = run(capsys, "run", "malus", "--model", "scalar")
+    assert (status, out) == (2, "")
+    assert "model 'scalar' is not exact for this path" in err
 
 
 def test_a_file_of_ones_own_works_wherever_a_name_does(capsys, tmp_path):

@@ -17,9 +17,11 @@ from optipath.polarization_matters import polarization as found_for
 from optipath.presets import load_preset
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.polarization_matters import Polarization
 
-_ROWS = 20
+_PATHS = 5
 
 
 def _polarization(preset: str, case: str | None, values: dict[str, Any], *, as_json: bool) -> None:
@@ -59,24 +61,24 @@ def _as_json(found: Polarization) -> dict[str, Any]:
 
 
 def _table(name: str, found: Polarization) -> Table:
-    """Return the numbers of each path, a row each."""
-    heads = ["exact", "scalar", "difference", "it can be", *found.elements]
-    table = Table(escape(f"S0 at {name}"), *map(escape, heads), header_style="bold")
+    """Return the numbers of each path, a column each."""
     indices = list(np.ndindex(found.exact.shape))
-    bounds = found.certificate.lower - 1.0, found.certificate.upper - 1.0
-    for index in indices[:_ROWS]:
-        lower, upper = (_percent(part[index]) for part in bounds)
-        row = [
-            str(list(index)) if index else "",
-            f"{found.exact[index]:.6g}",
-            f"{found.scalar[index]:.6g}",
-            _percent(found.difference[index]),
-            f"{lower} .. {upper}",
-            *(_percent(share[index]) for share in found.elements.values()),
-        ]
-        table.add_row(*map(Text, row))
-    if len(indices) > _ROWS:
-        table.add_row(f"{len(indices) - _ROWS} more")
+    shown = indices[:_PATHS]
+    table = Table(escape(f"S0 at {name}"), header_style="bold")
+    for index in shown:
+        table.add_column(escape(str(list(index))) if index else "")
+    bounds = (part - 1.0 for part in (found.certificate.lower, found.certificate.upper))
+    rows: list[tuple[str, Any, Callable[[Any], str]]] = [
+        ("exact", found.exact, "{:.6g}".format),
+        ("scalar: without polarisation", found.scalar, "{:.6g}".format),
+        ("difference", found.difference, _percent),
+        *zip(("at least", "at most"), bounds, (_percent, _percent), strict=True),
+        *((f"by {element}", share, _percent) for element, share in found.elements.items()),
+    ]
+    for head, numbers, written in rows:
+        table.add_row(*map(Text, [head, *(written(float(numbers[index])) for index in shown)]))
+    if len(indices) > len(shown):
+        table.add_row(f"{len(indices) - len(shown)} more paths")
     return table
 
 
@@ -85,10 +87,10 @@ def _verdict(found: Polarization) -> str:
     if not found.culprit:
         return "no element makes the intensity depend on polarisation"
     return (
-        f"without polarisation S0 is wrong by up to {100.0 * largest:.3g} % of the scalar result; "
-        f"most of it comes in by {found.culprit}"
+        f"polarisation changes S0 by up to {100.0 * largest:.3g} %; {found.culprit} brings the "
+        f"most of it in"
     )
 
 
-def _percent(share: Any) -> str:
-    return f"{100.0 * float(share):+.3g} %"
+def _percent(share: float) -> str:
+    return f"{100.0 * share:+.3g} %"

@@ -33,6 +33,7 @@ class BlockWriter:
         self._rows = {
             result.index: f"out[{row}]"
             for row, result in reversed(list(enumerate(formula.computed)))
+            if result.kind == "float"
         }
 
     def text(self) -> str:

@@ -105,18 +105,21 @@ def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Arra
     >>> sliced(np.ones((3, 1)), (3, 5), (slice(0, 2), slice(1, 4))).shape
     (2, 1)
     """
+    found: Array
     if where and not isinstance(where[0], (int, slice)):
-        found: Array = np.broadcast_to(array, batch)[where]
-        return found
-    shape = (1,) * (len(batch) - array.ndim) + array.shape
-    index: list[Any] = []
-    for axis, at in enumerate(where):
-        if shape[axis] != 1 or batch[axis] == 1:
-            index.append(at)
-        else:
-            index.append(0 if isinstance(at, int) else slice(None))
-    found = array.reshape(shape)[tuple(index)]
+        found = np.broadcast_to(array, batch)[where]
+    else:
+        shape = (1,) * (len(batch) - array.ndim) + array.shape
+        index = [_kept(at, own, whole) for at, own, whole in zip(where, shape, batch, strict=False)]
+        found = array.reshape(shape)[tuple(index)]
     return found
+
+
+def _kept(at: Any, own: int, whole: int) -> Any:
+    """Return the index along an axis, along which the array may be one and the batch not."""
+    if own != 1 or whole == 1:
+        return at
+    return 0 if isinstance(at, int) else slice(None)
 
 
 def _differing(shape: tuple[int, ...], count: int) -> frozenset[int]:

@@ -1,0 +1,150 @@
+import os
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.composer.reduce import MODELS
+from paths import chain
+from random_paths import Draw
+
+# The environment asks for more, such as the 10,000 that were looked at once.
+SEEDS = range(int(os.environ.get("OPTIPATH_RANDOM_PATHS", "400")))
+
+
+def brightest(path):
+    """The intensity of all sources together."""
+    sources = [e for _, e in path.graph.nodes(data="element") if isinstance(e, op.Source)]
+    return sum(float(source.intensity) for source in sources)
+
+
+@pytest.mark.parametrize("chunk", range(8))
+def test_every_reduction_equals_the_full_composition(chunk):
+    for seed in SEEDS[chunk::8]:
+        draw = Draw(seed)
+        path = draw.path()
+        try:
+            full = op.Composer(model="full").compose(path).run_all(**draw.values)
+        except op.OptipathError:
+            with pytest.raises(op.OptipathError):
+                path.trace_all(**draw.values)
+            continue
+        for name, light in path.trace_all(**draw.values).items():
+            whole, found = full[name].stokes, light.stokes
+            assert found.shape == whole.shape
+            np.testing.assert_array_equal(np.isnan(found), np.isnan(whole))
+            # Merged turns round otherwise, which light nearly extinguished behind a polariser
+            # can see: its own S0 says nothing of that then.
+            slack = 1e-14 * whole[..., :1] + 1e-16 * brightest(path)
+            assert np.all((np.abs(found - whole) <= slack) | np.isnan(whole)), f"seed {seed}"
+
+
+ANGLES = np.random.default_rng(5).uniform(-3.0, 3.0, (2, 50))
+
+
+@pytest.mark.parametrize(
+    ("elements", "state", "reads", "model"),
+    [
+        ([op.Retarder(op.Parameter("a"), 0.3)], (1, 0, 0, 0), "stokes", "scalar"),
+        ([op.Interface(1.5, 0.7)], (1, 0, 0, 0), "intensity", "scalar"),
+        ([op.Interface(1.5, op.Parameter("b"))] * 2, (1, 0, 0, 0), "intensity", "sp"),
+        ([op.Interface(0.2 + 3j, op.Parameter("b"))], (1, 0, 0, 0), "stokes", "sp"),
+        ([op.Rotator(op.Parameter("a"))], (1, 0.5, 0, 0), "stokes", "linear"),
+        ([op.Polarizer(op.Parameter("a"))], (1, 0.5, 0.3, 0.5), "intensity", "linear"),
+        ([op.Interface(1.5, 0.7, azimuth=0.3)] * 2, (1, 0, 0, 0), "stokes", "linear"),
+        ([op.Interface(0.2 + 3j, 0.7, azimuth=0.3)] * 2, (1, 0, 0, 0), "stokes", "full"),
+        ([op.Retarder(1.0, 0.3), op.Polarizer(0.2)], (1, 0, 0, 0.5), "intensity", "full"),
+    ],
+)
+def test_the_smallest_exact_model_is_found(elements, state, reads, model):
+    path = chain(elements, [float(part) for part in state], reads=reads)
+    assert path.compose().model == model
+    values = dict(zip("ab", np.abs(ANGLES) / 2, strict=True))
+    values = {name: values[name] for name in path.compose().inputs.open}
+    reference = op.Composer(model="full").compose(path).run(**values).stokes
+    for name in MODELS[MODELS.index(model) :]:
+        found = op.Composer(model=name).compose(path).run(**values).stokes
+        np.testing.assert_allclose(found, reference, rtol=2e-15, atol=1e-15)
+    for name in MODELS[: MODELS.index(model)]:
+        with pytest.raises(op.ComposerError, match=f"'{name}' is not exact .* '{model}' or 'auto'"):
+            op.Composer(model=name).compose(path)
+
+
+def test_where_the_same_operations_remain_the_bits_are_the_same():
+    path = op.load_preset("npgr026", n1=1.12, k1=2.16, n2=0.608, k2=2.12, filter=0.3)
+    values = dict(zip(("delta", "phi"), np.abs(ANGLES) / 2, strict=True))
+    full = op.Composer(model="full").compose(path).run(**values)
+    np.testing.assert_array_equal(path.trace(**values).stokes, full.stokes)
+
+
+def test_a_scene_without_s3_carries_none_and_says_so():
+    path = chain([op.Polarizer(0.3), op.Interface(1.5, op.Parameter("b")), op.Rotator(0.2)])
+    plan = path.compose()
+    assert plan.model == "linear"
+    assert max(plan.program.counts) == 3
+    assert "S3 nowhere" in plan.explain()
+    assert all("S3" not in step.live for step in plan.explanation().steps)
+    assert plan.run(b=0.7).stokes[3] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("elements", "labels"),
+    [
+        ([op.Rotator(0.1), op.Rotator(0.2)], ["e0.out, e1.out"]),
+        ([op.Rotator(op.Parameter("a")), op.Rotator(-op.Parameter("a"))], []),
+        ([op.Attenuator(0.5), op.Attenuator(0.5)], ["e0.out, e1.out"]),
+        ([op.Attenuator(1.0), op.Retarder(0.0), op.Rotator(0.0)], []),
+        ([op.Retarder(1.0, 0.3)], ["e0.out"]),
+        ([op.Polarizer(0.0), op.Polarizer(0.0, transmittance=0.5)], ["e0.out, e1.out"]),
+    ],
+)
+def test_what_is_constant_is_multiplied_and_what_undoes_itself_vanishes(elements, labels):
+    path = chain(elements, [1.0, 0.2, 0.3, 0.4])
+    program = path.compose().program
+    assert [step.label for step in program.steps[1:]] == labels
+    values = {"a": 0.7} if "a" in path.compose().inputs.open else {}
+    full = op.Composer(model="full").compose(path).run(**values)
+    np.testing.assert_allclose(path.trace(**values).stokes, full.stokes, atol=1e-15)
+
+
+def test_nearly_crossed_constants_keep_their_digits():
+    # sin^2 of a turn of 1e-6 from the crossed position.
+    path = chain([op.Polarizer(0.0), op.Rotator(np.pi / 2 - 1e-6), op.Polarizer(0.0)])
+    assert path.trace().intensity == pytest.approx(0.5 * np.sin(1e-6) ** 2, rel=1e-9)
+
+
+def test_products_of_constants_never_underflow():
+    path = chain([op.Attenuator(1e-200), op.Attenuator(1e-200)])
+    assert path.trace().log10_intensity == pytest.approx(-400.0)
+
+
+def test_equal_arrays_are_evaluated_once():
+    angles = np.array([0.3, 0.5])
+    path = chain([op.Interface(1.5, angles), op.Interface(1.5, angles.copy(), azimuth=0.2)])
+    kernels = [evaluation.kernel.name for evaluation in path.compose().program.evaluations]
+    assert sum(name.startswith("Fresnel") for name in kernels) == 1
+
+
+def test_a_mueller_matrix_is_whole_though_light_is_reduced():
+    path = chain([op.Retarder(op.Parameter("a"), 0.3), op.Interface(0.2 + 3j, 0.7)])
+    assert path.compose().model == "sp"
+    matrix = path.mueller(a=0.4).matrix
+    wanted = op.Interface(0.2 + 3j, 0.7).mueller().matrix @ op.Retarder(0.4, 0.3).mueller().matrix
+    np.testing.assert_allclose(matrix, wanted, atol=1e-15)
+
+
+def test_values_that_nothing_needs_are_checked_all_the_same():
+    path = chain([op.Retarder(op.Parameter("a", maximum=1.0)), op.Attenuator(0.5)])
+    assert path.compose().model == "scalar"
+    with pytest.raises(op.ParameterError, match="'a'"):
+        path.trace(a=2.0)
+    assert path.trace(a=np.linspace(0, 1, 5)).stokes.shape == (5, 4)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_components_that_nobody_asked_for_are_nan_in_large_batches(engine):
+    path = chain([op.Polarizer(op.Parameter("a"))], [1.0, 0.3, 0.4, 0.0], reads="intensity")
+    light = op.Composer(engine=engine).compose(path).run(a=np.linspace(0, 3, 5000))
+    assert light.stokes.shape == (5000, 4)
+    assert np.isnan(light.stokes[:, 1:]).all()
+    np.testing.assert_array_equal(light.intensity, light.stokes[:, 0])

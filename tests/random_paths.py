@@ -1,0 +1,103 @@
+"""Random paths of all elements, with constants, arrays and parameters among their values."""
+
+import numpy as np
+
+import optipath as op
+
+
+class Draw:
+    """Draws a path and the values of its parameters from a seed."""
+
+    def __init__(self, seed):
+        self.rng = np.random.default_rng(seed)
+        self.values = {}
+
+    def chance(self, share):
+        return self.rng.random() < share
+
+    def number(self, low, high):
+        """A constant, an array, or a parameter that is given either."""
+        drawn = float(self.rng.uniform(low, high))
+        if self.chance(0.2):
+            drawn = float(self.rng.choice([low, high, (low + high) / 2]))
+        if self.chance(0.6):
+            return drawn
+        if self.chance(0.4):
+            return self.rng.uniform(low, high, 3)
+        name = f"p{len(self.values)}"
+        self.values[name] = drawn if self.chance(0.5) else self.rng.uniform(low, high, 3)
+        return op.Parameter(name)
+
+    def turn(self):
+        if self.chance(0.3):
+            return 0.0
+        if self.chance(0.4):
+            return float(self.rng.choice([np.pi / 4, np.pi / 2, np.pi]))
+        return self.number(-3, 3)
+
+    def index(self):
+        if self.chance(0.3):
+            return op.Material(self.number(0.3, 3), self.number(0, 3))
+        n, k = self.rng.uniform(0.3, 3), self.rng.uniform(0, 4)
+        return float(n) if self.chance(0.5) else complex(n, k)
+
+    def matrix(self):
+        if self.chance(0.5):
+            return np.diag([1.0, *self.rng.uniform(0, 1, 3)])
+        return op.Polarizer(0.0, 0.0, float(self.rng.uniform(0.3, 1)), 0.2).mueller().matrix
+
+    def element(self):
+        match self.rng.integers(9):
+            case 0 | 1 | 2:
+                incidence, outside = self.number(0, np.pi / 2), float(self.rng.choice([1.0, 1.5]))
+                return op.Interface(self.index(), incidence, outside, self.turn())
+            case 3:
+                ideal = self.chance(0.5)
+                leaks = () if ideal else (self.number(0, 1), self.number(0, 1))
+                return op.Polarizer(self.turn(), self.turn(), *leaks)
+            case 4:
+                return op.Rotator(self.turn())
+            case 5:
+                return op.Retarder(self.turn(), self.turn(), self.turn())
+            case 6:
+                return op.Attenuator(self.number(0, 1))
+            case 7:
+                return op.MuellerElement(self.matrix(), azimuth=self.turn())
+        return op.BeamSplitter(float(self.rng.uniform(0, 1)), self.turn())
+
+    def source(self):
+        intensity = float(self.rng.uniform(0.5, 100))
+        if self.chance(0.6):
+            return op.Source(intensity)
+        state = self.rng.normal(size=3)
+        state *= self.rng.random() / np.linalg.norm(state)
+        state[2] *= self.chance(0.5)
+        return op.Source(intensity, [1.0, *state])
+
+    def path(self):
+        """A path that parts and meets; every light ends in a detector or a dump."""
+        path, lights = op.PathGraph(), []
+        for number in range(self.rng.integers(1, 3)):
+            path.add(f"s{number}", self.source())
+            lights.append(f"s{number}.out")
+        for number in range(self.rng.integers(1, 9)):
+            if len(lights) > 1 and self.chance(0.2):
+                path.add(f"c{number}", op.Combiner())
+                for azimuth in (None, float(self.rng.uniform(-1, 1))):
+                    light = lights.pop(self.rng.integers(len(lights)))
+                    path.connect(light, f"c{number}.in", azimuth=azimuth)
+                lights.append(f"c{number}.out")
+                continue
+            element = self.element()
+            path.add(f"e{number}", element)
+            path.connect(lights.pop(self.rng.integers(len(lights))), f"e{number}.in")
+            ways = {coupling.leaves for coupling in element.couplings()}
+            lights += [f"e{number}.{way}" for way in sorted(ways)]
+        readings = ["stokes", "linear", "intensity", "intensity"]
+        for number, light in enumerate(lights):
+            ends = op.Detector(str(self.rng.choice(readings)))
+            if number and self.chance(0.2):
+                ends = op.Dump()
+            path.add(f"d{number}", ends)
+            path.connect(light, f"d{number}.in")
+        return path
