@@ -1,6 +1,7 @@
 """When polarisation matters: how wrong two reflections are without it, over the angle.
 
-    pip install "optipath[chart]" && python examples/when_polarization_matters.py docs/polarization.png
+    pip install "optipath[chart]"
+    python examples/when_polarization_matters.py docs/polarization.png
 
 Unpolarised light meets two surfaces of one material, the second turned by 90 degrees about the
 light: the exact intensity beside that of the scalar model, and its certificate.

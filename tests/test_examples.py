@@ -27,6 +27,14 @@ def test_the_index_comes_back_from_light_without_noise(example, index):
     np.testing.assert_allclose(found, index, atol=1e-6)
 
 
+def test_metals_with_little_n_over_k_hardly_polarise_and_glass_does():
+    example = runpy.run_path(EXAMPLES / "when_polarization_matters.py")
+    largest = {name: share for name, _, share in example["rows"]()}
+    assert largest["silver"] < 2e-4 < largest["gold"] < 0.01 < largest["copper"] < 0.1
+    assert 0.3 < largest["iron"] < 0.6
+    assert largest["glass"] == pytest.approx(1.0, abs=1e-3)
+
+
 def test_the_example_prints_an_index_within_its_deviations():
     done = subprocess.run(
         [sys.executable, EXAMPLES / "index_from_stokes.py"],

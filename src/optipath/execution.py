@@ -277,13 +277,15 @@ class Execution:
         read = 4 * len(ends)
         out, faint = self._filled(engine, None, formula, given, parameters, careful, read)
         found = {}
-        for end, name in enumerate(ends):
-            block = out.together(4 * end, 4 * end + 4)
+        for end, (name, reading) in enumerate(ends.items()):
+            first, count = 4 * end, reading.components
+            block = out.together(first, first + 4) if count == 4 or faint else None
             if block is None and not faint:
-                parts = out.each[4 * end : 4 * end + 4]
-                found[name] = Found(tuple(_in_shape(part, given.batch) for part in parts), 0)
+                components = (*out.each[first : first + count], *[np.nan] * (4 - count))
+                found[name] = Found(tuple(_in_shape(c, given.batch) for c in components), 0)
                 continue
-            block = self._stacked(out, 4 * end, 4 * end + 4) if block is None else block
+            block = self._stacked(out, first, first + 4) if block is None else block
+            block[count:] = np.nan
             stokes = np.moveaxis(block.reshape(4, *given.batch), 0, -1)
             if faint:
                 exponent = np.broadcast_to(out.each[read + end], given.paths).astype(np.int64)

@@ -107,7 +107,7 @@ def test_show_draws_into_a_file(capsys, tmp_path):
 def test_explain_tells_the_steps(capsys):
     status, out, _ = run(capsys, "explain", "npgr026", "--case", "1", "--rho", "20")
     assert status == 0
-    assert "6 steps" in out.splitlines()[0]
+    assert "4 steps" in out.splitlines()[0]
     assert "X2.reflected" in out
 
 

@@ -185,11 +185,11 @@ class _Folding:
 
 def _label(items: Sequence[Item]) -> str:
     """Return the names of steps as one, the first and the last where they would be too long."""
-    whole = ", ".join(dict.fromkeys(item.label for item in items))
+    names = [name for item in items for name in item.label.split(", ")]
+    whole = ", ".join(dict.fromkeys(names))
     if len(whole) <= _WORDS:
         return whole
-    first, last = items[0].label, items[-1].label
-    return f"{first.split(', ')[0].split(' .. ')[0]} .. {last.split(', ')[-1].split(' .. ')[-1]}"
+    return f"{names[0].split(' .. ')[0]} .. {names[-1].split(' .. ')[-1]}"
 
 
 def _quoted(items: Sequence[Item]) -> str:

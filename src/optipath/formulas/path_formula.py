@@ -45,7 +45,7 @@ def lights_formula(
 
     With `as_it_stands`, numbers that are known are taken like those that are given, and all
     four components are computed, read or not. The results are the four components of each
-    reading in turn, NaN where they are not read, and then the exponents. It holds for values
+    reading in turn, else NaN where they are not read, and then the exponents. It holds for values
     within their limits whose light is finite and not too faint.
     """
     recorder = Recorder(np.dtype(dtype))
@@ -61,10 +61,10 @@ def lights_formula(
     holds: list[Any] = []
     for reading in program.readings.values():
         components, exponent = found[reading.light]
-        read = components[: reading.components]
+        read = components[: 4 if as_it_stands else reading.components]
         outputs += [*read, *[np.nan] * (4 - len(read))]
         exponents.append(exponent)
-        holds.append(_finite(components if as_it_stands else read, recorder.dtype))
+        holds.append(_finite(read, recorder.dtype))
         if way is Plain:
             holds.append(components[0] >= tiny * FAINT)
     return _formula(recorder, [*outputs, *exponents], holds)

@@ -115,17 +115,26 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
 
 def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     """Make ``(n1, n, k, cos, sin) -> Boundary``."""
-    divided, wave, root = near_one(xp), _wave(xp), complex_root(xp)
-    absolute = xp.absolute
+    wave, root = absorbing_wave(xp), complex_root(xp)
 
     def boundary(n1: Any, n: Any, k: Any, c: Any, s: Any) -> Boundary:
-        # The absolute value makes -0 a 0.
-        n1, n, k = divided(n1, n, absolute(k))
-        p, contrast, u = wave(n1, n, k, c, s)
+        n1, n, k, p, contrast, u = wave(n1, n, k, c, s)
         a, b, squared = root(u, n, k)
         return Boundary(p, a, b, squared, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
 
     return boundary
+
+
+def absorbing_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(n1, n, k, cos, sin) -> (n1, n, k, p, n^2 - n1^2, Re g^2)``, the indices divided."""
+    divided, wave, absolute = near_one(xp), _wave(xp), xp.absolute
+
+    def absorbing(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
+        # The absolute value makes -0 a 0.
+        n1, n, k = divided(n1, n, absolute(k))
+        return n1, n, k, *wave(n1, n, k, c, s)
+
+    return absorbing
 
 
 def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.boundary import (
     Boundary,
-    absorbing_boundary,
+    absorbing_wave,
     denser_boundary,
+    hypotenuse,
     lossless_boundary,
 )
 from optipath.kernels.stable import front, slant
@@ -23,13 +24,32 @@ if TYPE_CHECKING:
 
 
 def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(n1, n, k, cos, sin) -> (Fs d, Fp d, d)``, with d = |p + g|^4 |z + p g|^2.
+    """Make ``(n1, n, k, cos, sin) -> (Fs d, Fp d, d)``.
 
     With Fs = |D|^2 / |p + g|^4 and Fp / Fs = |z - p g|^2 / |z + p g|^2, as in
-    `stable_reflection`; sums of products that are not negative, but for z - p a.
+    `stable_reflection`. The root g = a + ib comes as (ar + ibr) / r, with r the larger of a and
+    b; so r^2 and a b = n k give both without a division, and r goes into the denominator.
     """
-    boundary = absorbing_boundary(xp)
-    return lambda n1, n, k, c, s: _powers(boundary(n1, n, k, c, s))
+    wave, length = absorbing_wave(xp), hypotenuse(xp)
+    sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
+
+    def powers(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
+        n1, n, k, p, contrast, u = wave(n1, n, k, c, s)
+        ab, size = n * k, absolute(u)
+        v = 2.0 * ab
+        squared = length(size, v)
+        r2 = 0.5 * (size + squared)
+        r = sqrt(r2)
+        forward = u >= 0.0
+        ar, br = where(forward, r2, ab), where(forward, ab, r2)
+        D, z = contrast - k * k, n1 * (s * s)
+        P = (p * p + squared) * r + 2.0 * p * ar
+        q = (z * z + c * c * squared) * r + 2.0 * z * c * ar
+        apart, across = z * r - c * ar, c * br
+        parted = (D * D + v * v) * r2
+        return parted * (q * r), parted * (apart * apart + across * across), P * P * (q * r)
+
+    return powers
 
 
 def lossless_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:

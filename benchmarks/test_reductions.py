@@ -1,0 +1,46 @@
+"""Reduced plans against the full 4x4 composition: two interfaces and an intensity, and a grid."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from subjects import ENGINES, METAL, finished
+
+COUNT = 1_000_000
+MEDIA = {"dielectric": (1.5, 1.65), "metal": (0.6 + 2.1j, 0.66 + 2.31j)}
+COMPILED = [engine for engine in ENGINES if engine != "jax"]
+
+
+def two_interfaces(media, turn):
+    """Return an unpolarised lamp, two interfaces, and a detector of the intensity."""
+    path = op.PathGraph()
+    first, second = MEDIA[media]
+    lamp = path.add("lamp", op.Source(intensity=100.0))
+    x2 = path.add("x2", op.Interface(first, op.Parameter("phi")))
+    x1 = path.add("x1", op.Interface(second, op.Parameter("delta"), azimuth=turn))
+    lamp >> x2 >> x1 >> path.add("eye", op.Detector(reads="intensity"))
+    return path
+
+
+@pytest.mark.parametrize("engine", COMPILED)
+@pytest.mark.parametrize("media", MEDIA)
+@pytest.mark.parametrize("turn", [0.0, 0.4])
+@pytest.mark.parametrize("model", ["full", "auto"])
+def test_an_intensity_behind_two_interfaces(benchmark, engine, media, turn, model):
+    benchmark.group = f"two interfaces, {media}, turned by {turn}, {engine}"
+    plan = op.Composer(engine=engine, model=model).compose(two_interfaces(media, turn))
+    draw = np.random.default_rng(1).uniform
+    given = {name: draw(0.0, np.pi / 2, COUNT) for name in ("delta", "phi")}
+    plan.run(**given)
+    benchmark(lambda: plan.run(**given).intensity)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("model", ["full", "auto"])
+def test_a_grid_of_angles(benchmark, engine, model):
+    benchmark.group = f"a grid of 1,000 x 1,000 angles, {engine}"
+    plan = op.Composer(engine=engine, model=model).compose(op.load_preset("npgr026", **METAL))
+    axis = np.linspace(0.0, np.pi / 2, 1000)
+    given = {"delta": axis[:, np.newaxis], "phi": axis, "rho": 0.5}
+    finished(plan.run(**given).stokes)
+    benchmark(lambda: finished(plan.run(**given).stokes))
