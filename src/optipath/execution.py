@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from optipath.program import Program, Reading
     from optipath.reduction import Reduction
     from optipath.running.many import Results
+    from optipath.running.stepwise import Shared
 
     Array = np.ndarray[Any, Any]
 
@@ -247,7 +248,9 @@ class Execution:
         engine = self.engine_for(given.paths)
         if engine == NUMPY_STEPS:
             self.inputs.resolve(parameters)
-            parts = [self._careful(part) for part in self._parts(given)]
+            several = given.paths > _CACHED and not self.as_it_stands
+            shared = self.stepwise.shared(given) if several else {}
+            parts = [self._careful(part, shared) for part in self._parts(given)]
             joined = [
                 Found(
                     _joined([part[end].stokes for part in parts], given.batch, (4,)),
@@ -423,8 +426,8 @@ class Execution:
         )
         return found, failed or many.has_exponents
 
-    def _careful(self, given: Given) -> list[Found]:
-        found = [Found(*light) for light in self.stepwise.lights(given)]
+    def _careful(self, given: Given, shared: Shared | None = None) -> list[Found]:
+        found = [Found(*light) for light in self.stepwise.lights(given, shared)]
         for light, reading in zip(found, self.program.readings.values(), strict=True):
             self._refuse_infinite(light.stokes[..., : reading.components])
         return found

@@ -26,6 +26,7 @@ def walk(
     way: Way,
     emitted: Mapping[int, Components] | None = None,
     number: Callable[[Any], Any] = itself,
+    shared: Mapping[int, Numbers] | None = None,
 ) -> dict[int, tuple[Components, Any]]:
     """Return the light of every reading, as four components and an exponent.
 
@@ -41,6 +42,8 @@ def walk(
         The light of each emitting step, in place of what the sources emit.
     number : callable, optional
         What is done to each number that a kernel gives.
+    shared : mapping of int to tuple, optional
+        What some evaluations come to, if that is known.
 
     Returns
     -------
@@ -53,7 +56,7 @@ def walk(
         reads[reading.light] = max(reading.components, reads.get(reading.light, 1))
     states: dict[int, Any] = {}
     states_left = list(program.light_uses)
-    numbers: dict[int, Numbers] = {}
+    numbers: dict[int, Numbers] = dict(shared or {})
     numbers_left = list(program.evaluation_uses)
 
     for light, step in enumerate(program.steps):
@@ -65,9 +68,7 @@ def walk(
         if step.evaluation is not None:
             index = step.evaluation
             if index not in numbers:
-                numbers[index] = tuple(
-                    map(number, _evaluate(program.evaluations[index], leaves, way))
-                )
+                numbers[index] = evaluated(program.evaluations[index], leaves, way, number)
             structure = program.evaluations[index].kernel.structure
             if structure is None:
                 s0, s1, s2, s3 = numbers[index]
@@ -85,7 +86,22 @@ def walk(
     return {light: way.read(states[light], count) for light, count in reads.items()}
 
 
-def _evaluate(evaluation: Evaluation, leaves: Sequence[Any], way: Way) -> Numbers:
+def evaluated(
+    evaluation: Evaluation, leaves: Sequence[Any], way: Way, number: Callable[[Any], Any]
+) -> tuple[Any, ...]:
+    """Return the numbers that an evaluation comes to.
+
+    Parameters
+    ----------
+    evaluation : Evaluation
+        The kernel, and which leaves it is given.
+    leaves, way, number
+        As `walk` takes them.
+    """
+    return tuple(map(number, _evaluated(evaluation, leaves, way)))
+
+
+def _evaluated(evaluation: Evaluation, leaves: Sequence[Any], way: Way) -> Numbers:
     given = [leaves[leaf] for leaf in evaluation.arguments]
     kernel, left = evaluation.kernel.leaving_out(given, _vanishes)
     numbers = kernel.made_for(way.xp)(*left)

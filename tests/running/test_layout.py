@@ -63,6 +63,39 @@ def test_the_last_stage_of_a_grid_has_nothing_of_the_interfaces_left_to_do():
     assert all(isinstance(result, Symbol) for result in last.results[:4])
 
 
+class Counting(op.Element):
+    """Counts how many numbers it is asked for, which no engine can compile."""
+
+    angle: op.Angle
+    asked = 0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        del xp
+        Counting.asked += len(np.ravel(angle))
+        return (
+            (np.cos(angle) + 0.0, 0.0 * angle, 0.0, 0.0),
+            (0, 1, 0, 0),
+            (0, 0, 1, 0),
+            (0, 0, 0, 1),
+        )
+
+
+def test_elements_that_cannot_be_compiled_are_evaluated_along_their_own_axes_too():
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for name in "ab":
+        node = node >> path.add(name, Counting(op.Parameter(name)))
+    node >> path.add("eye", op.Detector())
+    plan = path.compose()
+    axes = {"a": DRAW(0, 1, (300, 1)), "b": DRAW(0, 1, 200)}
+    expected = np.cos(axes["a"]) * np.cos(axes["b"])
+    assert plan.engine_for(60_000) == "numpy, step by step"
+    Counting.asked = 0
+    np.testing.assert_allclose(plan.run(**axes).intensity, expected, rtol=1e-14)
+    assert Counting.asked == 500
+
+
 def test_axes_that_all_arrays_have_together_are_one():
     arrays = {"a": np.ones((4, 1, 1, 2)), "b": np.ones((1, 3, 5, 2))}
     layout = Layout((4, 3, 5, 2), arrays)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -10,15 +11,17 @@ from optipath.faint import FAINT, folded, is_faint
 from optipath.formulas import slack_of
 from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
-from optipath.walk import walk
+from optipath.walk import evaluated, walk
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from optipath.kernels import Components, Way
     from optipath.program import Program, Reading
     from optipath.running.given import Given
     from optipath.views import Raw, View
+
+Shared: TypeAlias = Mapping[int, tuple[np.ndarray[Any, Any], ...]]
 
 _LONG = 16
 _TINY = np.finfo(np.float64).tiny * FAINT
@@ -81,13 +84,36 @@ class Stepwise:
             lights.append((*read, *[np.nan] * (4 - len(read)), exponent))
         return lights
 
-    def lights(self, given: Given) -> list[tuple[np.ndarray[Any, Any], Any]]:
-        """Return Stokes vectors (..., 4) and exponents at every end."""
+    def lights(
+        self, given: Given, shared: Shared | None = None
+    ) -> list[tuple[np.ndarray[Any, Any], Any]]:
+        """Return Stokes vectors (..., 4) and exponents at every end.
+
+        What several parts of a batch have in common may be given, see `shared`.
+        """
         leaves = self._leaves(given)
-        found = self._stacked(leaves, self._ways[self.way], given.batch)
+        own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
+        found = self._stacked(leaves, self._ways[self.way], given.batch, own)
         if self.way is Plain and any(np.any(is_faint(s[..., 0])) for s, _ in found):
-            found = self._stacked(leaves, self._ways[Scaled], given.batch)
+            found = self._stacked(leaves, self._ways[Scaled], given.batch, own)
         return [folded(*light) for light in found]
+
+    def shared(self, given: Given) -> Shared:
+        """Return the numbers of evaluations that differ along a few axes of a batch only.
+
+        Together they are no more than the light that the batch gives.
+        """
+        leaves, way = self._leaves(given), self._ways[self.way]
+        left, found = 4 * given.paths, {}
+        with np.errstate(all="ignore"):
+            for index, evaluation in enumerate(self.program.evaluations):
+                shapes = [leaves[leaf].shape for leaf in evaluation.arguments]
+                shapes += [] if evaluation.presence is None else [leaves[evaluation.presence].shape]
+                size = 16 * int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+                if size <= min(left, given.paths):
+                    found[index] = evaluated(evaluation, leaves, way, self._number)
+                    left -= size
+        return found
 
     def matrix(self, given: Given, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
@@ -123,8 +149,10 @@ class Stepwise:
             read.append(parts)
         return read
 
-    def _stacked(self, leaves: Sequence[Any], way: Way, batch: tuple[int, ...]) -> list[Any]:
-        lights = self._walk(leaves, way)
+    def _stacked(
+        self, leaves: Sequence[Any], way: Way, batch: tuple[int, ...], shared: Shared
+    ) -> list[Any]:
+        lights = self._walk(leaves, way, None, shared)
         return [
             (
                 _stack(lights[reading.light][0], batch, reading, self.dtype),
@@ -133,10 +161,15 @@ class Stepwise:
             for reading in self.program.readings.values()
         ]
 
-    def _walk(self, leaves: Sequence[Any], way: Way, emitted: Any = None) -> Any:
-        # Plain numbers among what kernels give have no precision of their own.
+    def _walk(
+        self, leaves: Sequence[Any], way: Way, emitted: Any = None, shared: Shared | None = None
+    ) -> Any:
         with np.errstate(all="ignore"):
-            return walk(self.program, leaves, way, emitted, lambda n: np.asarray(n, self.dtype))
+            return walk(self.program, leaves, way, emitted, self._number, shared)
+
+    def _number(self, number: Any) -> np.ndarray[Any, Any]:
+        # Plain numbers among what kernels give have no precision of their own.
+        return np.asarray(number, self.dtype)
 
     def _leaves(self, given: Given) -> list[np.ndarray[Any, Any]]:
         if self._known is None:
