@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.execution import Found
+from optipath.running.found import Found
+from optipath.running.pieces import pieces
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
     from optipath.certificate import Certificate
     from optipath.execution import Execution
     from optipath.running.given import Given
+    from optipath.whole_path import WholePath
 
     Array = np.ndarray[Any, Any]
 
@@ -26,8 +28,10 @@ class Approximation:
 
     Parameters
     ----------
+    whole : WholePath
+        Computes the bounds.
     exact : Execution
-        Runs the exact model, and computes the bounds.
+        Runs the exact model.
     cheap : Execution or None
         Runs the cheaper model; None for the scalar one, which comes with the bounds.
     model : str
@@ -37,8 +41,14 @@ class Approximation:
     """
 
     def __init__(
-        self, exact: Execution, cheap: Execution | None, model: str, tolerance: float
+        self,
+        whole: WholePath,
+        exact: Execution,
+        cheap: Execution | None,
+        model: str,
+        tolerance: float,
     ) -> None:
+        self.whole = whole
         self.exact = exact
         self.cheap = cheap
         self.model = model
@@ -48,7 +58,7 @@ class Approximation:
         """Return the light at every detector."""
         if self.exact.is_for_jax(parameters):
             return self.exact.lights(parameters)
-        return self._of(self.exact.given(parameters), parameters)
+        return self._of(self.whole.given(parameters), parameters)
 
     def stream(
         self, size: int, parameters: Mapping[str, Any]
@@ -57,11 +67,12 @@ class Approximation:
         if self.exact.is_for_jax(parameters):
             yield from self.exact.stream(size, parameters)
             return
-        for where, part in self.exact.parts(self.exact.given(parameters), size):
-            yield where, self._of(part, parameters)
+        given = self.whole.given(parameters)
+        for piece in pieces(given.batch, size):
+            yield piece.where, self._of(given.part(piece.where), parameters)
 
     def _of(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
-        certificates = self.exact.certificates(given, parameters)
+        certificates = self.whole.certificates(given, parameters)
         each = [certificate.error_of(self.model) for certificate in certificates.values()]
         beyond = ~(np.max(each, axis=0) <= self.tolerance)
         share = np.count_nonzero(beyond) / max(beyond.size, 1)

@@ -6,11 +6,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
-from optipath.engines import batches
+from optipath.engines import LARGE
 from optipath.errors import ParameterError, did_you_mean
-from optipath.explanation import Explanation, parameter_lines, steps_of
 from optipath.light import Light
 from optipath.mueller import Mueller
 
@@ -19,20 +16,18 @@ if TYPE_CHECKING:
 
     from optipath.approximation import Approximation
     from optipath.certificate import Certificate
-    from optipath.execution import Execution, Found
+    from optipath.execution import Execution
+    from optipath.explanation import Explanation
     from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.program import Program
     from optipath.reduction import Reduction, Tolerance
+    from optipath.running.found import Found
+    from optipath.running.runner import Manner
+    from optipath.whole_path import WholePath
 
 
-_FEW = 8
-"""Of how many ends the bounds are written down."""
-
-_LARGE = 1 << 30
-"""A batch for which any engine is worth its while."""
-
-_MADE = ("_approximation", "_detector", "_execution")
+_MADE = ("_approximation", "_detector", "execution", "whole_path")
 
 
 class Part(NamedTuple):
@@ -100,7 +95,7 @@ class Plan:
     @property
     def engine(self) -> str:
         """What runs large batches; `engine_for` says what runs smaller ones."""
-        return self.engine_for(_LARGE).partition(",")[0]
+        return self.engine_for(LARGE).partition(",")[0]
 
     def engine_for(self, count: int, /) -> str:
         """Return what runs a batch of so many paths.
@@ -112,7 +107,7 @@ class Plan:
         >>> plan.engine, plan.engine_for(10)
         ('numpy', 'numpy, step by step')
         """
-        return self._execution.engine_for(count)
+        return self.execution.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
         """Return the light at the only detector.
@@ -136,7 +131,7 @@ class Plan:
         name, place, frame = self._detector
         if self.instead is not None:
             return self.run_all(**parameters)[name]
-        execution = self._execution
+        execution = self.execution
         usual = execution.single.usual(parameters)
         if usual is not None:
             return Light.of(usual[place][:4], frame, usual[place][4])
@@ -217,7 +212,7 @@ class Plan:
         ends = tuple(program.readings if detector else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
-        matrix = self._execution.matrix(begin, reading, parameters)
+        matrix = self.whole_path.matrix(begin, reading, parameters)
         return Mueller(matrix, program.sources[begin][1], reading.frame)
 
     def certificate(self, detector: str | None = None, /, **parameters: Any) -> Certificate:
@@ -246,8 +241,8 @@ class Plan:
         """
         ends = tuple(self.whole.readings if detector else self.whole.detectors)
         end = self._only("detector", ends, "certificate(detector)", detector)
-        execution = self._execution
-        return execution.certificates(execution.given(parameters), parameters)[end]
+        whole = self.whole_path
+        return whole.certificates(whole.given(parameters), parameters)[end]
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.
@@ -263,82 +258,10 @@ class Plan:
 
     def explanation(self) -> Explanation:
         """Return the plan explained, part by part, as `explain` writes it down."""
-        ends = self.program.readings
-        names = {"detector": self.program.detectors, "dump": self.program.dumps}
-        counts = {"source": len(self.program.sources)}
-        counts |= {what: len(found) for what, found in names.items()}
-        return Explanation(
-            counts={**counts, "step": len(self.program.steps)},
-            manner={
-                "method": self.method,
-                "model": self.model,
-                "engine": self.engine,
-                "dtype": self.dtype,
-                "composing": self.composing,
-            },
-            reason=self._why(),
-            steps=steps_of(self.reduction),
-            reads={n: tuple(f"S{i}" for i in range(end.components)) for n, end in ends.items()},
-            light_at={name: end.light for name, end in ends.items()},
-            folded=self.reduction.folded,
-            operations=self._execution.operations(),
-            certificate=self._certified(),
-            tolerance=self._tolerated(),
-            notes=tuple(self._notes()),
-            parameters=parameter_lines(self.inputs),
-        )
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.explaining import explanation_of  # noqa: PLC0415
 
-    def _why(self) -> str:
-        if self.instead is None:
-            return self.reduction.reason
-        exact = self.reduction
-        return f"where its certificate allows it; exact is '{exact.model}': {exact.reason}"
-
-    def _tolerated(self) -> dict[str, Any] | None:
-        if self.tolerance is None:
-            return None
-        exact = self.reduction.model
-        if self.instead is not None:
-            text = (
-                f"model {self.instead.model} where its certificate is within it, {exact} elsewhere"
-            )
-        elif self.model == "scalar":
-            text = "not needed, the scalar model is exact"
-        else:
-            text = "not used, since certificates are for intensities, and more is read"
-        return {"most": self.tolerance, "model": self.model, "otherwise": exact, "text": text}
-
-    def _certified(self) -> dict[str, Any] | None:
-        """Return the bounds for the values that are known, and defaults for others."""
-        opened = self.inputs.open.values()
-        missing = [parameter.name for parameter in opened if parameter.default is None]
-        if missing:
-            return {"text": f"depends on {', '.join(missing)}; see plan.certificate(...)"}
-        execution = self._execution
-        found = execution.certificates(execution.given({}), {})
-        bounds = {
-            name: {"lower": float(np.min(one.lower)), "upper": float(np.max(one.upper))}
-            for name, one in found.items()
-        }
-        if len(bounds) > _FEW:
-            return {"bounds": bounds, "text": f"for {len(bounds)} ends; see plan.certificate(...)"}
-        texts = [
-            f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
-            for name, each in bounds.items()
-        ]
-        at = ", for the defaults" if self.inputs.open else ""
-        return {"bounds": bounds, "text": "; ".join(texts) + at}
-
-    def _notes(self) -> Iterator[str]:
-        yield from (f"{port} has no link: its light leaves the path" for port in self.outlets)
-        if self.engine_for(_LARGE) != self.engine:
-            yield (
-                f"all batches are run step by step: paths of at most {self._execution.longest} "
-                f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
-            )
-        elif self.chosen != "jax":
-            yield batches(self.chosen)
-        yield from (f"{port} feeds several links: each takes all its light" for port in self.copied)
+        return explanation_of(self)
 
     def evaluations(self, /, **parameters: Any) -> dict[str, int]:
         """Return how often each step's numbers are computed for a batch.
@@ -362,7 +285,9 @@ class Plan:
         >>> found["X1.reflected"], found["X2.reflected"]
         (1000, 1000)
         """
-        return self._execution.evaluations(parameters)
+        from optipath.running.counts import evaluations  # noqa: PLC0415 - not for every import
+
+        return evaluations(self.execution, parameters)
 
     @cached_property
     def _detector(self) -> tuple[str, int, Frame]:
@@ -372,7 +297,8 @@ class Plan:
         return name, place, self.program.detectors[name].frame
 
     @cached_property
-    def _execution(self) -> Execution:
+    def execution(self) -> Execution:
+        """What gives light."""
         return self._executed(self.reduction)
 
     @cached_property
@@ -384,26 +310,30 @@ class Plan:
 
         model = self.instead.model
         cheap = None if model == "scalar" else self._executed(self.reduction.by(model))
-        return Approximation(self._execution, cheap, model, self.instead.most)
+        return Approximation(self.whole_path, self.execution, cheap, model, self.instead.most)
 
     @property
     def _runner(self) -> Execution | Approximation:
-        return self._approximation or self._execution
+        return self._approximation or self.execution
 
     def _executed(self, reduction: Reduction) -> Execution:
         # Imported where it is needed, so that the library itself is there quickly.
         from optipath.execution import Execution  # noqa: PLC0415
 
-        return Execution(
-            reduction,
-            self.whole,
-            self.inputs,
-            method=self.method,
-            composing=self.composing,
-            dtype=self.dtype,
-            engine=self.chosen,
-            threads=self.threads,
-        )
+        return Execution(reduction, self.inputs, self._manner)
+
+    @cached_property
+    def whole_path(self) -> WholePath:
+        """What gives matrices, and bounds of intensities."""
+        from optipath.whole_path import WholePath  # noqa: PLC0415 - not for every import
+
+        return WholePath(self.whole, self.inputs, self._manner)
+
+    @property
+    def _manner(self) -> Manner:
+        from optipath.running.runner import Manner  # noqa: PLC0415 - not for every import
+
+        return Manner(self.method, self.composing, self.dtype, self.chosen, self.threads)
 
     def __getstate__(self) -> dict[str, Any]:
         # What has been compiled stays here.

@@ -3,6 +3,7 @@
 from optipath.engines.array_path import ArrayPath
 from optipath.engines.choice import (
     ENGINES,
+    LARGE,
     NUMPY_STEPS,
     batches,
     compile_array_path,
@@ -14,6 +15,7 @@ from optipath.engines.choice import (
 
 __all__ = [
     "ENGINES",
+    "LARGE",
     "NUMPY_STEPS",
     "ArrayPath",
     "batches",

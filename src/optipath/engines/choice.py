@@ -17,6 +17,9 @@ ENGINES = ("auto", "numpy", "numba", "jax")
 NUMPY_STEPS = "numpy, step by step"
 """What runs batches that are too small, or paths that are too long, to be compiled for."""
 
+LARGE = 1 << 30
+"""A batch for which any engine is worth its while."""
+
 FEW, MANY = 1 << 10, 1 << 16
 """From how many paths a formula is worth its while, and from how many Numba is."""
 

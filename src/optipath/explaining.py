@@ -1,0 +1,108 @@
+"""Explaining: a plan looked at for its explanation."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.engines import LARGE, batches
+from optipath.explanation import Explanation, parameter_lines, steps_of
+from optipath.running.counts import operations
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_FEW = 8
+"""Of how many ends the bounds are written down."""
+
+
+def explanation_of(plan: Any) -> Explanation:
+    """Return a `Plan` explained, part by part."""
+    ends = plan.program.readings
+    counts = {
+        "source": len(plan.program.sources),
+        "detector": len(plan.program.detectors),
+        "dump": len(plan.program.dumps),
+        "step": len(plan.program.steps),
+    }
+    return Explanation(
+        counts=counts,
+        manner={
+            "method": plan.method,
+            "model": plan.model,
+            "engine": plan.engine,
+            "dtype": plan.dtype,
+            "composing": plan.composing,
+        },
+        reason=_why(plan),
+        steps=steps_of(plan.reduction),
+        reads={n: tuple(f"S{i}" for i in range(end.components)) for n, end in ends.items()},
+        light_at={name: end.light for name, end in ends.items()},
+        folded=plan.reduction.folded,
+        operations=_operations(plan),
+        certificate=_certified(plan),
+        tolerance=_tolerated(plan),
+        notes=tuple(_notes(plan)),
+        parameters=parameter_lines(plan.inputs),
+    )
+
+
+def _operations(plan: Any) -> dict[str, dict[str, int]] | None:
+    own = operations(plan.execution, as_it_stands=plan.reduction.as_it_stands)
+    full = operations(plan.whole_path, as_it_stands=True)
+    return None if own is None or full is None else {"plan": own, "full": full}
+
+
+def _why(plan: Any) -> str:
+    if plan.instead is None:
+        return str(plan.reduction.reason)
+    exact = plan.reduction
+    return f"where its certificate allows it; exact is '{exact.model}': {exact.reason}"
+
+
+def _tolerated(plan: Any) -> dict[str, Any] | None:
+    if plan.tolerance is None:
+        return None
+    exact = plan.reduction.model
+    if plan.instead is not None:
+        text = f"model {plan.instead.model} where its certificate is within it, {exact} elsewhere"
+    elif plan.model == "scalar":
+        text = "not needed, the scalar model is exact"
+    else:
+        text = "not used, since certificates are for intensities, and more is read"
+    return {"most": plan.tolerance, "model": plan.model, "otherwise": exact, "text": text}
+
+
+def _certified(plan: Any) -> dict[str, Any] | None:
+    """Return the bounds for the values that are known, and defaults for others."""
+    opened = plan.inputs.open.values()
+    missing = [parameter.name for parameter in opened if parameter.default is None]
+    if missing:
+        return {"text": f"depends on {', '.join(missing)}; see plan.certificate(...)"}
+    whole = plan.whole_path
+    found = whole.certificates(whole.given({}), {})
+    bounds = {
+        name: {"lower": float(np.min(one.lower)), "upper": float(np.max(one.upper))}
+        for name, one in found.items()
+    }
+    if len(bounds) > _FEW:
+        return {"bounds": bounds, "text": f"for {len(bounds)} ends; see plan.certificate(...)"}
+    texts = [
+        f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
+        for name, each in bounds.items()
+    ]
+    at = ", for the defaults" if plan.inputs.open else ""
+    return {"bounds": bounds, "text": "; ".join(texts) + at}
+
+
+def _notes(plan: Any) -> Iterator[str]:
+    yield from (f"{port} has no link: its light leaves the path" for port in plan.outlets)
+    if plan.engine_for(LARGE) != plan.engine:
+        yield (
+            f"all batches are run step by step: paths of at most {plan.execution.longest} "
+            f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
+        )
+    elif plan.chosen != "jax":
+        yield batches(plan.chosen)
+    yield from (f"{port} feeds several links: each takes all its light" for port in plan.copied)

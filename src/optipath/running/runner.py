@@ -1,0 +1,184 @@
+"""Runner: what running a program takes, whatever is wanted of it."""
+
+from __future__ import annotations
+
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.engines import compile_array_path, engine_for, jax_path
+from optipath.errors import ParameterError
+from optipath.formulas import lights_formula
+from optipath.jax_values import is_jax, is_traced
+from optipath.running.given import Given, Sorter
+from optipath.running.layout import Layout
+from optipath.running.many import Many, known_arrays
+from optipath.running.pieces import pieces
+from optipath.running.stepwise import Stepwise, way_of
+from optipath.views import ONE
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping
+
+    from optipath.formulas import Formula
+    from optipath.inputs import Inputs
+    from optipath.program import Program
+    from optipath.running.many import Results
+
+    Array = np.ndarray[Any, Any]
+
+CACHED = 8192
+"""How many paths are taken at once, step after step."""
+
+
+class Manner(NamedTuple):
+    """How programs are run, as `Composer` takes it."""
+
+    method: str
+    composing: str
+    dtype: str
+    engine: str
+    threads: int
+
+
+class Runner:
+    """Does formulas of one program to batches, and keeps what has been compiled.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    inputs : Inputs
+        What may be given.
+    manner : Manner
+        How they are run.
+    as_it_stands : bool
+        Whether everything is done for each path.
+
+    Attributes
+    ----------
+    longest : int
+        How many steps are compiled in one piece.
+    """
+
+    longest = 64
+
+    def __init__(
+        self, program: Program, inputs: Inputs, manner: Manner, *, as_it_stands: bool = False
+    ) -> None:
+        self.program = program
+        self.inputs = inputs
+        self.manner = manner
+        self.as_it_stands = as_it_stands
+        self.dtype = np.dtype(manner.dtype)
+        self.way = way_of(program, manner.composing)
+        self.sorter = Sorter(program, inputs, self.dtype)
+        self.stepwise = Stepwise(program, self.way, self.dtype)
+        self._many: dict[Any, Many] = {}
+
+    @cached_property
+    def compilable(self) -> bool:
+        """Whether the program can be made a formula."""
+        kind = self.dtype.name
+        if len(self.program.steps) > self.longest or kind not in ("float64", "float32"):
+            return False
+        forms = dict.fromkeys((v.raw for v in self.program.leaves if not v.known), ONE)
+        limits = self.inputs.limits
+        try:
+            lights_formula(self.program, self.way, kind, forms, limits, polynomials=True)
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            return False
+        return True
+
+    def engine_for(self, count: int) -> str:
+        """Return the engine for a batch of so many paths."""
+        return engine_for(self.manner.engine, count, compilable=self.compilable)
+
+    def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
+        """Tell whether a run is asked of JAX: by name, or by what is given."""
+        traced = self._has_traced or any(map(is_jax, parameters.values()))
+        if traced and self.manner.engine not in ("auto", "jax"):
+            raise ParameterError(
+                f"values of JAX were given, but the plan was composed for engine "
+                f"'{self.manner.engine}'; compose with engine='jax' or 'auto'"
+            )
+        return traced or self.manner.engine == "jax"
+
+    def filled(
+        self,
+        engine: str,
+        what: Any,
+        formula: Callable[[Any, Any], Formula],
+        given: Given,
+        parameters: Mapping[str, Any],
+        careful: Callable[[Given], Array],
+        read: int,
+    ) -> tuple[Results, bool]:
+        """Return the results of a formula, and whether their exponents say anything."""
+        forms = given.forms(self.dtype)
+        known = {name: given.cut(array) for name, array in self.known_arrays.items()}
+        arrays = {str(raw): n for raw, n in given.numbers.items() if isinstance(n, np.ndarray)}
+        layout = Layout(given.batch, arrays | known)
+        key = engine, what, forms, layout.key
+        if key not in self._many:
+            made = formula(dict(forms), layout.axes)
+            compiled = partial(compile_array_path, engine)
+            self._many[key] = Many(
+                made,
+                compiled,
+                layout,
+                threads=self.manner.threads,
+                read=read,
+                staged=not self.as_it_stands,
+            )
+        many = self._many[key]
+        if not given.within(self.inputs.limits):
+            self.inputs.resolve(parameters)
+        found, failed = many.results(
+            given, layout, known, lambda: self.inputs.resolve(parameters), careful
+        )
+        return found, failed or many.has_exponents
+
+    def parts(self, given: Given) -> Iterator[Given]:
+        """Return what is given in parts that stay in the cache, step after step."""
+        if given.paths <= CACHED:
+            return iter([given])
+        return (given.part(piece.where) for piece in pieces(given.batch, CACHED))
+
+    def stacked(self, results: Results, start: int, stop: int) -> Array:
+        """Return results, some of which may be known, as an array (results, paths)."""
+        rows = np.empty((stop - start, results.out.shape[1]), self.dtype)
+        for row, result in zip(rows, results.each[start:stop], strict=True):
+            row[...] = result
+        return rows
+
+    def refuse_infinite(self, numbers: Array) -> None:
+        """Refuse light that is not finite.
+
+        Raises
+        ------
+        ParameterError
+            Telling the cure.
+        """
+        method = self.manner.method
+        if not is_traced(numbers) and not np.all(np.isfinite(numbers)):
+            raise ParameterError(
+                f"the light is not finite in {self.dtype} by method '{method}': a value is "
+                f"too extreme; give values nearer to 1"
+                + ("" if method == "stable" else ", or use method 'stable'")
+            )
+
+    @cached_property
+    def known_arrays(self) -> dict[str, Array]:
+        """The arrays that are known beforehand, as formulas name them."""
+        return known_arrays(self.program, self.dtype)
+
+    @cached_property
+    def jax(self) -> Any:
+        """The program for JAX."""
+        return jax_path(self.program, self.way, self.dtype)
+
+    @cached_property
+    def _has_traced(self) -> bool:
+        return any(view.traced for view in self.program.leaves)

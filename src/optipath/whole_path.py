@@ -1,0 +1,106 @@
+"""WholePath: what a path as it stands gives: its matrices, and bounds of its intensities."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.certificate import Certificate
+from optipath.engines import NUMPY_STEPS
+from optipath.formulas import bounds_formula, matrix_formula
+from optipath.running.found import joined
+from optipath.running.runner import Runner
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.formulas import Formula
+    from optipath.program import Reading
+    from optipath.running.given import Given
+
+    Array = np.ndarray[Any, Any]
+
+
+class WholePath(Runner):
+    """Runs a path of which nothing is left out."""
+
+    def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Array:
+        """Return the Mueller matrices (..., 4, 4) from a source to a reading.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given, or if a matrix is not finite.
+        """
+        if self.is_for_jax(parameters):
+            resolved, batch = self.inputs.resolve(parameters)
+            name = next(n for n, end in self.program.readings.items() if end is reading)
+            found = self.jax.matrix(resolved, batch, source, name)
+            self.refuse_infinite(found[..., : reading.components, :])
+            return found  # type: ignore[no-any-return]
+        given = self.sorter.sort(parameters)
+
+        def careful(part: Given) -> Array:
+            found = self.stepwise.matrix(part, source, reading)
+            self.refuse_infinite(found[..., : reading.components, :])
+            return found
+
+        engine = self.engine_for(given.paths)
+        if engine == NUMPY_STEPS:
+            self.inputs.resolve(parameters)
+            return joined([careful(part) for part in self.parts(given)], given.batch, (4, 4))
+
+        def formula(forms: Any, axes: Any) -> Formula:
+            limits, kind = self.inputs.limits, self.dtype.name
+            return matrix_formula(self.program, source, reading, kind, forms, limits, axes)
+
+        out, _ = self.filled(
+            engine,
+            (source, reading.light, reading.components),
+            formula,
+            given,
+            parameters,
+            lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
+            16,
+        )
+        block = out.together(0, 16)
+        block = self.stacked(out, 0, 16) if block is None else block
+        return np.moveaxis(block.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
+
+    def given(self, parameters: Mapping[str, Any]) -> Given:
+        """Return what is given, checked, for both the bounds and the light.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given.
+        """
+        self.inputs.resolve(parameters)
+        return self.sorter.sort(parameters)
+
+    def certificates(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
+        """Return bounds of the intensity at every end."""
+        ends = self.program.readings
+        engine = self.engine_for(given.paths)
+        if engine not in ("numpy", "numba"):
+            parts = [self.stepwise.bounds(part) for part in self.parts(given)]
+            found = [
+                np.concatenate([part[end].reshape(4, -1) for part in parts], axis=1)
+                for end in range(len(ends))
+            ]
+        else:
+
+            def formula(forms: Any, axes: Any) -> Formula:
+                kind, limits = self.dtype.name, self.inputs.limits
+                return bounds_formula(self.program, kind, forms, limits, axes)
+
+            def careful(part: Given) -> Array:
+                rows = self.stepwise.bounds(part)
+                return np.concatenate([row.reshape(4, -1) for row in rows])
+
+            read = 4 * len(ends)
+            out, _ = self.filled(engine, "bounds", formula, given, parameters, careful, read)
+            found = [self.stacked(out, 4 * end, 4 * end + 4) for end in range(len(ends))]
+        shaped = (rows[:3].reshape(3, *given.batch) for rows in found)
+        return {name: Certificate(*rows) for name, rows in zip(ends, shaped, strict=True)}
