@@ -11,7 +11,7 @@ from optipath.explanation import Explanation, parameter_lines, steps_of
 from optipath.running.counts import operations
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
 _FEW = 8
 """Of how many ends the bounds are written down."""
@@ -97,7 +97,7 @@ def _certified(plan: Any) -> dict[str, Any] | None:
 
 
 def _notes(plan: Any) -> Iterator[str]:
-    yield from (f"{port} has no link: its light leaves the path" for port in plan.outlets)
+    yield from _each(plan.outlets, "has no link: its light leaves the path")
     if plan.engine_for(LARGE) != plan.engine:
         yield (
             f"all batches are run step by step: paths of at most {plan.execution.longest} "
@@ -105,4 +105,12 @@ def _notes(plan: Any) -> Iterator[str]:
         )
     elif plan.chosen != "jax":
         yield batches(plan.chosen)
-    yield from (f"{port} feeds several links: each takes all its light" for port in plan.copied)
+    yield from _each(plan.copied, "feeds several links: each takes all its light")
+
+
+def _each(ports: Sequence[str], what: str) -> Iterator[str]:
+    """Yield a sentence for each port, or for the first few of many."""
+    shown = ports if len(ports) <= _FEW else ports[: _FEW // 2]
+    yield from (f"{port} {what}" for port in shown)
+    if len(shown) < len(ports):
+        yield f"{len(ports) - len(shown)} more ports like these"

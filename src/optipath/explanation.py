@@ -105,12 +105,12 @@ class Explanation:
             "",
             *_step_lines(self.steps),
             "",
-            *reads,
+            *_shortened(reads, "readings", _SHOWN),
             *self._cost(),
             *self._bounds(),
-            *_shortened([f"folded: {sentence}" for sentence in self.folded]),
+            *_shortened([f"folded: {sentence}" for sentence in self.folded], "folds", _FEW),
             *self.notes,
-            *self.parameters,
+            *_shortened(self.parameters, "parameters", _SHOWN),
         ]
         return "\n".join(lines)
 
@@ -154,10 +154,10 @@ def _operations(counts: Mapping[str, int]) -> str:
     return f"{counts['all']}" + (f" ({', '.join(parts)})" if parts else "")
 
 
-def _shortened(lines: Sequence[str]) -> list[str]:
-    if len(lines) <= _FEW:
+def _shortened(lines: Sequence[str], what: str, most: int) -> list[str]:
+    if len(lines) <= most:
         return list(lines)
-    return [*lines[: _FEW - 1], f"folded: {len(lines) - _FEW + 1} more like these"]
+    return [*lines[: most - 1], f"{len(lines) - most + 1} more {what}"]
 
 
 def _step_lines(steps: Sequence[ExplainedStep]) -> list[str]:

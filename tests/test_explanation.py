@@ -1,0 +1,67 @@
+import json
+
+import numpy as np
+import pytest
+
+import optipath as op
+from paths import chain
+
+
+def long_path(count):
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for number in range(count):
+        angle = op.Parameter(f"a{number}")
+        node = node >> path.add(f"e{number}", op.Interface(1.5, angle, azimuth=0.1))
+    node >> path.add("eye", op.Detector())
+    return path
+
+
+def test_the_explanation_of_a_long_path_is_short_enough_to_read():
+    assert len(long_path(500).compose().explain().splitlines()) < 120
+
+
+def test_live_components_stand_beside_each_step():
+    path = chain([op.Polarizer(0.3), op.Retarder(1.0), op.Polarizer(op.Parameter("a"))])
+    found = path.compose().explanation()
+    live = {step.label: step.live for step in found.steps}
+    assert live["lamp.out"] == ("S0",)
+    # S3 is made by the retarder, and nothing behind it asks for it.
+    assert all("S3" not in components for components in live.values())
+    assert found.manner["model"] == "linear"
+
+
+def test_operations_are_fewer_than_those_of_the_full_composition():
+    glass = {"n1": 1.5, "k1": 0.0, "n2": 1.5, "k2": 0.0, "filter": "none"}
+    plan = op.load_preset("npgr026", **glass).reading("intensity").compose()
+    counts = plan.explanation().operations
+    assert counts["plan"]["all"] < 0.6 * counts["full"]["all"]
+    assert counts["plan"]["divide"] < counts["full"]["divide"]
+    full = op.Composer(model="full").compose(op.load_preset("npgr026")).explanation().operations
+    assert full["plan"] == full["full"]
+
+
+def test_the_certificate_stands_there_where_all_values_are_known():
+    path = chain([op.Interface(1.5, 0.7), op.Interface(1.5, 0.7)], reads="intensity")
+    bounds = path.compose().explanation().certificate["bounds"]["eye"]
+    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(0.7), np.sin(0.7))
+    assert bounds["upper"] == pytest.approx(1 + (B / A) ** 2)
+    assert bounds["lower"] == pytest.approx(1 - (B / A) ** 2)
+    opened = chain([op.Interface(1.5, op.Parameter("a"))]).compose().explain()
+    assert "certificate: depends on a" in opened
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+@pytest.mark.parametrize("options", [{}, {"model": "full"}, {"composing": "jones"}])
+def test_every_preset_is_explained_as_json_too(name, options):
+    found = op.Composer(**options).compose(op.load_preset(name)).explanation()
+    text = json.dumps(found.as_dict(), allow_nan=False)
+    assert json.loads(text)["counts"]["step"] == len(found.steps)
+    assert len(str(found).splitlines()) < 60
+
+
+def test_what_is_left_out_is_told():
+    path = chain([op.Retarder(op.Parameter("r")), op.Interface(1.5, 0.7)], reads="intensity")
+    text = path.compose().explain()
+    assert "left out, since it changes nothing alive: retarder at 'e0.out'" in text
+    assert "cheaper at 'e1.reflected'" in text
