@@ -122,3 +122,10 @@ def test_out_of_range_values_are_refused_by_tolerated_plans_too():
     plan = op.Composer(tolerance=0.1).compose(two_panes())
     with pytest.raises(op.ParameterError, match="'a'"):
         plan.run(a=3.0, b=0.1, turn=0.0)
+
+
+@pytest.mark.parametrize("size", [(), (3000,)])
+def test_tolerated_light_has_the_precision_of_the_plan(size):
+    plan = op.Composer(tolerance=0.05, dtype="float32").compose(two_panes())
+    values = {"a": np.linspace(0.0, 1.2, 3000) if size else 0.2, "b": 0.3, "turn": 0.3}
+    assert plan.run(**values).stokes.dtype == np.float32

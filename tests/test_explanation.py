@@ -60,6 +60,20 @@ def test_every_preset_is_explained_as_json_too(name, options):
     assert len(str(found).splitlines()) < 60
 
 
+@pytest.mark.parametrize("intensity", [0.0, 1e-300])
+def test_light_too_faint_to_bound_is_told_as_such(intensity):
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(intensity))
+    lamp >> path.add("grey", op.Attenuator(1e-100)) >> path.add("eye", op.Detector())
+    found = path.compose().explanation()
+    assert "too faint to tell" in str(found)
+    json.dumps(found.as_dict(), allow_nan=False)
+
+
+def test_a_path_of_no_values_is_explained():
+    assert "certificate" in chain([op.Attenuator(np.ones(0))]).compose().explain()
+
+
 def test_what_is_left_out_is_told():
     path = chain([op.Retarder(op.Parameter("r")), op.Interface(1.5, 0.7)], reads="intensity")
     text = path.compose().explain()

@@ -92,9 +92,7 @@ class Approximation:
 
 
 def _scalar(certificate: Certificate) -> Found:
-    scalar = certificate.scalar
-    intensity = scalar if scalar.ndim else scalar.item()
-    return Found((intensity, np.nan, np.nan, np.nan), 0)
+    return Found((certificate.scalar, np.nan, np.nan, np.nan), 0)
 
 
 def _mixed(cheap: Found, exact: Found, beyond: Array, of_exact: Any) -> Found:

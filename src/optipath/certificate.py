@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError
+from optipath.domains import Domain
+from optipath.errors import ParameterError, ValueFault
 from optipath.kernels import NUMPY, Boosts, boosted, ratio_bounds
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     import numpy.typing as npt
+
+
+_DOP = Domain("degree of polarisation", minimum=0.0, maximum=1.0)
+_DIATTENUATION = Domain("diattenuation", minimum=-1.0, maximum=1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,17 +89,20 @@ def intensity_bounds(
     >>> print(lower, upper)
     0.0 2.0
     """
-    names = ["source_dop", *(f"diattenuations[{i}]" for i in range(len(diattenuations)))]
-    numbers = [np.asarray(n, dtype=np.float64) for n in (source_dop, *diattenuations)]
-    faults = [
-        f"{name} must be within {low} .. 1, not {number[~inside].ravel()[0]}"
-        for name, number, low in zip(names, numbers, [0, *[-1] * len(diattenuations)], strict=True)
-        if not np.all(inside := (low <= number) & (number <= 1.0))
-    ]
+    if isinstance(diattenuations, str) or not isinstance(diattenuations, (Sequence, np.ndarray)):
+        raise ParameterError(f"diattenuations must be a sequence, not {diattenuations!r}")
+    given = {"source_dop": (source_dop, _DOP)}
+    given |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(diattenuations)}
+    numbers, faults = {}, []
+    for name, (value, domain) in given.items():
+        try:
+            numbers[name] = domain.check(name, value)
+        except ValueFault as fault:
+            faults += fault.faults
     if faults:
         raise ParameterError(*faults)
-    check_broadcast({name: number.shape for name, number in zip(names, numbers, strict=True)})
-    first, *others = map(np.abs, numbers)
+    check_broadcast({name: number.shape for name, number in numbers.items()})
+    first, *others = map(np.abs, numbers.values())
     boosts = reduce(lambda found, t: boosted(NUMPY, found, t), others, Boosts(first))
     lower, upper = ratio_bounds(NUMPY, boosts)
     return np.asarray(lower), np.asarray(upper)

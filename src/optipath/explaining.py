@@ -13,6 +13,8 @@ from optipath.running.counts import operations
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from optipath.certificate import Certificate
+
 _FEW = 8
 """Of how many ends the bounds are written down."""
 
@@ -81,19 +83,27 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     if missing:
         return {"text": f"depends on {', '.join(missing)}; see plan.certificate(...)"}
     whole = plan.whole_path
+    if whole.has_traced:
+        return {"text": "depends on values that JAX traces"}
     found = whole.certificates(whole.given({}), {})
-    bounds = {
-        name: {"lower": float(np.min(one.lower)), "upper": float(np.max(one.upper))}
-        for name, one in found.items()
-    }
+    bounds = {name: _extremes(one) for name, one in found.items()}
     if len(bounds) > _FEW:
         return {"bounds": bounds, "text": f"for {len(bounds)} ends; see plan.certificate(...)"}
     texts = [
         f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
+        if each
+        else f"light at {name} is too faint to tell"
         for name, each in bounds.items()
     ]
     at = ", for the defaults" if plan.inputs.open else ""
     return {"bounds": bounds, "text": "; ".join(texts) + at}
+
+
+def _extremes(certificate: Certificate) -> dict[str, float] | None:
+    """Return the widest bounds of a batch; None where there are none."""
+    lower = float(np.min(certificate.lower, initial=np.inf))
+    upper = float(np.max(certificate.upper, initial=-np.inf))
+    return {"lower": lower, "upper": upper} if np.isfinite([lower, upper]).all() else None
 
 
 def _notes(plan: Any) -> Iterator[str]:

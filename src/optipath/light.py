@@ -182,6 +182,6 @@ def _stacked(components: tuple[Any, Any, Any, Any]) -> npt.NDArray[Any]:
     if not arrays:
         return np.array(components)
     stokes = np.empty((4, *arrays[0].shape), arrays[0].dtype)
-    for row, component in zip(stokes, components, strict=True):
-        row[...] = component
+    for row, component in enumerate(components):
+        stokes[row] = component
     return np.moveaxis(stokes, 0, -1)

@@ -76,6 +76,7 @@ class WholePath(Runner):
         ParameterError
             With every fault of what is given.
         """
+        self.refuse_traced(parameters, "certificates are made")
         self.inputs.resolve(parameters)
         return self.sorter.sort(parameters)
 
@@ -103,4 +104,7 @@ class WholePath(Runner):
             out, _ = self.filled(engine, "bounds", formula, given, parameters, careful, read)
             found = [self.stacked(out, 4 * end, 4 * end + 4) for end in range(len(ends))]
         shaped = (rows[:3].reshape(3, *given.batch) for rows in found)
-        return {name: Certificate(*rows) for name, rows in zip(ends, shaped, strict=True)}
+        return {
+            name: Certificate(*map(np.asarray, rows))
+            for name, rows in zip(ends, shaped, strict=True)
+        }

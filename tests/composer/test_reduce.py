@@ -148,3 +148,98 @@ def test_components_that_nobody_asked_for_are_nan_in_large_batches(engine):
     assert light.stokes.shape == (5000, 4)
     assert np.isnan(light.stokes[:, 1:]).all()
     np.testing.assert_array_equal(light.intensity, light.stokes[:, 0])
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+def test_what_does_not_depend_on_the_batch_has_its_shape_all_the_same(engine, dtype):
+    for elements, state in (
+        ([op.Polarizer(op.Parameter("a"))], (1.0, 0.0, 0.0, 0.0)),
+        ([op.Retarder(op.Parameter("a"))], (1.0, 0.0, 1.0, 0.0)),
+    ):
+        path = chain(elements, list(state))
+        for read in ("intensity", "stokes"):
+            plan = op.Composer(engine=engine, dtype=dtype).compose(path.reading(read))
+            light = plan.run(a=np.linspace(0.0, 1.0, 2000))
+            assert light.intensity.shape == (2000,)
+            assert light.stokes.shape == (2000, 4)
+            assert light.intensity.dtype == light.stokes.dtype == dtype
+
+
+def test_a_value_that_nothing_needs_must_be_given_however_often_the_plan_has_run():
+    elements = [op.Attenuator(op.Parameter("t")), op.Retarder(op.Parameter("d"))]
+    plan = chain(elements, reads="intensity").compose()
+    for _ in range(6):
+        plan.run(t=0.5, d=0.1)
+    with pytest.raises(op.ParameterError, match="'d' has no value"):
+        plan.run(t=0.5)
+
+
+class Half(op.Element):
+    """Its second value is seen by S2 and S3 alone."""
+
+    t: op.Real = 0.5
+    u: op.Real = 0.1
+
+    @staticmethod
+    def mueller_rows(xp, t, u):
+        del xp
+        return (t, 0.1, 0, 0), (0.1, t, 0, 0), (0, 0, u, 0), (0, 0, 0, u)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_ranges_of_what_a_formula_does_not_read_are_checked_in_float32_too(engine):
+    element = Half(op.Parameter("t"), op.Parameter("u", minimum=0.0, maximum=0.2))
+    path = chain([element, op.Polarizer(0.0, leakage=0.1)], reads="intensity")
+    plan = op.Composer(dtype="float32", engine=engine).compose(path)
+    values = {"t": np.linspace(0.4, 0.5, 3000), "u": np.full(3000, 0.1)}
+    plan.run(**values)
+    with pytest.raises(op.ParameterError, match="'u'"):
+        plan.run(**values | {"u": np.full(3000, 5.0)})
+
+
+def test_an_outer_medium_may_be_an_array_in_float32():
+    path = chain([op.Interface(1.5, 0.5, outside=op.Parameter("x"))])
+    media = np.linspace(1.0, 1.2, 2000)
+    found = op.Composer(dtype="float32", engine="numpy").compose(path).run(x=media).stokes
+    np.testing.assert_allclose(found, path.trace(x=media).stokes, rtol=1e-5, atol=1e-8)
+
+
+class Branch(op.Element):
+    """Asks what its number is."""
+
+    a: op.Real = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, a):
+        del xp
+        t = 0.5 if a > 1.0 else 0.25
+        return (t, 0.1, 0, 0), (0.1, t, 0, 0), (0, 0, t, 0), (0, 0, 0, t)
+
+
+@pytest.mark.parametrize("model", ["auto", "full"])
+def test_elements_that_ask_what_their_numbers_are_run_where_these_are_known(model):
+    path = chain([Branch(2.0), op.Polarizer(op.Parameter("x"))], reads="intensity")
+    plan = op.Composer(model=model).compose(path)
+    assert "polarizer" in plan.explain()
+    np.testing.assert_allclose(plan.run(x=np.zeros(3000)).intensity, 0.3)
+
+
+def test_turns_of_more_digits_are_not_added_in_double_precision():
+    if np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
+        pytest.skip("longdouble is float64 here")
+    path = chain([op.Rotator(0.1), op.Rotator(0.2), op.Rotator(0.7)], [1.0, 1.0, 0.0, 0.0])
+    full, auto = (
+        op.Composer(dtype="longdouble", model=model).compose(path).run().stokes
+        for model in ("full", "auto")
+    )
+    np.testing.assert_allclose(auto, full, rtol=0, atol=2e-18)
+
+
+def test_evaluations_count_every_step_of_an_element_and_angles_by_their_cosine():
+    angle = np.linspace(0.1, 1.0, 500)
+    path = chain([op.Interface(1.5, op.Parameter("a")), op.Interface(1.3, 0.4, azimuth=0.4)])
+    pair = op.CosSin(np.cos(angle), np.sin(angle))
+    assert path.compose().evaluations(a=pair)["e0.reflected"] == 500
+    turned = chain([op.Polarizer(op.Parameter("a"), leakage=0.1)], [1.0, 0.5, 0.2, 0.0])
+    assert turned.compose().evaluations(a=angle)["e0.out"] == 500

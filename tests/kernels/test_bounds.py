@@ -68,7 +68,16 @@ def test_bounds_enclose_one_and_do_not_depend_on_the_sign(dop, shares):
 
 @pytest.mark.parametrize(
     ("dop", "shares", "message"),
-    [(1.5, [], "source_dop"), (0.0, [0.1, -2.0], r"diattenuations\[1\]"), (np.nan, [0], "dop")],
+    [
+        (1.5, [], "source_dop"),
+        (0.0, [0.1, -2.0], r"diattenuations\[1\]"),
+        (np.nan, [0], "dop"),
+        ("x", [1.0], "source_dop"),
+        (0.5, ["a"], "diattenuations"),
+        (1j, [0.5], "complex"),
+        (0.5, 0.5, "sequence"),
+        (0.5, None, "sequence"),
+    ],
 )
 def test_shares_that_cannot_be_are_refused(dop, shares, message):
     with pytest.raises(op.ParameterError, match=message):

@@ -122,7 +122,8 @@ class _Folding:
         """Return two turns as one, or as none if they undo each other."""
         self.notes.append(f"the turns at {_quoted([first, second])} are one")
         views = [*_angles(first), *_angles(second)]
-        numbers = [number_of(view) for view in views]
+        # Sums are in float64.
+        numbers = [number_of(view) if self.constants else None for view in views]
         known = sum(number for number in numbers if number is not None)
         left: list[View] = []
         for view in (v for v, number in zip(views, numbers, strict=True) if number is None):

@@ -77,6 +77,11 @@ class Formula:
         """What the precision of the formula loses of numbers that are given."""
         return tuple(symbol for symbol in self.needed if symbol.operation == "rest")
 
+    @cached_property
+    def unread(self) -> frozenset[str]:
+        """The inputs of more digits that nothing reads, so that nothing checks their ranges."""
+        return frozenset(self.wide) - {self.name_of(symbol) for symbol in self.inputs}
+
     def name_of(self, symbol: Symbol) -> str:
         """Return what an input is called."""
         return f"#{symbol.index}" if symbol.index in self.earlier else str(symbol.operands[0])

@@ -115,7 +115,7 @@ class Leaves:
         if form == WIDE:
             # What is looked at is the number that is given, not what is left of it.
             most = float(np.finfo(np.float64).max)
-            self.recorder.wide[str(raw)] = max(low, -most), min(high, most)
+            self.recorder.wide[str(raw)] = float(max(low, -most)), float(min(high, most))
         elif form != ONE or not self.polynomials:
             most = float(np.finfo(self.recorder.dtype).max)
             kind = self.recorder.dtype.type

@@ -10,6 +10,7 @@ the artanh, so that a perfect polariser is a number like any other.
 
 from __future__ import annotations
 
+import math
 from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -19,6 +20,10 @@ if TYPE_CHECKING:
     from optipath.kernels.carried import Components
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.structures import Numbers, Structure
+
+
+_ROUNDING = 1e-9
+"""How much longer a row of a matrix may be than it should, having been measured or rounded."""
 
 
 class Boosts(NamedTuple):
@@ -148,7 +153,11 @@ class Bounds:
         left = 1.0 - diattenuation * before
         dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
         dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
-        return Bounded(mean * total, lower * least, upper * most, Boosts(dop))
+        # A matrix that makes light that cannot be is bounded by nothing.
+        can_be = self._can_be(rows, mean)
+        lower = self.xp.where(can_be, lower * least, 0.0)
+        upper = self.xp.where(can_be, upper * most, math.inf)
+        return Bounded(mean * total, lower, upper, Boosts(dop))
 
     def add(self, first: Bounded, second: Bounded) -> Bounded:
         """Return the state of two lights together, of which the more polarised is counted."""
@@ -167,9 +176,18 @@ class Bounds:
         """Return the intensity without polarisation, the bounds, and that of the DoP."""
         del count
         least, most = ratio_bounds(self.xp, state.boosts)
-        lower = state.lower * least * (1.0 - self.slack)
         upper = state.upper * most * (1.0 + self.slack)
+        # What all but cancels is as sure as what it is left of.
+        lower = self.xp.maximum(state.lower * least - self.slack * upper, 0.0)
         return (state.total, lower, upper, dop_bound(state.boosts)), 0
+
+    def _can_be(self, rows: Sequence[Sequence[Any]], mean: Any) -> Any:
+        """Tell whether no row and no column is longer than the mean transmittance allows."""
+        inner = [row[1:] for row in rows[1:]]
+        lines = [rows[0][1:], [row[0] for row in rows[1:]], *inner, *zip(*inner, strict=True)]
+        most = mean * mean * (1.0 + _ROUNDING)
+        checks = (sum(entry * entry for entry in line) <= most for line in lines)
+        return reduce(lambda one, other: one & other, checks)
 
     def _share(self, parts: Sequence[Any], whole: Any) -> Any:
         """Return the length of a vector over a number, at most 1; 0 where the number is 0."""

@@ -24,15 +24,18 @@ def operations(runner: Runner, *, as_it_stands: bool) -> dict[str, int] | None:
         return None
     program, limits = runner.program, runner.inputs.limits
     forms = dict.fromkeys((view.raw for view in program.leaves if not view.known), MANY)
-    return lights_formula(
-        program,
-        runner.way,
-        runner.dtype.name,
-        forms,
-        limits,
-        polynomials=False,
-        as_it_stands=as_it_stands,
-    ).operations
+    try:
+        return lights_formula(
+            program,
+            runner.way,
+            runner.dtype.name,
+            forms,
+            limits,
+            polynomials=False,
+            as_it_stands=as_it_stands,
+        ).operations
+    except Exception:  # noqa: BLE001 - an element of one's own may ask what its numbers are
+        return None
 
 
 def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]:
@@ -43,8 +46,9 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     ParameterError
         With every fault of what is given.
     """
-    given, program = runner.sorter.sort(parameters), runner.program
+    runner.refuse_traced(parameters, "evaluations are counted")
     runner.inputs.resolve(parameters)
+    given, program = runner.sorter.sort(parameters), runner.program
     found: dict[str, int] = {}
     for step in program.steps:
         if step.evaluation is None:
@@ -52,8 +56,13 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
         shapes: list[tuple[int, ...]] = [given.batch] if runner.as_it_stands else []
         for leaf in program.evaluations[step.evaluation].arguments:
             view = program.leaves[leaf]
-            known = runner.known_arrays.get(f".{leaf}")
-            numbers: Any = known if view.known else given.numbers.get(view.raw)
-            shapes.append(np.shape(numbers))
-        found[step.label] = int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+            if view.known:
+                array = runner.known_arrays.get(f".{leaf}")
+                shapes.append(() if array is None else array.shape)
+            else:
+                raws = (view.raw, *(view.raw._replace(part=part) for part in ("cos", "sin")))
+                shapes += [np.shape(given.numbers[raw]) for raw in raws if raw in given.numbers]
+        count = int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+        # What one element does in several steps goes by one name.
+        found[step.label] = max(count, found.get(step.label, 0))
     return found

@@ -23,7 +23,8 @@ class Found(NamedTuple):
         """Return Stokes vectors (..., 4) and exponents (...) as arrays."""
         if not isinstance(self.stokes, tuple):
             return self.stokes, np.broadcast_to(self.exponent, batch)
-        parts = [np.broadcast_to(part, batch) for part in self.stokes]
+        kind = np.result_type(self.stokes[0])
+        parts = [np.broadcast_to(np.asarray(part, kind), batch) for part in self.stokes]
         return np.stack(parts, axis=-1), np.broadcast_to(self.exponent, batch)
 
 

@@ -86,7 +86,15 @@ class Runner:
         forms = dict.fromkeys((v.raw for v in self.program.leaves if not v.known), ONE)
         limits = self.inputs.limits
         try:
-            lights_formula(self.program, self.way, kind, forms, limits, polynomials=True)
+            lights_formula(
+                self.program,
+                self.way,
+                kind,
+                forms,
+                limits,
+                polynomials=True,
+                as_it_stands=self.as_it_stands,
+            )
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
             return False
         return True
@@ -97,7 +105,7 @@ class Runner:
 
     def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
-        traced = self._has_traced or any(map(is_jax, parameters.values()))
+        traced = self.has_traced or any(map(is_jax, parameters.values()))
         if traced and self.manner.engine not in ("auto", "jax"):
             raise ParameterError(
                 f"values of JAX were given, but the plan was composed for engine "
@@ -133,7 +141,7 @@ class Runner:
                 staged=not self.as_it_stands,
             )
         many = self._many[key]
-        if not given.within(self.inputs.limits):
+        if many.formula.unread or not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)
         found, failed = many.results(
             given, layout, known, lambda: self.inputs.resolve(parameters), careful
@@ -179,6 +187,20 @@ class Runner:
         """The program for JAX."""
         return jax_path(self.program, self.way, self.dtype)
 
+    def refuse_traced(self, parameters: Mapping[str, Any], what: str) -> None:
+        """Refuse values that are not known yet.
+
+        Raises
+        ------
+        ParameterError
+            Telling what they are not for.
+        """
+        if self.has_traced or any(map(is_traced, parameters.values())):
+            raise ParameterError(
+                f"{what} of numbers, not of values that JAX traces; do it outside of jit and grad"
+            )
+
     @cached_property
-    def _has_traced(self) -> bool:
+    def has_traced(self) -> bool:
+        """Whether a value of the path is one that JAX traces."""
         return any(view.traced for view in self.program.leaves)

@@ -117,6 +117,9 @@ class Single:
             if raws[place].name not in plain or type(default) not in (float, int, NoneType):
                 return None
             order.append((raws[place].name, default))
+        asked = {name for name, _ in order}
+        if any(p.default is None for name, p in self.inputs.open.items() if name not in asked):
+            return None  # What nothing needs must be given all the same.
         return path, order, frozenset(n for n, _ in order if n not in optional and parts[n] == 1)
 
 
