@@ -61,17 +61,46 @@ def test_every_preset_is_explained_as_json_too(name, options):
 
 
 @pytest.mark.parametrize("intensity", [0.0, 1e-300])
-def test_light_too_faint_to_bound_is_told_as_such(intensity):
+def test_light_however_faint_is_bounded(intensity):
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source(intensity))
     lamp >> path.add("grey", op.Attenuator(1e-100)) >> path.add("eye", op.Detector())
     found = path.compose().explanation()
-    assert "too faint to tell" in str(found)
+    assert found.certificate["bounds"]["eye"]["upper"] == pytest.approx(1.0)
     json.dumps(found.as_dict(), allow_nan=False)
 
 
 def test_a_path_of_no_values_is_explained():
     assert "certificate" in chain([op.Attenuator(np.ones(0))]).compose().explain()
+
+
+def test_matrices_that_cannot_be_leave_the_explanation_json():
+    path = chain([op.MuellerElement(np.diag([1.0, 3.0, 1.0, 1.0]))])
+    found = path.compose().explanation()
+    assert "cannot be bounded" in str(found)
+    json.dumps(found.as_dict(), allow_nan=False)
+
+
+@pytest.mark.parametrize(
+    ("reads", "model", "words"),
+    [
+        (
+            "stokes",
+            "auto",
+            "not used, since certificates are for intensities, and more is read by eye",
+        ),
+        ("intensity", "full", "takes no tolerance"),
+        ("intensity", "linear", "not needed, since model linear is exact"),
+        ("intensity", "auto", "model scalar where its certificate is within it, sp elsewhere"),
+    ],
+)
+def test_what_becomes_of_a_tolerance_is_told(reads, model, words):
+    path = op.load_preset("malus").reading(reads)
+    try:
+        text = op.Composer(model=model, tolerance=0.1).compose(path).explain()
+    except op.ComposerError as error:
+        text = str(error)
+    assert words in text
 
 
 def test_what_is_left_out_is_told():

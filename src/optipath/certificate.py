@@ -11,6 +11,7 @@ import numpy as np
 
 from optipath.domains import Domain
 from optipath.errors import ParameterError, ValueFault
+from optipath.faint import is_faint
 from optipath.kernels import NUMPY, Boosts, boosted, ratio_bounds
 from optipath.shapes import check_broadcast
 
@@ -40,15 +41,22 @@ class Certificate:
 
     @property
     def error(self) -> npt.NDArray[Any]:
-        """The largest error that the scalar model can have, as a share of either intensity."""
+        """The largest error that the scalar model can have, as a share of either intensity.
+
+        Infinite where light is so faint that its scalar intensity has lost digits.
+        """
         with np.errstate(divide="ignore"):
-            return np.maximum(1.0 / self.lower - 1.0, self.upper - 1.0)
+            return self._unless_faint(np.maximum(1.0 / self.lower - 1.0, self.upper - 1.0))
 
     @property
     def width(self) -> npt.NDArray[Any]:
         """The largest error of any model that drops components, as a share of the intensity."""
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.where(self.lower > 0.0, self.upper / self.lower - 1.0, np.inf)
+            return self._unless_faint(self.upper / self.lower - 1.0)
+
+    def _unless_faint(self, error: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        told = (self.lower > 0.0) & ~is_faint(self.scalar)
+        return np.where(told, error, np.inf)
 
     def error_of(self, model: str) -> npt.NDArray[Any]:
         """Return the largest error of a model by name."""
@@ -93,7 +101,8 @@ def intensity_bounds(
         raise ParameterError(f"diattenuations must be a sequence, not {diattenuations!r}")
     given = {"source_dop": (source_dop, _DOP)}
     given |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(diattenuations)}
-    numbers, faults = {}, []
+    numbers: dict[str, npt.NDArray[Any]] = {}
+    faults: list[str] = []
     for name, (value, domain) in given.items():
         try:
             numbers[name] = domain.check(name, value)

@@ -117,6 +117,18 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     return f"; there are: {', '.join(names)}" if names else "; there are none"
 
 
+def listed(words: Sequence[str]) -> str:
+    """Return words as a sentence lists them.
+
+    Examples
+    --------
+    >>> listed(["a"]), listed(["a", "b", "c"])
+    ('a', 'a, b and c')
+    """
+    *others, last = words
+    return f"{', '.join(others)} and {last}" if others else last
+
+
 def _shortened(fault: str) -> str:
     # A sentence may quote what was given, which may be of any length.
     return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"

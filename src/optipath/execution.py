@@ -133,11 +133,10 @@ class Execution(Runner):
         first = 4 * end
         block = out.together(first, first + 4) if count == 4 or faint else None
         if block is None and not faint:
-            intensity, *others = [*out.each[first : first + count], *[np.nan] * (4 - count)]
-            if not isinstance(intensity, np.ndarray):
-                intensity = np.full(given.paths, intensity, self.dtype)
-            components = (in_shape(c, given.batch) for c in (intensity, *others))
-            return Found(tuple(components), 0)
+            components: list[Any] = [*out.each[first : first + count], *[np.nan] * (4 - count)]
+            if not isinstance(components[0], np.ndarray):
+                components[0] = np.full(given.paths, components[0], self.dtype)
+            return Found(tuple(in_shape(c, given.batch) for c in components), 0)
         block = self.stacked(out, first, first + 4) if block is None else block
         block[count:] = np.nan
         stokes = np.moveaxis(block.reshape(4, *given.batch), 0, -1)

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.engines import LARGE, batches
 from optipath.explanation import Explanation, parameter_lines, steps_of
+from optipath.kernels import Plain
 from optipath.running.counts import operations
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ def explanation_of(plan: Any) -> Explanation:
 
 def _operations(plan: Any) -> dict[str, dict[str, int]] | None:
     own = operations(plan.execution, as_it_stands=plan.reduction.as_it_stands)
-    full = operations(plan.whole_path, as_it_stands=True)
+    full = operations(plan.whole_path, as_it_stands=True, way=Plain)
     return None if own is None or full is None else {"plan": own, "full": full}
 
 
@@ -69,10 +70,11 @@ def _tolerated(plan: Any) -> dict[str, Any] | None:
     exact = plan.reduction.model
     if plan.instead is not None:
         text = f"model {plan.instead.model} where its certificate is within it, {exact} elsewhere"
-    elif plan.model == "scalar":
-        text = "not needed, the scalar model is exact"
+    elif others := [n for n, end in plan.program.readings.items() if end.components > 1]:
+        names = ", ".join(others[:_FEW]) + (", ..." if len(others) > _FEW else "")
+        text = f"not used, since certificates are for intensities, and more is read by {names}"
     else:
-        text = "not used, since certificates are for intensities, and more is read"
+        text = f"not needed, since model {plan.model} is exact"
     return {"most": plan.tolerance, "model": plan.model, "otherwise": exact, "text": text}
 
 
@@ -81,7 +83,8 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     opened = plan.inputs.open.values()
     missing = [parameter.name for parameter in opened if parameter.default is None]
     if missing:
-        return {"text": f"depends on {', '.join(missing)}; see plan.certificate(...)"}
+        names = ", ".join(missing[:_FEW]) + (", ..." if len(missing) > _FEW else "")
+        return {"text": f"depends on {names}; see plan.certificate(...)"}
     whole = plan.whole_path
     if whole.has_traced:
         return {"text": "depends on values that JAX traces"}
@@ -92,7 +95,7 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     texts = [
         f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
         if each
-        else f"light at {name} is too faint to tell"
+        else f"the light at {name} cannot be bounded"
         for name, each in bounds.items()
     ]
     at = ", for the defaults" if plan.inputs.open else ""

@@ -103,6 +103,7 @@ class Explanation:
             f"{', '.join(counted)}; {', '.join(words)}",
             f"model {manner['model']}: {self.reason}",
             "",
+            *self._heading(),
             *_step_lines(self.steps),
             "",
             *_shortened(reads, "readings", _SHOWN),
@@ -113,6 +114,11 @@ class Explanation:
             *_shortened(self.parameters, "parameters", _SHOWN),
         ]
         return "\n".join(lines)
+
+    def _heading(self) -> list[str]:
+        if self.tolerance is None or self.tolerance["otherwise"] == self.tolerance["model"]:
+            return []
+        return [f"steps of the exact model {self.tolerance['otherwise']}:"]
 
     def _cost(self) -> list[str]:
         if self.operations is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import networkx as nx
@@ -256,7 +256,7 @@ class PathGraph:
         return path
 
     def reading(self, reads: str) -> PathGraph:
-        """Return a copy of the path whose detectors all read this, and no more.
+        """Return a copy of the path whose detectors and dumps all read this, and no more.
 
         Parameters
         ----------
@@ -274,14 +274,13 @@ class PathGraph:
         >>> op.load_preset("malus").reading("intensity").trace().stokes
         array([0.375,   nan,   nan,   nan])
         """
+        if faults := Detector(reads).faults("path.reading(...)"):
+            raise PathError(*faults)
         path = PathGraph(self.description, self.cases)
         path._graph = self._graph.copy()
         for name, element in self._graph.nodes(data="element"):
-            if isinstance(element, Detector):
-                detector = Detector(reads)
-                if faults := detector.faults(name):
-                    raise PathError(*faults)
-                path._graph.nodes[name]["element"] = detector
+            if hasattr(element, "reads"):
+                path._graph.nodes[name]["element"] = replace(element, reads=reads)
         return path
 
     def to_toml(self) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer import Composer
+from optipath.errors import ParameterError
 from optipath.kernels import Kernel
 from optipath.program import Evaluation
 
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
     from optipath.kernels import Primitives
     from optipath.plan import Plan
     from optipath.program import Program
+
+
+_ROUNDING, _ALIKE = 1e-12, 1e-9
+"""Below which share an element does nothing, and by how much the largest may differ."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,11 +60,13 @@ class Polarization:
         return _over(self.exact - self.scalar, self.scalar)
 
     @property
-    def culprit(self) -> str:
-        """The element with the largest share on any path; empty where none polarises."""
+    def culprits(self) -> tuple[str, ...]:
+        """The elements with the largest share on any path; none where nothing polarises."""
         largest = {n: np.max(np.abs(share), initial=0.0) for n, share in self.elements.items()}
-        found = max(largest, key=largest.__getitem__, default="")
-        return found if found and largest[found] > 0.0 else ""
+        most = max(largest.values(), default=0.0)
+        if most < _ROUNDING:
+            return ()
+        return tuple(name for name, share in largest.items() if share > (1.0 - _ALIKE) * most)
 
 
 def polarization(path: Path, detector: str | None = None, /, **parameters: Any) -> Polarization:
@@ -87,12 +94,20 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     >>> import optipath as op
     >>> panes = op.load_preset("npgr026", n1=1.5, n2=1.5, delta=0.98, phi=0.98)
     >>> found = op.polarization(panes, rho=[0.0, np.pi / 2])
-    >>> print(found.difference.round(2), found.culprit)
-    [ 1. -1.] X2
+    >>> print(found.difference.round(2), found.culprits)
+    [ 1. -1.] ('X2', 'X1')
     """
     plan = Composer().compose(path)
-    certificate = plan.certificate(detector, **parameters)
-    name = detector if detector is not None else next(iter(plan.whole.detectors))
+    ends = tuple(plan.whole.detectors)
+    if detector is None and len(ends) != 1:
+        raise ParameterError(
+            f"the path has {len(ends)} detectors ({', '.join(ends)}); name one, as in "
+            f"polarization(path, {ends[0]!r})"
+            if ends
+            else "the path has no detector; give it one"
+        )
+    name = ends[0] if detector is None else detector
+    certificate = plan.certificate(name, **parameters)
     exact = _intensity(plan, plan.whole, name, parameters)
     shares = {}
     for node, steps in _polarising(plan.whole).items():

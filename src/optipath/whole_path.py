@@ -69,7 +69,7 @@ class WholePath(Runner):
         return np.moveaxis(block.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
 
     def given(self, parameters: Mapping[str, Any]) -> Given:
-        """Return what is given, checked, for both the bounds and the light.
+        """Return what is given, for both the bounds and the light.
 
         Raises
         ------
@@ -77,14 +77,20 @@ class WholePath(Runner):
             With every fault of what is given.
         """
         self.refuse_traced(parameters, "certificates are made")
-        self.inputs.resolve(parameters)
         return self.sorter.sort(parameters)
 
     def certificates(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
-        """Return bounds of the intensity at every end."""
+        """Return bounds of the intensity at every end.
+
+        Raises
+        ------
+        ParameterError
+            If a value is out of its range.
+        """
         ends = self.program.readings
         engine = self.engine_for(given.paths)
         if engine not in ("numpy", "numba"):
+            self.inputs.resolve(parameters)
             parts = [self.stepwise.bounds(part) for part in self.parts(given)]
             found = [
                 np.concatenate([part[end].reshape(4, -1) for part in parts], axis=1)

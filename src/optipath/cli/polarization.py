@@ -12,7 +12,9 @@ from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
+from optipath.cli.plain import plain
 from optipath.cli.preset_command import JSON, PresetGroup
+from optipath.errors import listed
 from optipath.polarization_matters import polarization as found_for
 from optipath.presets import load_preset
 
@@ -22,6 +24,9 @@ if TYPE_CHECKING:
     from optipath.polarization_matters import Polarization
 
 _PATHS = 5
+
+_SMALL = 1e-12
+"""Which share of the intensity is no more than rounding."""
 
 
 def _polarization(preset: str, case: str | None, values: dict[str, Any], *, as_json: bool) -> None:
@@ -50,13 +55,13 @@ polarization = PresetGroup(
 def _as_json(found: Polarization) -> dict[str, Any]:
     certificate = found.certificate
     return {
-        "exact": found.exact.tolist(),
-        "scalar": found.scalar.tolist(),
-        "difference": found.difference.tolist(),
-        "lower": certificate.lower.tolist(),
-        "upper": certificate.upper.tolist(),
-        "elements": {name: share.tolist() for name, share in found.elements.items()},
-        "culprit": found.culprit or None,
+        "exact": plain(found.exact),
+        "scalar": plain(found.scalar),
+        "difference": plain(found.difference),
+        "lower": plain(certificate.lower),
+        "upper": plain(certificate.upper),
+        "elements": {name: plain(share) for name, share in found.elements.items()},
+        "culprits": list(found.culprits),
     }
 
 
@@ -73,7 +78,11 @@ def _table(name: str, found: Polarization) -> Table:
         ("scalar: without polarisation", found.scalar, "{:.6g}".format),
         ("difference", found.difference, _percent),
         *zip(("at least", "at most"), bounds, (_percent, _percent), strict=True),
-        *((f"by {element}", share, _percent) for element, share in found.elements.items()),
+        *(
+            (f"by {element}", share, _percent)
+            for element, share in found.elements.items()
+            if np.any(np.abs(share) > _SMALL)
+        ),
     ]
     for head, numbers, written in rows:
         table.add_row(*map(Text, [head, *(written(float(numbers[index])) for index in shown)]))
@@ -83,12 +92,21 @@ def _table(name: str, found: Polarization) -> Table:
 
 
 def _verdict(found: Polarization) -> str:
+    if not np.any(found.scalar > 0.0):
+        return "dark: there is nothing to compare"
     largest = float(np.max(np.abs(found.difference), initial=0.0))
-    if not found.culprit:
-        return "no element makes the intensity depend on polarisation"
-    return (
-        f"polarisation changes S0 by up to {100.0 * largest:.3g} %; {found.culprit} brings the "
-        f"most of it in"
+    certificate = found.certificate
+    lower, upper = np.min(certificate.lower) - 1.0, np.max(certificate.upper) - 1.0
+    if largest < _SMALL and upper - lower < _SMALL:
+        return "polarisation changes nothing"
+    text = f"polarisation changes S0 by up to {100.0 * largest:.3g} %"
+    if largest < _SMALL:
+        return (
+            f"{text} here, but could by {_percent(lower)} .. {_percent(upper)} if the elements "
+            f"stood otherwise"
+        )
+    return f"{text}, most of it by {listed(found.culprits)}"
+        f"{text}, most of it by {' and '.join([', '.join(names[:-1]), names[-1]][-len(names) :])}"
     )
 
 

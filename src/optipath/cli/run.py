@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from types import NoneType
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -14,10 +14,10 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from optipath.cli.plain import plain
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer import Composer
 from optipath.presets import load_preset
-from optipath.units import in_unit
 
 if TYPE_CHECKING:
     from optipath.light import Light
@@ -43,6 +43,35 @@ class Result:
     def note(self) -> str:
         """What a reader should know about the case."""
         return self.path.cases[self.case].note if self.case else ""
+
+    @property
+    def model(self) -> str:
+        """The model that was run; both, where some paths took the exact one."""
+        instead, exact = self.plan.instead, self.plan.reduction.model
+        if instead is None:
+            return exact
+        within = self._errors <= instead.most
+        return (
+            instead.model
+            if within.all()
+            else f"{instead.model}, {exact}"
+            if within.any()
+            else exact
+        )
+
+    def tolerance(self) -> dict[str, Any]:
+        """Return what was allowed, and the largest errors that the certificates leave."""
+        instead = self.plan.instead
+        assert instead is not None  # noqa: S101 - asked for by who knows
+        allowed = {"most": instead.most, "model": instead.model}
+        return {**allowed, "exact": self.plan.reduction.model, "error": plain(self._errors)}
+
+    @cached_property
+    def _errors(self) -> Any:
+        instead = self.plan.instead
+        assert instead is not None  # noqa: S101 - asked for by who knows
+        found = (self.plan.certificate(name) for name in self.plan.program.readings)
+        return np.max([one.error_of(instead.model) for one in found], axis=0)
 
     def published(self, detector: str) -> tuple[float, ...] | None:
         """Return the published Stokes vector, if these are the values it belongs to."""
@@ -78,13 +107,15 @@ def _as_json(result: Result) -> dict[str, Any]:
     found: dict[str, Any] = {
         "preset": result.preset,
         "parameters": {
-            name: _plain(p.default, p.unit) for name, p in result.path.parameters.items()
+            name: plain(p.default, p.unit) for name, p in result.path.parameters.items()
         },
         "units": {name: p.unit for name, p in result.path.parameters.items() if p.unit},
-        "model": plan.model,
+        "model": result.model,
         "method": plan.method,
         "engine": plan.engine,
     }
+    if plan.instead is not None:
+        found["tolerance"] = result.tolerance()
     if result.case:
         found["case"] = result.case
     if result.note:
@@ -100,27 +131,12 @@ def _as_json(result: Result) -> dict[str, Any]:
 
 def _reading(result: Result, name: str) -> dict[str, Any]:
     published, light = result.published(name), result.lights[name]
-    found = {"stokes": _plain(light.stokes.tolist(), "")}
+    found = {"stokes": plain(light.stokes)}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
-        found["log10_intensity"] = _plain(light.log10_intensity.tolist(), "")
-        found["normalized"] = _plain(light.normalized.tolist(), "")
+        found["log10_intensity"] = plain(light.log10_intensity)
+        found["normalized"] = plain(light.normalized)
     return found | ({"published": list(published)} if published else {})
-
-
-def _plain(value: Any, unit: str) -> Any:
-    """Return a value as JSON can hold it, in a unit."""
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, list):
-        return [_plain(entry, unit) for entry in value]
-    if isinstance(value, complex):
-        return {"n": value.real, "k": value.imag}
-    if isinstance(value, (str, NoneType)):
-        return value
-    # JSON has no NaN: what is not read is null, and so is the logarithm of the dark. Adding 0
-    # turns -0 into 0.
-    return None if not math.isfinite(value) else in_unit(value, unit) + 0.0
 
 
 def _print(result: Result) -> None:
@@ -133,7 +149,7 @@ def _print(result: Result) -> None:
     if result.note:
         console.print(Text(f"note: {result.note}"))
     plan = result.plan
-    console.print(Text(f"method {plan.method}, model {plan.model}, engine {plan.engine}"))
+    console.print(Text(f"method {plan.method}, model {result.model}, engine {plan.engine}"))
 
 
 def _parameter_table(result: Result) -> Table:

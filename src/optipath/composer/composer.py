@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Protocol
 
 import networkx as nx
@@ -121,9 +122,9 @@ class Composer:
         given = self.tolerance
         if given is None:
             return []
-        if isinstance(given, bool) or not isinstance(given, (int, float)) or not 0.0 < given < 1.0:
-            allowed = "a number between 0 and 1, such as 0.01 for 1 %, or None for exact plans"
-            return [f"tolerance must be {allowed}, not {given!r}"]
+        if isinstance(given, bool) or not isinstance(given, Real) or not 0.0 < given < 1.0:
+            allowed = "a number between 0 and 1, such as 0.01 for 1 %"
+            return [f"tolerance must be {allowed}, not {given!r}; leave it out for exact plans"]
         if self.model == "full" or self.composing == "jones":
             what = "model 'full'" if self.model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]

@@ -74,7 +74,7 @@ class _Lowering:
         dumps: dict[str, Reading] = {}
         for name, port in self.wiring.ends:
             element = self.wiring.elements[name]
-            reads = element.reads if isinstance(element, Detector) else "stokes"
+            reads = getattr(element, "reads", "stokes")
             kept = detectors if isinstance(element, Detector) else dumps
             light, frame = self.lights[name, port], self._reading_frame(name, port)
             kept[name] = Reading(light, frame, _COMPONENTS[reads])

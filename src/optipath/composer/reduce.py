@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.fold import fold
 from optipath.composer.live import Live, trim
-from optipath.errors import ComposerError
+from optipath.errors import ComposerError, listed
 from optipath.reduction import MODELS, Reduction, Tolerance
 
 if TYPE_CHECKING:
@@ -72,10 +72,12 @@ def by_name(exact: Reduction, model: str) -> Reduction:
     most = MODELS.index(model)
     for light, alive in enumerate(exact.live):
         if alive[-1] > most:
+            cure = f"use model '{exact.model}' or 'auto'"
+            if not _others(exact):
+                cure += ", or give a tolerance"
             raise ComposerError(
                 f"model '{model}' is not exact for this path: S{alive[-1]} is alive at "
-                f"'{exact.program.steps[light].label}'; use model '{exact.model}' or 'auto', or "
-                f"give a tolerance"
+                f"'{exact.program.steps[light].label}'; {cure}"
             )
     return replace(exact.by(model), reason=f"asked for by name; {exact.reason}")
 
@@ -92,16 +94,21 @@ def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
     wanted = "scalar" if model == "auto" else model
     if MODELS.index(wanted) >= size:
         return None
-    others = [name for name, r in exact.program.readings.items() if r.components > 1]
+    others = _others(exact)
     if not others:
         return Tolerance(wanted, most)
     if model == "auto":
         return None
     raise ComposerError(
         f"model '{model}' is not exact for this path, and certificates are for intensities: "
-        f"{_listed([repr(name) for name in others])} reads more; let it read 'intensity', or use "
-        f"model '{exact.model}'"
+        f"{listed([repr(name) for name in others])} reads more; let all read 'intensity', as "
+        f"path.reading('intensity') does, or use model '{exact.model}'"
     )
+
+
+def _others(exact: Reduction) -> list[str]:
+    """Return the ends that read more than the intensity."""
+    return [name for name, end in exact.program.readings.items() if end.components > 1]
 
 
 def _reason(live: Live, size: int) -> str:
@@ -110,8 +117,4 @@ def _reason(live: Live, size: int) -> str:
         return "S1, S2 and S3 are 0, or nobody needs them"
     names = [f"S{i}" for i in range(4) if any(i in alive for alive in live.components)]
     dead = [f"S{i}" for i in range(4) if f"S{i}" not in names]
-    return f"{_listed(names)} are alive" + (f", {_listed(dead)} nowhere" if dead else "")
-
-
-def _listed(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+    return f"{listed(names)} are alive" + (f", {listed(dead)} nowhere" if dead else "")

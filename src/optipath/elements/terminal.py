@@ -43,8 +43,15 @@ class Detector(Terminal, kind="detector"):
 class Dump(Terminal, kind="dump"):
     """Takes light out of the path on purpose, and counts it.
 
+    Parameters
+    ----------
+    reads : {"stokes", "linear", "intensity"}, optional
+        As `Detector` takes it.
+
     Examples
     --------
-    >>> Dump()
-    Dump()
+    >>> Dump().reads
+    'stokes'
     """
+
+    reads: Reads = "stokes"

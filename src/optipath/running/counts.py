@@ -12,11 +12,16 @@ from optipath.views import MANY
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.kernels import Way
     from optipath.running.runner import Runner
 
 
-def operations(runner: Runner, *, as_it_stands: bool) -> dict[str, int] | None:
+def operations(
+    runner: Runner, *, as_it_stands: bool, way: type[Way] | None = None
+) -> dict[str, int] | None:
     """Return how many operations a path takes in all, and of the dear sorts.
+
+    Light may be counted as carried in another way than it is.
 
     None for what cannot be compiled, and so not counted.
     """
@@ -27,7 +32,7 @@ def operations(runner: Runner, *, as_it_stands: bool) -> dict[str, int] | None:
     try:
         return lights_formula(
             program,
-            runner.way,
+            way or runner.way,
             runner.dtype.name,
             forms,
             limits,

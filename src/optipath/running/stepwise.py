@@ -130,10 +130,7 @@ class Stepwise:
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
 
     def bounds(self, given: Given) -> list[np.ndarray[Any, Any]]:
-        """Return what `Bounds` reads at every end, shape (4, ...).
-
-        Where light is too faint to tell, it is bounded by nothing.
-        """
+        """Return what `Bounds` reads at every end, shape (4, ...)."""
         way = Bounds(NUMPY, slack_of(self.dtype.name))
         found = self._walk(self._leaves(given), way)
         read = []
@@ -141,11 +138,10 @@ class Stepwise:
             parts = np.empty((4, *given.batch), self.dtype)
             for row, part in enumerate(found[reading.light][0]):
                 parts[row] = part
-            faint = ~(parts[0] >= np.finfo(self.dtype).tiny * FAINT) | ~np.all(
-                np.isfinite(parts), axis=0
-            )
-            parts[1] = np.where(faint, 0.0, parts[1])
-            parts[2] = np.where(faint, np.inf, parts[2])
+            # What is too extreme for floats is bounded by nothing.
+            told = np.all(np.isfinite(parts), axis=0)
+            parts[1] = np.where(told, parts[1], 0.0)
+            parts[2] = np.where(told, parts[2], np.inf)
             read.append(parts)
         return read
 
