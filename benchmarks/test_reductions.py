@@ -44,3 +44,28 @@ def test_a_grid_of_angles(benchmark, engine, model):
     given = {"delta": axis[:, np.newaxis], "phi": axis, "rho": 0.5}
     finished(plan.run(**given).stokes)
     benchmark(lambda: finished(plan.run(**given).stokes))
+
+
+def mirrors(count):
+    """Return an unpolarised lamp, silver mirrors turned by any angles, and an intensity."""
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for number in range(count):
+        turn = op.Parameter(f"turn{number}") if number else 0.0
+        mirror = op.Interface(0.05 + 3.858j, op.Parameter("angle"), azimuth=turn)
+        node = node >> path.add(f"m{number}", mirror)
+    node >> path.add("eye", op.Detector(reads="intensity"))
+    return path
+
+
+@pytest.mark.parametrize("engine", COMPILED)
+@pytest.mark.parametrize("count", [2, 5, 10])
+@pytest.mark.parametrize("tolerance", [None, 0.05])
+def test_a_tolerance_for_mirrors(benchmark, engine, count, tolerance):
+    benchmark.group = f"{count} mirrors, {engine}"
+    plan = op.Composer(engine=engine, tolerance=tolerance).compose(mirrors(count))
+    draw = np.random.default_rng(1).uniform
+    given = {"angle": draw(0.0, 1.2, COUNT // 10)}
+    given |= {f"turn{number}": draw(-3.0, 3.0, COUNT // 10) for number in range(1, count)}
+    plan.run(**given)
+    benchmark(lambda: plan.run(**given).intensity)

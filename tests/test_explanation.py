@@ -87,7 +87,7 @@ def test_matrices_that_cannot_be_leave_the_explanation_json():
         (
             "stokes",
             "auto",
-            "not used, since certificates are for intensities, and more is read by eye",
+            "certificates are for intensities, and more is read by eye",
         ),
         ("intensity", "full", "takes no tolerance"),
         ("intensity", "linear", "not needed, since model linear is exact"),

@@ -12,7 +12,6 @@ from optipath.running.pieces import pieces
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.certificate import Certificate
     from optipath.execution import Execution
     from optipath.running.given import Given
     from optipath.whole_path import WholePath
@@ -72,14 +71,13 @@ class Approximation:
             yield piece.where, self._of(given.part(piece.where), parameters)
 
     def _of(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
-        certificates = self.whole.certificates(given, parameters)
-        each = [certificate.error_of(self.model) for certificate in certificates.values()]
-        beyond = ~(np.max(each, axis=0) <= self.tolerance)
+        scalar, error = self.whole.errors(self.model, given, parameters)
+        beyond = ~(error <= self.tolerance)
         share = np.count_nonzero(beyond) / max(beyond.size, 1)
         if share == 1.0:
             return self.exact.lights_of(given, parameters)
         if self.cheap is None:
-            cheap = {n: _scalar(certificate) for n, certificate in certificates.items()}
+            cheap = {n: Found((total, np.nan, np.nan, np.nan), 0) for n, total in scalar.items()}
         else:
             cheap = self.cheap.lights_of(given, parameters)
         if not share:
@@ -89,10 +87,6 @@ class Approximation:
             return {n: _mixed(cheap[n], whole[n], beyond, beyond) for n in cheap}
         some = self.exact.lights_of(given.part((beyond,)), parameters)
         return {n: _mixed(cheap[n], some[n], beyond, ...) for n in cheap}
-
-
-def _scalar(certificate: Certificate) -> Found:
-    return Found((certificate.scalar, np.nan, np.nan, np.nan), 0)
 
 
 def _mixed(cheap: Found, exact: Found, beyond: Array, of_exact: Any) -> Found:

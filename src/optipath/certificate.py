@@ -12,7 +12,7 @@ import numpy as np
 from optipath.domains import Domain
 from optipath.errors import ParameterError, ValueFault
 from optipath.faint import is_faint
-from optipath.kernels import NUMPY, Boosts, boosted, ratio_bounds
+from optipath.kernels import NUMPY, Boosts, boosted, largest_error, ratio_bounds
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -45,22 +45,12 @@ class Certificate:
 
         Infinite where light is so faint that its scalar intensity has lost digits.
         """
-        with np.errstate(divide="ignore"):
-            return self._unless_faint(np.maximum(1.0 / self.lower - 1.0, self.upper - 1.0))
-
-    @property
-    def width(self) -> npt.NDArray[Any]:
-        """The largest error of any model that drops components, as a share of the intensity."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return self._unless_faint(self.upper / self.lower - 1.0)
-
-    def _unless_faint(self, error: npt.NDArray[Any]) -> npt.NDArray[Any]:
-        told = (self.lower > 0.0) & ~is_faint(self.scalar)
-        return np.where(told, error, np.inf)
+        return self.error_of("scalar")
 
     def error_of(self, model: str) -> npt.NDArray[Any]:
-        """Return the largest error of a model by name."""
-        return self.error if model == "scalar" else self.width
+        """Return the largest error of a model by name that drops components."""
+        error = largest_error(NUMPY, self.lower, self.upper, model)
+        return np.where(is_faint(self.scalar), np.inf, error)
 
 
 def intensity_bounds(

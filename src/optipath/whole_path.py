@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.certificate import Certificate
-from optipath.engines import NUMPY_STEPS
+from optipath.engines import COMPILED, NUMPY_STEPS
 from optipath.formulas import bounds_formula, matrix_formula
 from optipath.running.found import joined
 from optipath.running.runner import Runner
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from optipath.formulas import Formula
     from optipath.program import Reading
@@ -88,29 +88,63 @@ class WholePath(Runner):
             If a value is out of its range.
         """
         ends = self.program.readings
-        engine = self.engine_for(given.paths)
-        if engine not in ("numpy", "numba"):
+        if self.engine_for(given.paths) not in COMPILED:
             self.inputs.resolve(parameters)
-            parts = [self.stepwise.bounds(part) for part in self.parts(given)]
-            found = [
-                np.concatenate([part[end].reshape(4, -1) for part in parts], axis=1)
-                for end in range(len(ends))
-            ]
+            parts = [self._careful(part) for part in self.parts(given)]
+            rows = np.concatenate(parts, axis=1)
         else:
-
-            def formula(forms: Any, axes: Any) -> Formula:
-                kind, limits = self.dtype.name, self.inputs.limits
-                return bounds_formula(self.program, kind, forms, limits, axes)
-
-            def careful(part: Given) -> Array:
-                rows = self.stepwise.bounds(part)
-                return np.concatenate([row.reshape(4, -1) for row in rows])
-
-            read = 4 * len(ends)
-            out, _ = self.filled(engine, "bounds", formula, given, parameters, careful, read)
-            found = [self.stacked(out, 4 * end, 4 * end + 4) for end in range(len(ends))]
-        shaped = (rows[:3].reshape(3, *given.batch) for rows in found)
+            rows = self._bounds(None, given, parameters, self._careful, 4 * len(ends))
+        each = rows.reshape(len(ends), 4, *given.batch)
         return {
-            name: Certificate(*map(np.asarray, rows))
-            for name, rows in zip(ends, shaped, strict=True)
+            name: Certificate(*map(np.asarray, found[:3]))
+            for name, found in zip(ends, each, strict=True)
         }
+
+    def errors(
+        self, model: str, given: Given, parameters: Mapping[str, Any]
+    ) -> tuple[dict[str, Array], Array]:
+        """Return the scalar intensity at every end, and the largest error of a model at any.
+
+        Raises
+        ------
+        ParameterError
+            If a value is out of its range.
+        """
+        ends = self.program.readings
+
+        def found(part: Given) -> Array:
+            each = self.certificates(part, parameters).values()
+            totals = [one.scalar.reshape(-1) for one in each]
+            return np.array(
+                [*totals, np.max([one.error_of(model).ravel() for one in each], axis=0)]
+            )
+
+        if self.engine_for(given.paths) not in COMPILED:
+            rows = found(given)
+        else:
+            rows = self._bounds(model, given, parameters, found, len(ends) + 1)
+        *totals, error = (row.reshape(given.batch) for row in rows)
+        return dict(zip(ends, totals, strict=True)), error
+
+    def _careful(self, given: Given) -> Array:
+        """Return the bounds of a part, step after step."""
+        return np.concatenate([rows.reshape(4, -1) for rows in self.stepwise.bounds(given)])
+
+    def _bounds(
+        self,
+        model: str | None,
+        given: Given,
+        parameters: Mapping[str, Any],
+        careful: Callable[[Given], Array],
+        count: int,
+    ) -> Array:
+        """Return the results of a formula of bounds, shape (results, paths)."""
+
+        def formula(forms: Any, axes: Any) -> Formula:
+            kind, limits = self.dtype.name, self.inputs.limits
+            return bounds_formula(self.program, kind, forms, limits, axes, model)
+
+        engine, what = self.engine_for(given.paths), ("bounds", model)
+        out, _ = self.filled(engine, what, formula, given, parameters, careful, count)
+        block = out.together(0, count)
+        return self.stacked(out, 0, count) if block is None else block

@@ -24,11 +24,10 @@ def _explain(
     path = load_preset(preset, case=case, **values)
     path = path if reads is None else path.reading(reads)
     found = Composer(**options).compose(path).explanation()
-    click.echo(
-        json.dumps({"preset": preset, **found.as_dict()}, allow_nan=False)
-        if as_json
-        else str(found)
-    )
+    if as_json:
+        click.echo(json.dumps({"preset": preset, **found.as_dict()}, allow_nan=False))
+    else:
+        click.echo(str(found))
 
 
 explain = PresetGroup("explain", action=_explain, help="Explain the plan of a preset.")

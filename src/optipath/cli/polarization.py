@@ -106,8 +106,6 @@ def _verdict(found: Polarization) -> str:
             f"stood otherwise"
         )
     return f"{text}, most of it by {listed(found.culprits)}"
-        f"{text}, most of it by {' and '.join([', '.join(names[:-1]), names[-1]][-len(names) :])}"
-    )
 
 
 def _percent(share: float) -> str:

@@ -51,13 +51,9 @@ class Result:
         if instead is None:
             return exact
         within = self._errors <= instead.most
-        return (
-            instead.model
-            if within.all()
-            else f"{instead.model}, {exact}"
-            if within.any()
-            else exact
-        )
+        if not within.any():
+            return exact
+        return instead.model if within.all() else f"{instead.model}, {exact}"
 
     def tolerance(self) -> dict[str, Any]:
         """Return what was allowed, and the largest errors that the certificates leave."""

@@ -2,6 +2,7 @@
 
 from optipath.engines.array_path import ArrayPath
 from optipath.engines.choice import (
+    COMPILED,
     ENGINES,
     LARGE,
     NUMPY_STEPS,
@@ -14,6 +15,7 @@ from optipath.engines.choice import (
 )
 
 __all__ = [
+    "COMPILED",
     "ENGINES",
     "LARGE",
     "NUMPY_STEPS",

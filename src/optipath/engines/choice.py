@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
 ENGINES = ("auto", "numpy", "numba", "jax")
 
+COMPILED = ("numpy", "numba")
+"""What formulas are compiled by."""
+
 NUMPY_STEPS = "numpy, step by step"
 """What runs batches that are too small, or paths that are too long, to be compiled for."""
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _BLOCK = 512
 _HEAD = """\
-from math import atan2, cos, exp, sin, sqrt
+from math import atan2, cos, exp, inf, nan, sin, sqrt
 
 import numpy as np
 from optipath.engines.numba_helpers import exponent, fused as multiply_add

@@ -12,7 +12,7 @@ from optipath.faint import FAINT
 from optipath.formulas.formula import Formula
 from optipath.formulas.leaves import Leaves, Limits
 from optipath.formulas.recorder import Recorder
-from optipath.kernels import Bounds, Linear, Plain, Powers
+from optipath.kernels import Bounds, Linear, Plain, Powers, largest_error
 from optipath.walk import itself, walk
 
 if TYPE_CHECKING:
@@ -76,15 +76,25 @@ def bounds_formula(
     forms: Mapping[Raw, str],
     limits: Mapping[str, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
+    model: str | None = None,
 ) -> Formula:
-    """Return the formula of what `Bounds` reads at every end, four numbers in turn."""
+    """Return the formula of what `Bounds` reads at every end, four numbers in turn.
+
+    With the name of a model, that of the intensities without polarisation at every end, and
+    of the largest error that the model has at any of them.
+    """
     recorder = Recorder(np.dtype(dtype))
     leaves = Leaves(recorder, forms, limits, polynomials=True, axes=axes)
-    found = walk(program, leaves.of(program), Bounds(leaves.primitives, slack_of(dtype)))
-    results = [n for reading in program.readings.values() for n in found[reading.light][0]]
-    holds = [_finite(results, recorder.dtype)]
-    holds += [total >= np.finfo(recorder.dtype).tiny * FAINT for total in results[::4]]
-    return _formula(recorder, results, holds)
+    xp = leaves.primitives
+    found = walk(program, leaves.of(program), Bounds(xp, slack_of(dtype)))
+    read = [found[reading.light][0] for reading in program.readings.values()]
+    totals = [total for total, *_ in read]
+    holds = [_finite([n for numbers in read for n in numbers], recorder.dtype)]
+    holds += [total >= np.finfo(recorder.dtype).tiny * FAINT for total in totals]
+    if model is None:
+        return _formula(recorder, [n for numbers in read for n in numbers], holds)
+    errors = [largest_error(xp, lower, upper, model) for _, lower, upper, _ in read]
+    return _formula(recorder, [*totals, reduce(xp.maximum, errors)], holds)
 
 
 def slack_of(dtype: str) -> float:

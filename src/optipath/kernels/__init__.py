@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from optipath.kernels import emission, filters, rotation
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
-from optipath.kernels.bounds import Boosts, Bounds, boosted, ratio_bounds
+from optipath.kernels.bounds import Boosts, Bounds, boosted, largest_error, ratio_bounds
 from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
 from optipath.kernels.circular import cosine, sine, without_rounding
 from optipath.kernels.compensated import (
@@ -160,6 +160,7 @@ __all__ = [
     "boosted",
     "carry",
     "cosine",
+    "largest_error",
     "ratio_bounds",
     "sine",
     "stokes_of",

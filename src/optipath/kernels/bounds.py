@@ -84,6 +84,24 @@ def dop_bound(boosts: Boosts) -> Any:
     return (more - less) / (more + less)
 
 
+def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
+    """Return the largest error of a model of the intensity, from the bounds of the scalar one.
+
+    As a share of the true intensity, or of that of the model, whichever is larger. What any
+    model gives that drops components lies between the bounds, too.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> largest_error(FLOAT, 0.5, 1.25, "scalar"), largest_error(FLOAT, 0.5, 1.25, "sp")
+    (1.0, 1.5)
+    """
+    there = lower > 0.0
+    lower = xp.where(there, lower, 1.0)
+    error = xp.maximum(1.0 / lower - 1.0, upper - 1.0) if model == "scalar" else upper / lower - 1.0
+    return xp.where(there, error, math.inf)
+
+
 class Bounded(NamedTuple):
     """Light of which nothing is known but its intensity without polarisation, and bounds.
 
