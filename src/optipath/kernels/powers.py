@@ -12,7 +12,6 @@ from optipath.kernels.boundary import (
     Boundary,
     absorbing_wave,
     denser_boundary,
-    hypotenuse,
     lossless_boundary,
 )
 from optipath.kernels.stable import front, slant
@@ -30,14 +29,15 @@ def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     `stable_reflection`. The root g = a + ib comes as (ar + ibr) / r, with r the larger of a and
     b; so r^2 and a b = n k give both without a division, and r goes into the denominator.
     """
-    wave, length = absorbing_wave(xp), hypotenuse(xp)
+    wave = absorbing_wave(xp)
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
     def powers(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         n1, n, k, p, contrast, u = wave(n1, n, k, c, s)
         ab, size = n * k, absolute(u)
         v = 2.0 * ab
-        squared = length(size, v)
+        # What underflows here is too little beside p^2 to be seen.
+        squared = sqrt(size * size + v * v)
         r2 = 0.5 * (size + squared)
         r = sqrt(r2)
         forward = u >= 0.0
