@@ -19,10 +19,14 @@ SHAPES = [
 ]
 
 
-@pytest.mark.parametrize("shapes", SHAPES)
-@pytest.mark.parametrize("engine", ["numpy", "numba"])
-@pytest.mark.parametrize("dtype", ["float64", "float32"])
-def test_a_grid_is_what_its_cells_are_one_by_one(shapes, engine, dtype):
+# Numba compiles each anew.
+WAYS = [("numpy", dtype, shapes) for dtype in ("float64", "float32") for shapes in SHAPES]
+WAYS += [("numba", "float64", shapes) for shapes in (SHAPES[0], SHAPES[2], SHAPES[5])]
+WAYS += [("numba", "float32", SHAPES[0])]
+
+
+@pytest.mark.parametrize(("engine", "dtype", "shapes"), WAYS)
+def test_a_grid_is_what_its_cells_are_one_by_one(engine, dtype, shapes):
     names = ["delta", "phi", "rho"][: len(shapes)]
     axes = {name: DRAW(0.1, 1.5, shape) for name, shape in zip(names, shapes, strict=True)}
     batch = np.broadcast_shapes(*shapes)
@@ -30,11 +34,11 @@ def test_a_grid_is_what_its_cells_are_one_by_one(shapes, engine, dtype):
     plan = op.Composer(engine=engine, dtype=dtype).compose(op.load_preset("npgr026", **METAL))
     # An array of one number is that number, and rounded with it to the precision of the plan.
     slack = 0.0 if dtype == "float64" else 2e-6
-    for found, wanted in (
-        (plan.run(**axes).normalized, plan.run(**cells).normalized),
-        (plan.mueller(**axes).matrix, plan.mueller(**cells).matrix),
-    ):
-        np.testing.assert_allclose(found, wanted, rtol=0, atol=slack)
+    found, wanted = plan.run(**axes).normalized, plan.run(**cells).normalized
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=slack)
+    if engine == "numpy":
+        matrix, whole = plan.mueller(**axes).matrix, plan.mueller(**cells).matrix
+        np.testing.assert_allclose(matrix, whole, rtol=0, atol=slack)
 
 
 def test_interfaces_of_a_grid_are_evaluated_once_for_each_of_their_own_angles():
