@@ -177,11 +177,15 @@ class Many:
         across = {n: layout.among(a, x, layout.all_axes) for n, (a, x) in arrays.items()}
         cells = {n: layout.in_batch(a, x) for n, (a, x) in arrays.items()}
         grid = Grid(formula, path, layout.shape, across, layout.batch, cells, numbers)
-        out = np.empty((len(formula.computed), prod(layout.batch)), formula.dtype)
+        results, count = self.formula.results, len(formula.computed)
+        # Numbers that are known follow, so that all of a light may stand together.
+        known = [i for i in range(self.read) if _is_read_number(results[i])]
+        out = np.empty((count + len(known), prod(layout.batch)), formula.dtype)
         failed = list(self._failures(grid, layout.batch, out))
         place = {symbol.index: row for row, symbol in reversed([*enumerate(formula.computed)])}
-        results = self.formula.results
         rows = [place.get(r.index) if isinstance(r, Symbol) else None for r in results]
+        for row, i in enumerate(known, count):
+            out[row], rows[i] = results[i], row
         each = [
             self._result(result, cells, layout) if row is None else out[row]
             for result, row in zip(results, rows, strict=True)
@@ -205,6 +209,10 @@ class Many:
         with ThreadPoolExecutor(self.threads) as pool:
             held = pool.map(lambda piece: grid.fill(piece, out), several)
             yield from (piece for piece, holds in zip(several, held, strict=True) if not holds)
+
+
+def _is_read_number(result: Any) -> bool:
+    return not (isinstance(result, Symbol) or np.isnan(result))
 
 
 def known_arrays(program: Program, dtype: np.dtype[Any]) -> dict[str, Array]:
