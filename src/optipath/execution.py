@@ -9,7 +9,6 @@ import numpy as np
 from optipath.engines import NUMPY_STEPS
 from optipath.errors import ParameterError
 from optipath.faint import folded
-from optipath.formulas import lights_formula
 from optipath.running.found import Found, in_shape, joined
 from optipath.running.pieces import pieces
 from optipath.running.runner import CACHED, Manner, Runner
@@ -90,16 +89,7 @@ class Execution(Runner):
             return self._stepped(given)
 
         def formula(forms: Any, axes: Any) -> Formula:
-            return lights_formula(
-                self.program,
-                self.way,
-                self.dtype.name,
-                forms,
-                self.inputs.limits,
-                polynomials=True,
-                axes=axes,
-                as_it_stands=self.as_it_stands,
-            )
+            return self.lights_formula(forms, axes=axes, as_it_stands=self.as_it_stands)
 
         def careful(part: Given) -> Array:
             found = self._careful(part)
@@ -131,13 +121,12 @@ class Execution(Runner):
     def _found(self, out: Results, end: int, count: int, given: Given, *, faint: bool) -> Found:
         """Return the light at an end, of which some components are read."""
         first = 4 * end
-        block = out.together(first, first + 4) if count == 4 or faint else None
-        if block is None and not faint:
+        if not faint and (count < 4 or out.together(first, first + 4) is None):
             components: list[Any] = [*out.each[first : first + count], *[np.nan] * (4 - count)]
             if not isinstance(components[0], np.ndarray):
                 components[0] = np.full(given.paths, components[0], self.dtype)
             return Found(tuple(in_shape(c, given.batch) for c in components), 0)
-        block = self.stacked(out, first, first + 4) if block is None else block
+        block = self.block(out, first, first + 4)
         block[count:] = np.nan
         stokes = np.moveaxis(block.reshape(4, *given.batch), 0, -1)
         if not faint:

@@ -71,8 +71,8 @@ def _tolerated(plan: Any) -> dict[str, Any] | None:
     if plan.instead is not None:
         text = f"model {plan.instead.model} where its certificate is within it, {exact} elsewhere"
     elif others := [n for n, end in plan.program.readings.items() if end.components > 1]:
-        names = ", ".join(others[:_FEW]) + (", ..." if len(others) > _FEW else "")
-        text = f"not used, since certificates are for intensities, and more is read by {names}"
+        ends = _first_few(others)
+        text = f"not used, since certificates are for intensities, and more is read by {ends}"
     else:
         text = f"not needed, since model {plan.model} is exact"
     return {"most": plan.tolerance, "model": plan.model, "otherwise": exact, "text": text}
@@ -83,8 +83,7 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     opened = plan.inputs.open.values()
     missing = [parameter.name for parameter in opened if parameter.default is None]
     if missing:
-        names = ", ".join(missing[:_FEW]) + (", ..." if len(missing) > _FEW else "")
-        return {"text": f"depends on {names}; see plan.certificate(...)"}
+        return {"text": f"depends on {_first_few(missing)}; see plan.certificate(...)"}
     whole = plan.whole_path
     if whole.has_traced:
         return {"text": "depends on values that JAX traces"}
@@ -100,6 +99,10 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     ]
     at = ", for the defaults" if plan.inputs.open else ""
     return {"bounds": bounds, "text": "; ".join(texts) + at}
+
+
+def _first_few(names: Sequence[str]) -> str:
+    return ", ".join(names[:_FEW]) + (", ..." if len(names) > _FEW else "")
 
 
 def _extremes(certificate: Certificate) -> dict[str, float] | None:

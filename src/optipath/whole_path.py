@@ -64,9 +64,7 @@ class WholePath(Runner):
             lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
             16,
         )
-        block = out.together(0, 16)
-        block = self.stacked(out, 0, 16) if block is None else block
-        return np.moveaxis(block.reshape(4, 4, *given.batch), (0, 1), (-2, -1))
+        return np.moveaxis(self.block(out, 0, 16).reshape(4, 4, *given.batch), (0, 1), (-2, -1))
 
     def given(self, parameters: Mapping[str, Any]) -> Given:
         """Return what is given, for both the bounds and the light.
@@ -146,5 +144,4 @@ class WholePath(Runner):
 
         engine, what = self.engine_for(given.paths), ("bounds", model)
         out, _ = self.filled(engine, what, formula, given, parameters, careful, count)
-        block = out.together(0, count)
-        return self.stacked(out, 0, count) if block is None else block
+        return self.block(out, 0, count)

@@ -66,8 +66,8 @@ class Result:
     def _errors(self) -> Any:
         instead = self.plan.instead
         assert instead is not None  # noqa: S101 - asked for by who knows
-        found = (self.plan.certificate(name) for name in self.plan.program.readings)
-        return np.max([one.error_of(instead.model) for one in found], axis=0)
+        whole = self.plan.whole_path
+        return whole.errors(instead.model, whole.given({}), {})[1]
 
     def published(self, detector: str) -> tuple[float, ...] | None:
         """Return the published Stokes vector, if these are the values it belongs to."""

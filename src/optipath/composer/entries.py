@@ -45,7 +45,7 @@ def entries(kernel: Kernel, views: Sequence[View], presence: View | None = None)
         known = tuple(0.0 if zero else n for n, zero in zip(known, zeros, strict=True))
         found = _symbolic(kernel, known)
     else:
-        found = _numeric(kernel, numbers)
+        found = _rows(kernel, FLOAT, numbers)
     if presence is None or kernel.structure is None:
         return found
     return tuple(
@@ -72,10 +72,6 @@ def _symbolic(kernel: Kernel, known: tuple[Entry, ...]) -> Entries:
         for place, number in enumerate(known)
     ]
     return _rows(kernel, SYMBOLIC, arguments)
-
-
-def _numeric(kernel: Kernel, numbers: tuple[Entry, ...]) -> Entries:
-    return _rows(kernel, FLOAT, numbers)
 
 
 def _rows(kernel: Kernel, xp: Primitives, arguments: Sequence[Any]) -> Entries:

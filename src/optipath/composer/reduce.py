@@ -50,10 +50,11 @@ def reduced(whole: Program, *, constants: bool) -> Reduction:
         folded += [f"left out, since it changes nothing alive: {name}" for name in left_out]
         if len(program.steps) == before:
             break
-    live = Live(program)
+    else:
+        live = Live(program)
     size = max(live.counts)
     return Reduction(
-        replace(program, counts=live.counts),
+        replace(live.program, counts=live.counts),
         MODELS[size - 1],
         _reason(live, size),
         tuple(live.components),

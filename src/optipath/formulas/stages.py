@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from optipath.formulas.symbol import Symbol
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from optipath.formulas.formula import Formula
 
 
@@ -29,53 +31,46 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
     known: list[Symbol] = []
     found: list[Formula] = []
     for own in sorted({s.axes for s in whole.steps if s.axes < axes and s.axes}, key=_order):
-        of_own = [symbol for symbol in whole.steps if symbol.axes == own]
-        later = {
-            operand.index
-            for step in whole.steps
-            if step.axes > own
-            for operand in step.operands
-            if isinstance(operand, Symbol)
-        }
-        later |= {result.index for result in whole.computed}
-        results = tuple(symbol for symbol in of_own if symbol.index in later)
-        earlier = frozenset(symbol.index for symbol in known if symbol.axes < own)
-        inner = last if last in own and len(own) > 1 else None
-        conditions = _conditions(whole, own)
-        found.append(
-            replace(
-                whole,
-                results=results,
-                conditions=conditions,
-                axes=own,
-                last=inner,
-                earlier=earlier,
-            )
-        )
+        later = _later(whole, own)
+        results = tuple(s for s in whole.steps if s.axes == own and s.index in later)
+        found.append(_stage(whole, results, own, last, known))
         known += results
-    earlier = frozenset(symbol.index for symbol in known)
+    done = {symbol.index for symbol in known}
     results = tuple(
         result
         for result in whole.results
-        if not (isinstance(result, Symbol) and result.index in earlier)
+        if not (isinstance(result, Symbol) and result.index in done)
     )
-    others = (*_conditions(whole, axes), *_conditions(whole, frozenset()))
-    final = replace(
-        whole,
-        results=results,
-        conditions=others,
-        axes=axes,
-        last=last if len(axes) > 1 else None,
-        earlier=earlier,
-    )
-    return (*found, final)
+    return (*found, _stage(whole, results, axes, last, known, frozenset()))
 
 
-def _conditions(whole: Formula, axes: frozenset[int]) -> tuple[object, ...]:
-    return tuple(
+def _later(whole: Formula, own: frozenset[int]) -> set[int]:
+    """Return what is needed of a stage once it is done."""
+    operands = (o for step in whole.steps if step.axes > own for o in step.operands)
+    return {o.index for o in (*operands, *whole.computed) if isinstance(o, Symbol)}
+
+
+def _stage(
+    whole: Formula,
+    results: tuple[object, ...],
+    own: frozenset[int],
+    last: int | None,
+    known: Sequence[Symbol],
+    *others: frozenset[int],
+) -> Formula:
+    """Return what is to be done along some axes; conditions along others may be looked at too."""
+    conditions = tuple(
         condition
         for condition in whole.conditions
-        if (condition.axes if isinstance(condition, Symbol) else frozenset()) == axes
+        if (condition.axes if isinstance(condition, Symbol) else frozenset()) in (own, *others)
+    )
+    return replace(
+        whole,
+        results=results,
+        conditions=conditions,
+        axes=own,
+        last=last if last in own and len(own) > 1 else None,
+        earlier=frozenset(symbol.index for symbol in known if symbol.axes < own),
     )
 
 

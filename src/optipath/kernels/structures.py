@@ -241,7 +241,6 @@ FULL = Structure(
     _full,
     _full_rows,
     full_powers,
-    None,
-    _grey_full,
+    unpolarising=_grey_full,
 )
 """Sixteen numbers, row by row."""

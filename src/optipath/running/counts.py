@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.formulas import lights_formula
 from optipath.views import MANY
 
 if TYPE_CHECKING:
@@ -27,18 +26,9 @@ def operations(
     """
     if not runner.compilable:
         return None
-    program, limits = runner.program, runner.inputs.limits
-    forms = dict.fromkeys((view.raw for view in program.leaves if not view.known), MANY)
+    options: dict[str, Any] = {"polynomials": False, "as_it_stands": as_it_stands}
     try:
-        return lights_formula(
-            program,
-            way or runner.way,
-            runner.dtype.name,
-            forms,
-            limits,
-            polynomials=False,
-            as_it_stands=as_it_stands,
-        ).operations
+        return runner.lights_formula(runner.all_given_as(MANY), way=way, **options).operations
     except Exception:  # noqa: BLE001 - an element of one's own may ask what its numbers are
         return None
 

@@ -23,8 +23,10 @@ if TYPE_CHECKING:
 
     from optipath.formulas import Formula
     from optipath.inputs import Inputs
+    from optipath.kernels import Way
     from optipath.program import Program
     from optipath.running.many import Results
+    from optipath.views import Raw
 
     Array = np.ndarray[Any, Any]
 
@@ -83,21 +85,23 @@ class Runner:
         kind = self.dtype.name
         if len(self.program.steps) > self.longest or kind not in ("float64", "float32"):
             return False
-        forms = dict.fromkeys((v.raw for v in self.program.leaves if not v.known), ONE)
-        limits = self.inputs.limits
         try:
-            lights_formula(
-                self.program,
-                self.way,
-                kind,
-                forms,
-                limits,
-                polynomials=True,
-                as_it_stands=self.as_it_stands,
-            )
+            self.lights_formula(self.all_given_as(ONE), as_it_stands=self.as_it_stands)
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
             return False
         return True
+
+    def all_given_as(self, form: str) -> dict[Raw, str]:
+        """Return one form for every number that is not known."""
+        return dict.fromkeys((v.raw for v in self.program.leaves if not v.known), form)
+
+    def lights_formula(
+        self, forms: Mapping[Raw, str], *, way: type[Way] | None = None, **options: Any
+    ) -> Formula:
+        """Return the formula of the light at every end, as the function of that name does."""
+        kind, limits = self.dtype.name, self.inputs.limits
+        options = {"polynomials": True, **options}
+        return lights_formula(self.program, way or self.way, kind, forms, limits, **options)
 
     def engine_for(self, count: int) -> str:
         """Return the engine for a batch of so many paths."""
@@ -154,8 +158,11 @@ class Runner:
             return iter([given])
         return (given.part(piece.where) for piece in pieces(given.batch, CACHED))
 
-    def stacked(self, results: Results, start: int, stop: int) -> Array:
+    def block(self, results: Results, start: int, stop: int) -> Array:
         """Return results, some of which may be known, as an array (results, paths)."""
+        together = results.together(start, stop)
+        if together is not None:
+            return together
         rows = np.empty((stop - start, results.out.shape[1]), self.dtype)
         for row, result in zip(rows, results.each[start:stop], strict=True):
             row[...] = result
