@@ -31,6 +31,7 @@ ROOMS = [
     "elements",
     "program",
     "reduction",
+    "loops",
     "walk",
     "formulas",
     "engines",

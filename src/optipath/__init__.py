@@ -38,6 +38,7 @@ from optipath.elements import (
 from optipath.errors import (
     ComposerError,
     FrameError,
+    LoopWarning,
     OptipathError,
     ParameterError,
     PathError,
@@ -47,7 +48,7 @@ from optipath.errors import (
     ValueFault,
 )
 from optipath.frames import Frame
-from optipath.fresnel import fresnel_reflection, fresnel_transmission
+from optipath.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
 from optipath.incidence import PlaneOfIncidence, plane_of_incidence
 from optipath.light import Light
 from optipath.materials import Material
@@ -79,6 +80,7 @@ __all__ = [
     "Index",
     "Interface",
     "Light",
+    "LoopWarning",
     "Material",
     "Mueller",
     "MuellerElement",
@@ -110,4 +112,5 @@ __all__ = [
     "plane_of_incidence",
     "polarization",
     "preset_names",
+    "refraction_angle",
 ]

@@ -154,6 +154,36 @@ class OutsideDomain(Domain):
         return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K)]
 
 
+class OptionalOutside(OutsideDomain):
+    """The same, or none."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself, if there is one."""
+        return [] if value is None else super().parts(name, value)
+
+
+class LitBehind(OutsideDomain):
+    """Indices of a medium behind a boundary from which light comes as well."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself."""
+        if not isinstance(value, Material):
+            return [(name, value, self)]
+        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K_BEHIND)]
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return (
+            "a real index of refraction above 0, since light comes from there too (by port "
+            "'back'), and let a Medium absorb between"
+        )
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        # A complex number without an imaginary part will do.
+        real = array.real if array.dtype.kind == "c" and not np.any(array.imag) else array
+        super()._check_numbers(owner, real)
+
+
 class StokesDomain(Domain):
     """Stokes vectors that light can have; none at all is unpolarised light."""
 
@@ -214,19 +244,26 @@ class Choice(Domain):
 _N = Domain("index of refraction", minimum=0.0)
 _K = Domain("extinction coefficient", minimum=0.0)
 _NO_K = Domain("extinction coefficient of the medium that light comes from", minimum=0.0, maximum=0)
+_NO_K_BEHIND = Domain(
+    "extinction coefficient, since light comes from there too (by port 'back')",
+    minimum=0.0,
+    maximum=0.0,
+)
 REAL = Domain("number")
 
 ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
-Incidence: TypeAlias = Annotated[
-    Quantity, Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
-]
+INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
+Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
 Fraction: TypeAlias = Annotated[Quantity, Domain("fraction", minimum=0.0, maximum=1.0)]
 NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, IndexDomain("index of refraction")]
-OutsideIndex: TypeAlias = Annotated[
-    Quantity | Material, OutsideDomain("index of refraction", minimum=np.finfo(float).tiny)
+OUTSIDE = OutsideDomain("index of refraction", minimum=np.finfo(float).tiny)
+OutsideIndex: TypeAlias = Annotated[Quantity | Material, OUTSIDE]
+LIT_BEHIND = LitBehind("index of refraction", minimum=np.finfo(float).tiny)
+OptionalIndex: TypeAlias = Annotated[
+    Quantity | Material, OptionalOutside("index of refraction", minimum=np.finfo(float).tiny)
 ]
 StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]

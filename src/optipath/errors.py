@@ -60,6 +60,10 @@ class PathError(OptipathError):
     """A path graph that cannot be composed; carries every fault found."""
 
 
+class LoopWarning(UserWarning):
+    """Nearly all of the light that goes round in a loop comes back each time."""
+
+
 class MissingExtraError(OptipathError):
     """A feature whose extra is not installed.
 

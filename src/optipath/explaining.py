@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines import LARGE, batches
-from optipath.explanation import Explanation, parameter_lines, steps_of
+from optipath.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.kernels import Plain
 from optipath.running.counts import operations
 
@@ -44,6 +44,7 @@ def explanation_of(plan: Any) -> Explanation:
         light_at={name: end.light for name, end in ends.items()},
         folded=plan.reduction.folded,
         operations=_operations(plan),
+        loops=tuple(explained_loops(plan.program)),
         certificate=_certified(plan),
         tolerance=_tolerated(plan),
         notes=tuple(_notes(plan)),
@@ -84,6 +85,8 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     missing = [parameter.name for parameter in opened if parameter.default is None]
     if missing:
         return {"text": f"depends on {_first_few(missing)}; see plan.certificate(...)"}
+    if plan.whole.loops:
+        return {"text": "none, since light goes round"}
     whole = plan.whole_path
     if whole.has_traced:
         return {"text": "depends on values that JAX traces"}

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from optipath.kernels import FULL, ROTATION
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from optipath.inputs import Inputs
     from optipath.program import Program
@@ -39,6 +41,31 @@ class ExplainedStep:
 
 
 @dataclass(frozen=True)
+class ExplainedLoop:
+    """A loop in words.
+
+    Attributes
+    ----------
+    places : tuple of str
+        Where lights meet, in the order in which they are solved for.
+    unknowns : int
+        How many numbers the system of equations has.
+    layered : bool
+        Whether it is a stack of parallel interfaces: nothing turns, and each layer meets none
+        but the next.
+    """
+
+    places: tuple[str, ...]
+    unknowns: int
+    layered: bool
+
+    def __str__(self) -> str:
+        places = ", ".join(self.places[:_FEW]) + (", ..." if len(self.places) > _FEW else "")
+        how = "added layer after layer" if self.layered else "summed over all rounds"
+        return f"light goes round at {places}: {how}, {_count(self.unknowns, 'unknown')}"
+
+
+@dataclass(frozen=True)
 class Explanation:
     """What a plan does, step by step.
 
@@ -58,6 +85,8 @@ class Explanation:
         The light that each end reads.
     folded : tuple of str
         What was merged, left out, or made cheaper.
+    loops : tuple of ExplainedLoop
+        Where light goes round.
     operations : mapping of str to mapping of str to int, optional
         How many operations a path takes, ``"plan"``, and how many the full composition takes,
         ``"full"``; by their sort.
@@ -78,6 +107,7 @@ class Explanation:
     reads: Mapping[str, tuple[str, ...]]
     light_at: Mapping[str, int]
     folded: tuple[str, ...] = ()
+    loops: tuple[ExplainedLoop, ...] = ()
     operations: Mapping[str, Mapping[str, int]] | None = None
     certificate: Mapping[str, Any] | None = None
     tolerance: Mapping[str, Any] | None = None
@@ -107,6 +137,7 @@ class Explanation:
             *_step_lines(self.steps),
             "",
             *_shortened(reads, "readings", _SHOWN),
+            *_shortened(list(map(str, self.loops)), "loops", _FEW),
             *self._cost(),
             *self._bounds(),
             *_shortened([f"folded: {sentence}" for sentence in self.folded], "folds", _FEW),
@@ -142,6 +173,25 @@ def steps_of(reduction: Reduction) -> tuple[ExplainedStep, ...]:
         ExplainedStep(light, step.label, _action(program, light), tuple(f"S{i}" for i in live))
         for light, (step, live) in enumerate(zip(program.steps, reduction.live, strict=True))
     )
+
+
+def explained_loops(program: Program) -> Iterator[ExplainedLoop]:
+    """Yield the loops of a program in words."""
+    for loop in program.loops:
+        yield ExplainedLoop(
+            tuple(program.steps[knot].label for knot in loop.knots),
+            sum(map(program.count, loop.knots)),
+            loop.layered and not any(_turns(program, at) for at in range(loop.start, loop.stop)),
+        )
+
+
+def _turns(program: Program, light: int) -> bool:
+    """Tell whether a step mixes the polarisations along and across the plane of incidence."""
+    evaluation = program.steps[light].evaluation
+    if evaluation is None:
+        return False
+    structure = program.evaluations[evaluation].kernel.structure
+    return structure in (ROTATION, FULL)
 
 
 def parameter_lines(inputs: Inputs) -> tuple[str, ...]:

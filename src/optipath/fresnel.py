@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import Domain, IndexDomain
+from optipath.domains import INCIDENCE, OUTSIDE, Domain, IndexDomain
 from optipath.errors import ValueFault
-from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION
+from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION, cosine, refraction, sine
 from optipath.precision import precision
 from optipath.shapes import check_broadcast
 
@@ -128,3 +128,44 @@ def _fresnel(
 
 def _vanishes(number: npt.NDArray[Any]) -> bool:
     return not np.any(number)
+
+
+def refraction_angle(
+    index: npt.ArrayLike, incidence: npt.ArrayLike, outside: npt.ArrayLike = 1.0
+) -> npt.NDArray[np.float64]:
+    """Return the angle at which light travels on behind a boundary, by Snell's law.
+
+    Behind a medium that absorbs, the real angle: that of planes of constant phase (Born &
+    Wolf, Principles of Optics, sec. 14.2). Where all is reflected, light creeps along the
+    boundary, and the angle is a right one.
+
+    Parameters
+    ----------
+    index : array_like, real or complex
+        The index n + ik of the medium behind.
+    incidence : array_like
+        The angle of incidence in radians, 0 to pi/2.
+    outside : array_like, optional
+        The index of the medium in front, real and above 0.
+
+    Raises
+    ------
+    ValueFault
+        If a value is not allowed.
+    ShapeError
+        If the values do not broadcast.
+
+    Examples
+    --------
+    >>> print(np.degrees(refraction_angle(1.5, np.radians(40.0))).round(6))
+    25.374006
+    """
+    m = _INDEX.check("index", index)
+    angle = INCIDENCE.check("incidence", incidence)
+    front = OUTSIDE.check("outside", outside)
+    check_broadcast({"index": m.shape, "incidence": angle.shape, "outside": front.shape})
+    cos, sin = (made(NUMPY)(angle) for made in (cosine, sine))
+    given = (front, np.real(m), np.imag(m) + 0.0, cos, sin)
+    with np.errstate(all="ignore"):
+        c, s = refraction(NUMPY)(*np.broadcast_arrays(*given))
+    return np.asarray(np.arctan2(s, c))

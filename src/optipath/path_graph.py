@@ -10,10 +10,10 @@ import networkx as nx
 
 from optipath.binding import bind
 from optipath.cases import Case
-from optipath.composer import Composer, parameters_of, validate
+from optipath.composer import LOOPS, Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Detector, Element
-from optipath.errors import PathError
+from optipath.errors import PathError, did_you_mean
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
 from optipath.port_names import check_port, element_at, find_port
@@ -45,12 +45,13 @@ class Node:
             raise PathError(
                 f"'{self.name}' has no one natural way out; connect one of its out-ports: {ports}"
             )
-        if len(end.inputs) != 1:
+        entry = end.inputs[0] if len(end.inputs) == 1 else end.entry
+        if not entry:
             ports = ", ".join(f"'{other.name}.{port}'" for port in end.inputs) or "none"
             raise PathError(
                 f"'{other.name}' has no one way in; connect one of its in-ports: {ports}"
             )
-        self.path.connect(f"{self.name}.{start.natural}", f"{other.name}.{end.inputs[0]}")
+        self.path.connect(f"{self.name}.{start.natural}", f"{other.name}.{entry}")
         return other
 
     def __repr__(self) -> str:
@@ -68,6 +69,8 @@ class PathGraph:
         Named sets of parameter values.
     declared : sequence of str, optional
         The order in which parameters are listed; others follow as they are met.
+    loops : {"refuse", "sum"}, optional
+        Whether light may go round in a cycle; ``"sum"`` adds up the intensities of all rounds.
 
     Examples
     --------
@@ -87,6 +90,7 @@ class PathGraph:
         description: str = "",
         cases: Mapping[str, Case] | None = None,
         declared: Sequence[str] = (),
+        loops: str = "refuse",
     ) -> None:
         if not isinstance(description, str):
             raise PathError(f"the description of a path must be a text, not {description!r}")
@@ -95,7 +99,9 @@ class PathGraph:
             raise PathError(f"cases of a path must be a Case for each name, not {cases!r}")
         self.description = description
         self.cases = dict(cases)
-        self._graph = nx.MultiDiGraph(declared=tuple(declared))
+        if loops not in LOOPS:
+            raise PathError(f"loops {loops!r} is unknown{did_you_mean(str(loops), LOOPS)}")
+        self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
         self._plan: Plan | None = None
 
     @property
@@ -111,6 +117,11 @@ class PathGraph:
         path = PathGraph(self.description, self.cases)
         path._graph = self._graph.copy()
         return path
+
+    @property
+    def loops(self) -> str:
+        """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
+        return str(self._graph.graph["loops"])
 
     @property
     def parameters(self) -> dict[str, Parameter]:
@@ -301,6 +312,7 @@ class PathGraph:
         mine, theirs = self._graph, other._graph
         return (
             self.description == other.description
+            and self.loops == other.loops
             and self.cases == other.cases
             and dict(mine.nodes(data=True)) == dict(theirs.nodes(data=True))
             and _links(mine).keys() == _links(theirs).keys()

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from optipath.frames import Frame
     from optipath.kernels import Kernel
@@ -76,6 +76,31 @@ class Reading:
     components: int = 4
 
 
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """Neighbouring steps whose lights depend on each other: a strongly connected component.
+
+    Attributes
+    ----------
+    knots : tuple of int
+        The steps where lights meet, those that every way round passes, in the order in which
+        they are to be eliminated; they stand before the other steps.
+    stop : int
+        The step behind the last one.
+    layered : bool
+        Whether each knot, when it is eliminated, has no more than two neighbours left.
+    """
+
+    knots: tuple[int, ...]
+    stop: int
+    layered: bool = False
+
+    @property
+    def start(self) -> int:
+        """The first step."""
+        return min(self.knots)
+
+
 @dataclass(frozen=True)
 class Program:
     """Everything an engine needs.
@@ -95,6 +120,9 @@ class Program:
     counts : tuple of int
         How many of (S0, S1, S2, S3) each light is carried by, the first ones; all four where
         it is empty.
+    loops : tuple of Loop
+        Where light goes round. A knot may add up lights of later steps of its loop; all other
+        steps have inputs before them.
     """
 
     leaves: tuple[View, ...]
@@ -104,6 +132,7 @@ class Program:
     detectors: Mapping[str, Reading]
     dumps: Mapping[str, Reading]
     counts: tuple[int, ...] = ()
+    loops: tuple[Loop, ...] = ()
 
     def count(self, light: int) -> int:
         """Return by how many components a light is carried."""
@@ -119,7 +148,7 @@ class Program:
     def for_powers(self) -> Program | None:
         """The same for intensities alone, or None where more is carried or read."""
         reads = {reading.components for reading in self.readings.values()}
-        if not self.counts or max(self.counts) > 2 or reads != {1}:
+        if self.loops or not self.counts or max(self.counts) > 2 or reads != {1}:
             return None
         kernels = [evaluation.kernel.powers or evaluation.kernel for evaluation in self.evaluations]
         evaluations = (
@@ -140,6 +169,24 @@ class Program:
         """How often each evaluation is needed."""
         uses = Counter(step.evaluation for step in self.steps)
         return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
+
+    def stretches(self) -> Iterator[tuple[range, Loop | None]]:
+        """Yield the steps in order, those of a loop together and with it."""
+        done = 0
+        for loop in self.loops:
+            yield range(done, loop.start), None
+            yield range(loop.start, loop.stop), loop
+            done = loop.stop
+        yield range(done, len(self.steps)), None
+
+    @cached_property
+    def used_by(self) -> tuple[tuple[int, ...], ...]:
+        """Which steps read each light."""
+        found: list[list[int]] = [[] for _ in self.steps]
+        for light, step in enumerate(self.steps):
+            for source in step.inputs:
+                found[source].append(light)
+        return tuple(map(tuple, found))
 
     @cached_property
     def readings(self) -> Mapping[str, Reading]:

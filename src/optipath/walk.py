@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.loops import Meeting
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
@@ -27,6 +29,7 @@ def walk(
     emitted: Mapping[int, Components] | None = None,
     number: Callable[[Any], Any] = itself,
     shared: Mapping[int, Numbers] | None = None,
+    meetings: list[Meeting] | None = None,
 ) -> dict[int, tuple[Components, Any]]:
     """Return the light of every reading, as four components and an exponent.
 
@@ -44,6 +47,8 @@ def walk(
         What is done to each number that a kernel gives.
     shared : mapping of int to tuple, optional
         What some evaluations come to, if that is known.
+    meetings : list, optional
+        Takes what has been solved for each loop.
 
     Returns
     -------
@@ -54,36 +59,72 @@ def walk(
     reads: dict[int, int] = {}
     for reading in program.readings.values():
         reads[reading.light] = max(reading.components, reads.get(reading.light, 1))
+    loops = {loop.start: loop for loop in program.loops}
     states: dict[int, Any] = {}
     states_left = list(program.light_uses)
     numbers: dict[int, Numbers] = dict(shared or {})
     numbers_left = list(program.evaluation_uses)
 
+    def numbers_of(index: int) -> Numbers:
+        if index not in numbers:
+            numbers[index] = evaluated(program.evaluations[index], leaves, way, number)
+        return numbers[index]
+
     for light, step in enumerate(program.steps):
+        if light in loops:
+            meeting = Meeting(program, loops[light], numbers_of, way.xp)
+            states |= _met(meeting, states, way)
+            if meetings is not None:
+                meetings.append(meeting)
         if emitted is not None and light in emitted:
             states[light] = way.emit(emitted[light], program.count(light))
-            continue
-        arriving = [states[source] for source in step.inputs]
-        state: Any = reduce(way.add, arriving) if arriving else None
+        # In a loop, some light is of use to the knots alone, and they are known.
+        elif light not in states and states_left[light]:
+            states[light] = _behind(program, light, states, way, numbers_of)
         if step.evaluation is not None:
-            index = step.evaluation
-            if index not in numbers:
-                numbers[index] = evaluated(program.evaluations[index], leaves, way, number)
-            structure = program.evaluations[index].kernel.structure
-            if structure is None:
-                s0, s1, s2, s3 = numbers[index]
-                state = way.emit((s0, s1, s2, s3), program.count(light))
-            else:
-                state = way.act(structure, numbers[index], state, program.count(light))
-            numbers_left[index] -= 1
-            if not numbers_left[index]:
-                del numbers[index]
-        states[light] = state
+            numbers_left[step.evaluation] -= 1
+            if not numbers_left[step.evaluation]:
+                numbers.pop(step.evaluation, None)
         for source in step.inputs:
             states_left[source] -= 1
             if not states_left[source]:
-                del states[source]
+                states.pop(source, None)
     return {light: way.read(states[light], count) for light, count in reads.items()}
+
+
+def _behind(
+    program: Program,
+    light: int,
+    states: Mapping[int, Any],
+    way: Way,
+    numbers_of: Callable[[int], Numbers],
+) -> Any:
+    """Return the light that a step makes."""
+    step, count = program.steps[light], program.count(light)
+    state = _together([states[source] for source in step.inputs], way)
+    if step.evaluation is None:
+        return state
+    numbers = numbers_of(step.evaluation)
+    structure = program.evaluations[step.evaluation].kernel.structure
+    if structure is None:
+        s0, s1, s2, s3 = numbers
+        return way.emit((s0, s1, s2, s3), count)
+    return way.act(structure, numbers, state, count)
+
+
+def _met(meeting: Meeting, states: Mapping[int, Any], way: Any) -> dict[int, Any]:
+    """Return the light at the knots of a loop."""
+    arriving: dict[int, Any] = {}
+    for knot in meeting.loop.knots:
+        inputs = meeting.program.steps[knot].inputs
+        if outside := [states[source] for source in inputs if source < meeting.loop.start]:
+            arriving[knot] = _together(outside, way)
+    found: dict[int, Any] = way.meet(meeting, arriving)
+    return found
+
+
+def _together(lights: list[Any], way: Way) -> Any:
+    return reduce(way.add, lights) if lights else None
 
 
 def evaluated(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.certificate import Certificate
+from optipath.errors import ParameterError
 from optipath.engines import COMPILED, NUMPY_STEPS
 from optipath.formulas import bounds_formula, matrix_formula
 from optipath.running.found import joined
@@ -72,8 +73,13 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            With every fault of what is given.
+            With every fault of what is given, or if light goes round.
         """
+        if self.program.loops:
+            raise ParameterError(
+                "there are no certificates for light that goes round in a loop; run the path, "
+                "which is exact"
+            )
         self.refuse_traced(parameters, "certificates are made")
         return self.sorter.sort(parameters)
 

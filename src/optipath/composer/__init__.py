@@ -3,10 +3,11 @@
 from optipath.composer.composer import CHOICES, Composer
 from optipath.composer.validate import partial_faults, validate
 from optipath.composer.values import parameters_of, value_faults
-from optipath.composer.wiring import Wiring
+from optipath.composer.wiring import LOOPS, Wiring
 
 __all__ = [
     "CHOICES",
+    "LOOPS",
     "Composer",
     "Wiring",
     "parameters_of",

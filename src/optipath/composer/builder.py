@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from optipath.program import Evaluation, Program, Reading, Step
+from optipath.composer.knots import in_order_of_elimination
+from optipath.program import Evaluation, Loop, Program, Reading, Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
@@ -22,6 +23,7 @@ class Builder:
         self.leaves: list[View] = []
         self.evaluations: list[Evaluation] = []
         self.steps: list[Step] = []
+        self.loops: list[Loop] = []
         self._leaf_at: dict[Hashable, int] = {}
         self._evaluation_at: dict[Evaluation, int] = {}
 
@@ -33,7 +35,7 @@ class Builder:
     ) -> Program:
         """Return what has been collected."""
         collected = tuple(self.leaves), tuple(self.evaluations), tuple(self.steps)
-        return Program(*collected, sources, detectors, dumps)
+        return Program(*collected, sources, detectors, dumps, loops=tuple(self.loops))
 
     def instead_of(self, old: Program, moved: Callable[[int], int]) -> Program:
         """Return what has been collected, with the ends of another program.
@@ -78,6 +80,31 @@ class Builder:
             return lights[0]
         self.steps.append(Step(label, tuple(lights)))
         return len(self.steps) - 1
+
+    def knot(self, label: str) -> int:
+        """Add a sum whose lights are not all there yet; `close` says which they are."""
+        self.steps.append(Step(label, ()))
+        return len(self.steps) - 1
+
+    def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
+        """Say what the knots of a loop add up, now that all of its steps are there."""
+        for knot, lights in inputs.items():
+            self.steps[knot] = replace(self.steps[knot], inputs=tuple(lights))
+        start = min(inputs)
+        order = in_order_of_elimination(self.steps, start, tuple(inputs))
+        layered = all(count <= 2 for count in order.values())
+        self.loops.append(Loop(tuple(order), len(self.steps), layered))
+
+    def knots_of(self, old: Program, loop: Loop | None) -> dict[int, int]:
+        """Add the knots of another program's loop; return the new light of each."""
+        knots = () if loop is None else sorted(loop.knots)
+        return {knot: self.knot(old.steps[knot].label) for knot in knots}
+
+    def close_like(self, old: Program, loop: Loop | None, moved: Callable[[int], int]) -> None:
+        """Close a loop as another program has it, when its steps are there."""
+        if loop is not None:
+            sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.knots}
+            self.close({moved(knot): lights for knot, lights in sums.items()})
 
     def _leaf(self, view: View) -> int:
         key = view.key()

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 import networkx as nx
 
 from optipath.composer.collection import put_off
-from optipath.composer.lower import lower, refuse_depolarizers
+from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
 from optipath.composer.reduce import as_it_stands, by_name, for_jones, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
-from optipath.composer.wiring import Wiring
+from optipath.composer.wiring import LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
 from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
@@ -30,6 +30,7 @@ CHOICES = {
     "model": ("auto", *MODELS),
     "engine": ENGINES,
     "composing": ("stokes", "jones"),
+    "loops": (None, *LOOPS),
 }
 
 
@@ -67,6 +68,10 @@ class Composer:
         How large the error of an intensity may be, as a share of it; 0.01 is 1 %. Where a
         certificate keeps the scalar model (or one asked for by name) within it, that is run,
         and the exact model elsewhere, path by path. By default every plan is exact.
+    loops : {"refuse", "sum"}, optional
+        What becomes of light that goes round in a cycle: an error that names the cycle, or the
+        sum of intensities over all rounds, found by solving for it. By default what the path
+        says, which refuses unless it was built with ``loops="sum"``.
     threads : int, optional
         How many threads share a batch of more than 65,536 paths; one by default, since
         threads that wait for a busy machine cost more than they bring.
@@ -92,6 +97,7 @@ class Composer:
     composing: str = "stokes"
     tolerance: float | None = None
     threads: int = 1
+    loops: str | None = None
 
     def __post_init__(self) -> None:
         faults = []
@@ -153,11 +159,12 @@ class Composer:
             return self._plan(graph)
 
     def _plan(self, graph: nx.MultiDiGraph) -> Plan:
-        values, wiring = Values(graph), Wiring(graph)
+        values, wiring = Values(graph), Wiring(graph, self.loops)
         refuse_faults(values, wiring)
         whole = lower(wiring, self.method)
         if self.composing == "jones":
             refuse_depolarizers(whole)
+            refuse_loops(whole)
         reduction, instead = self._reduced(whole)
         return Plan(
             whole=whole,

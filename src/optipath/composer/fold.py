@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.kernels import Kernel
-    from optipath.program import Program, Step
+    from optipath.program import Loop, Program, Step
 
 
 _MOST = 16
@@ -75,9 +75,23 @@ class _Folding:
 
     def program(self) -> Program:
         """Return the folded program."""
-        for light, step in enumerate(self.old.steps):
-            self._waiting[light] = self._of(step)
+        for lights, loop in self.old.stretches():
+            if loop is not None:
+                self._settle_before(loop)
+            knots = self.builder.knots_of(self.old, loop)
+            self._waiting |= {knot: (light, []) for knot, light in knots.items()}
+            for light in lights:
+                if light not in knots:
+                    self._waiting[light] = self._of(self.old.steps[light])
+            self.builder.close_like(self.old, loop, self._settled)
         return self.builder.instead_of(self.old, self._settled)
+
+    def _settle_before(self, loop: Loop) -> None:
+        """Settle what enters a loop, since its steps stand together."""
+        for light in range(loop.start, loop.stop):
+            for source in self.old.steps[light].inputs:
+                if source < loop.start:
+                    self._settled(source)
 
     def _of(self, step: Step) -> tuple[int, list[Item]]:
         if step.evaluation is None:

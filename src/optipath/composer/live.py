@@ -8,6 +8,8 @@ from optipath.composer.builder import Builder
 from optipath.composer.entries import entries_of
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.composer.entries import Entries
     from optipath.program import Program
 
@@ -61,21 +63,35 @@ class Live:
         )
 
     def _forward(self) -> list[set[int]]:
-        reached: list[set[int]] = []
-        for step, rows in zip(self.program.steps, self.entries, strict=True):
-            arriving = set().union(*(reached[light] for light in step.inputs))
-            if rows is None:
-                reached.append(arriving)
-            elif not step.inputs:
-                reached.append({i for i, entry in enumerate(rows[0]) if entry != 0.0})
-            else:
-                reached.append({i for i in range(4) if any(rows[i][j] != 0.0 for j in arriving)})
-        return reached
+        reached: list[set[int]] = [set() for _ in self.program.steps]
+        return self._settled(reached, lambda: self._send_forward(reached))
 
     def _backward(self) -> list[set[int]]:
         needed: list[set[int]] = [set() for _ in self.program.steps]
         for reading in self.program.readings.values():
             needed[reading.light] |= set(range(reading.components))
+        return self._settled(needed, lambda: self._send_backward(needed))
+
+    def _settled(self, found: list[set[int]], sent: Callable[[], None]) -> list[set[int]]:
+        """Return what is found once nothing is added any more; loops take several rounds."""
+        sent()
+        before = -1
+        while self.program.loops and (now := sum(map(len, found))) > before:
+            before = now
+            sent()
+        return found
+
+    def _send_forward(self, reached: list[set[int]]) -> None:
+        for light, (step, rows) in enumerate(zip(self.program.steps, self.entries, strict=True)):
+            arriving = set().union(*(reached[source] for source in step.inputs))
+            if rows is None:
+                reached[light] |= arriving
+            elif not step.inputs:
+                reached[light] |= {i for i, entry in enumerate(rows[0]) if entry != 0.0}
+            else:
+                reached[light] |= {i for i in range(4) if any(rows[i][j] != 0.0 for j in arriving)}
+
+    def _send_backward(self, needed: list[set[int]]) -> None:
         for light in reversed(range(len(needed))):
             rows, asked = self.entries[light], needed[light]
             for before in self.program.steps[light].inputs:
@@ -83,22 +99,27 @@ class Live:
                     needed[before] |= asked
                 else:
                     needed[before] |= {j for j in range(4) if any(rows[i][j] != 0.0 for i in asked)}
-        return needed
 
 
 def trim(live: Live) -> tuple[Program, list[str]]:
     """Return a program without the steps that do nothing to what is alive, and which they are."""
     old, builder = live.program, Builder()
-    moved: list[int] = []
+    moved: dict[int, int] = {}
     left_out = []
-    for light, step in enumerate(old.steps):
-        inputs = tuple(moved[i] for i in step.inputs)
-        if step.evaluation is not None and live.does_nothing(light):
-            kernel = old.parts(step.evaluation)[0]
-            left_out.append(f"{kernel.name} at '{step.label}'")
-            moved.append(inputs[0])
-        elif step.evaluation is None:
-            moved.append(builder.sum(step.label, inputs))
-        else:
-            moved.append(builder.step(step.label, inputs, *old.parts(step.evaluation)))
+    for lights, loop in old.stretches():
+        moved |= builder.knots_of(old, loop)
+        for light in lights:
+            if light in moved:
+                continue
+            step = old.steps[light]
+            inputs = tuple(moved[i] for i in step.inputs)
+            if step.evaluation is not None and live.does_nothing(light):
+                kernel = old.parts(step.evaluation)[0]
+                left_out.append(f"{kernel.name} at '{step.label}'")
+                moved[light] = inputs[0]
+            elif step.evaluation is None:
+                moved[light] = builder.sum(step.label, inputs)
+            else:
+                moved[light] = builder.step(step.label, inputs, *old.parts(step.evaluation))
+        builder.close_like(old, loop, moved.__getitem__)
     return builder.instead_of(old, moved.__getitem__), left_out

@@ -4,23 +4,24 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import networkx as nx
 import numpy as np
 
 from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
 from optipath.composer.wiring import link_text
 from optipath.elements import Detector
-from optipath.errors import ComposerError
+from optipath.errors import ComposerError, listed
 from optipath.frames import Frame
 from optipath.parameters import Parameter
 from optipath.program import Reading
 from optipath.views import View, view_of
 
 if TYPE_CHECKING:
-    from optipath.composer.wiring import Port, Wiring
+    from optipath.composer.wiring import Link, Port, Stretch, Wiring
     from optipath.elements import Coupling, Operation
     from optipath.program import Program
+
+_FEW = 8
 
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
@@ -31,8 +32,8 @@ def lower(wiring: Wiring, method: str) -> Program:
     Ports from which no light reaches a detector or a dump are left out.
     """
     lowering = _Lowering(wiring, method)
-    for port in nx.lexicographical_topological_sort(wiring.wanted):
-        lowering.add_port(port)
+    for stretch in wiring.stretches:
+        lowering.add(stretch)
     return lowering.program()
 
 
@@ -58,6 +59,22 @@ def refuse_depolarizers(program: Program) -> None:
         raise ComposerError(*faults)
 
 
+def refuse_loops(program: Program) -> None:
+    """Refuse light that goes round, which Jones columns cannot be solved for.
+
+    Raises
+    ------
+    ComposerError
+        Naming a place in each loop.
+    """
+    if program.loops:
+        places = listed([f"'{program.steps[loop.start].label}'" for loop in program.loops[:_FEW]])
+        raise ComposerError(
+            f"light goes round at {places}, and what adds up there has no Jones vector; compose "
+            f"with composing='stokes'"
+        )
+
+
 class _Lowering:
     """Takes the ports of a path one after the other."""
 
@@ -80,35 +97,50 @@ class _Lowering:
             kept[name] = Reading(light, frame, _COMPONENTS[reads])
         return self.builder.program(self.sources, detectors, dumps)
 
-    def add_port(self, port: Port) -> None:
-        """Add the steps that make the light at a port."""
+    def add(self, stretch: Stretch) -> None:
+        """Add the steps that make the light at the ports of a stretch."""
+        if not stretch.knots:
+            for port in stretch.ports:
+                self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
+            return
+        outside = {knot: self._arriving(knot) for knot in stretch.knots}
+        for knot in stretch.knots:
+            self.lights[knot] = self.builder.knot(".".join(knot))
+        for port in stretch.ports:
+            if port not in stretch.knots:
+                self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
+        inside = {knot: self._arriving(knot, set(stretch.ports)) for knot in stretch.knots}
+        self.builder.close(
+            {self.lights[knot]: [*outside[knot], *inside[knot]] for knot in stretch.knots}
+        )
+
+    def _arriving(self, port: Port, within: set[Port] | None = None) -> list[int]:
+        """Return the lights that add up at a port, those from ports within some alone."""
         name, way = port
         if way in self.wiring.elements[name].inputs:
-            self._add_arrivals(port)
-            return
-        lights = [
+            links = self.wiring.links_to[port]
+            starts = [(link[0], link[2][0]) for link in links]
+            pairs = zip(links, starts, strict=True)
+            return [self._along(link) for link, start in pairs if self._is_there(start, within)]
+        return [
             self._pass(name, coupling)
             for coupling in self.wiring.couplings[name]
-            if coupling.leaves == way and self._is_lit(name, coupling)
+            if coupling.leaves == way and self._is_lit(name, coupling, within)
         ]
-        self.lights[port] = self.builder.sum(f"{name}.{way}", lights)
 
-    def _add_arrivals(self, port: Port) -> None:
-        name, way = port
-        lights = []
-        for link in self.wiring.links_to[port]:
-            start, _, (leaves, _) = link
-            if (start, leaves) not in self.lights:
-                continue
-            light = self.lights[start, leaves]
-            turn = alignment(self.wiring, link)
-            if turn is not None:
-                light = self._step(link_text(link), (light,), turn, None)
-            lights.append(light)
-        self.lights[port] = self.builder.sum(f"{name}.{way}", lights)
+    def _along(self, link: Link) -> int:
+        """Return the light of a link in the frame that it enters."""
+        start, _, (leaves, _) = link
+        light, turn = self.lights[start, leaves], alignment(self.wiring, link)
+        return light if turn is None else self._step(link_text(link), (light,), turn, None)
 
-    def _is_lit(self, name: str, coupling: Coupling) -> bool:
-        return coupling.enters is None or (name, coupling.enters) in self.lights
+    def _is_there(self, port: Port, within: set[Port] | None) -> bool:
+        return port in self.lights and (within is None or port in within)
+
+    def _is_lit(self, name: str, coupling: Coupling, within: set[Port] | None) -> bool:
+        if coupling.enters is None:
+            return within is None
+        return self._is_there((name, coupling.enters), within)
 
     def _pass(self, name: str, coupling: Coupling) -> int:
         label = f"{name}.{coupling.leaves}"

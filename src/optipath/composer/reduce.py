@@ -96,10 +96,15 @@ def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
     if MODELS.index(wanted) >= size:
         return None
     others = _others(exact)
-    if not others:
+    if not others and not exact.program.loops:
         return Tolerance(wanted, most)
     if model == "auto":
         return None
+    if exact.program.loops:
+        raise ComposerError(
+            f"model '{model}' is not exact for this path, and there are no certificates for light "
+            f"that goes round; use model '{exact.model}'"
+        )
     raise ComposerError(
         f"model '{model}' is not exact for this path, and certificates are for intensities: "
         f"{listed([repr(name) for name in others])} reads more; let all read 'intensity', as "

@@ -74,7 +74,8 @@ def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -
 def _link_faults(wiring: Wiring) -> Iterator[str]:
     yield from _feeding_faults(wiring)
     yield from _dark_link_faults(wiring)
-    yield from _loop_faults(wiring.ports)
+    if wiring.loops != "sum":
+        yield from _loop_faults(wiring.ports)
 
 
 def _end_faults(wiring: Wiring) -> Iterator[str]:
@@ -133,4 +134,7 @@ def _loop_faults(ports: nx.DiGraph) -> Iterator[str]:
             route = [name for name, _ in nx.shortest_path(inside, start, back)]
             names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
             closed = names if len(names) > 1 and names[0] == names[-1] else [*names, names[0]]
-            yield f"light goes round in a cycle: {' -> '.join(closed)}; open it by removing a link"
+            yield (
+                f"light goes round in a cycle: {' -> '.join(closed)}; open it by removing a link, "
+                f"or sum over all rounds with loops='sum'"
+            )

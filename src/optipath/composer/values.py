@@ -32,10 +32,22 @@ class Values:
             for name, element in self.graph.nodes(data="element")
             for part, value, domain in element.quantities()
         ]
+        found += self._entered()
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
                 found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
         return tuple(found)
+
+    def _entered(self) -> list[Use]:
+        """Return the numbers that must be something besides, where links lead to some port."""
+        entries = dict.fromkeys((end, enters) for _, end, (_, enters) in self.graph.edges(keys=True))
+        elements = self.graph.nodes(data="element")
+        return [
+            Use(f"{name}.{part}", value, domain)
+            for name, port in entries
+            for field, limits in elements[name].domains_entered(port).items()
+            for part, value, domain in limits.parts(field, getattr(elements[name], field))
+        ]
 
     @cached_property
     def parameters(self) -> dict[str, Parameter]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from functools import cached_property
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import networkx as nx
 
@@ -18,6 +18,25 @@ Link: TypeAlias = tuple[str, str, tuple[str, str]]
 """(start node, end node, (out-port, in-port)), as networkx keys the edges."""
 
 
+LOOPS = ("refuse", "sum")
+"""What becomes of light that goes round: an error, or the sum over all rounds."""
+
+
+class Stretch(NamedTuple):
+    """Ports that light passes one after the other: one port, or all those of a loop.
+
+    Attributes
+    ----------
+    ports : tuple of Port
+        In the order of travel, but for the knots.
+    knots : tuple of Port
+        Those of a loop where lights meet, one of which every way round passes.
+    """
+
+    ports: tuple[Port, ...]
+    knots: tuple[Port, ...] = ()
+
+
 def link_text(link: Link) -> str:
     """Write a link as ``start.port -> end.port``."""
     start, end, (leaves, enters) = link
@@ -29,10 +48,18 @@ class Wiring:
 
     Working on ports rather than nodes tells light that passes an element twice, by
     different ways, from light that goes round in a loop.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    loops : {"refuse", "sum"}, optional
+        Whether light may go round; by default what the graph says, and else not.
     """
 
-    def __init__(self, graph: nx.MultiDiGraph) -> None:
+    def __init__(self, graph: nx.MultiDiGraph, loops: str | None = None) -> None:
         self.graph = graph
+        self.loops = graph.graph.get("loops", LOOPS[0]) if loops is None else loops
 
     @cached_property
     def elements(self) -> dict[str, Element]:
@@ -115,6 +142,22 @@ class Wiring:
         return found
 
     @cached_property
+    def stretches(self) -> list[Stretch]:
+        """The ports that light passes, in the order of travel; those of a loop together."""
+        wanted = self.wanted
+        rounds = [c for c in nx.strongly_connected_components(wanted) if len(c) > 1]
+        if not rounds:
+            return [Stretch((port,)) for port in nx.lexicographical_topological_sort(wanted)]
+        stands_for = {port: min(ports) for ports in rounds for port in ports}
+        loops = {min(ports): _loop(wanted, ports) for ports in rounds}
+        outer = nx.DiGraph()
+        outer.add_nodes_from(stands_for.get(port, port) for port in wanted)
+        ends = ((stands_for.get(a, a), stands_for.get(b, b)) for a, b in wanted.edges)
+        outer.add_edges_from((a, b) for a, b in ends if a != b)
+        order = nx.lexicographical_topological_sort(outer)
+        return [loops.get(port) or Stretch((port,)) for port in order]
+
+    @cached_property
     def dark_links(self) -> list[Link]:
         """The links from out-ports that no coupling gives light to."""
         lit = {(name, c.leaves) for name, ways in self.couplings.items() for c in ways}
@@ -137,6 +180,20 @@ class Wiring:
         """The out-ports that several links take, each the whole light."""
         counts = Counter(f"{start}.{ways[0]}" for start, _, ways in self.graph.edges(keys=True))
         return tuple(sorted(port for port, count in counts.items() if count > 1))
+
+
+def _loop(ports: nx.DiGraph, together: set[Port]) -> Stretch:
+    """Return the ports of a loop; where several lights arrive is a knot."""
+    knots = tuple(sorted(port for port in together if ports.in_degree(port) > 1))
+    between = nx.DiGraph()
+    between.add_nodes_from(together)
+    between.add_edges_from(
+        (start, end)
+        for end in together.difference(knots)
+        for start in ports.predecessors(end)
+    )
+    order = nx.lexicographical_topological_sort(between)
+    return Stretch(tuple(order), knots)
 
 
 def _reached(ports: nx.DiGraph, starts: Iterable[Port]) -> set[Port]:

@@ -50,6 +50,8 @@ class Element:
         The ports where light enters and leaves.
     natural : str
         The out-port that ``>>`` continues from; empty where there is none.
+    entry : str
+        The in-port that ``>>`` leads to, where there are several; empty where none is natural.
     merges : bool
         Whether several links may feed one in-port; their light adds incoherently.
     straight : bool
@@ -72,6 +74,7 @@ class Element:
     inputs: ClassVar[tuple[str, ...]] = ("in",)
     outputs: ClassVar[tuple[str, ...]] = ("out",)
     natural: ClassVar[str] = "out"
+    entry: ClassVar[str] = ""
     merges: ClassVar[bool] = False
     straight: ClassVar[bool] = True
     _kernel: ClassVar[Kernel | None] = None
@@ -106,6 +109,11 @@ class Element:
         """Yield every value that is a number: its name, the value, its domain."""
         for name, domain in self.domains().items():
             yield from domain.parts(name, getattr(self, name))
+
+    def domains_entered(self, port: str) -> Mapping[str, Domain]:
+        """Return what values must be besides, where a link leads to a port."""
+        del port
+        return {}
 
     def parameters(self) -> Iterator[Parameter]:
         """Yield the parameters among the values."""

@@ -53,3 +53,17 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
     across = np.linalg.norm(np.cross(arriving.z, reflected.z), axis=-1)
     against = -np.sum(arriving.z * reflected.z, axis=-1)
     return np.asarray(0.5 * np.arctan2(across, against))
+
+
+def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
+    """Return the angle between the directions of two frames.
+
+    Examples
+    --------
+    >>> from optipath.frames import Frame
+    >>> aside = Frame.from_direction(z=(0, 1, 1), x=(1, 0, 0))
+    >>> float(np.degrees(angle_between(Frame(), aside)).round(9))
+    45.0
+    """
+    across = np.linalg.norm(np.cross(first.z, second.z), axis=-1)
+    return np.asarray(np.arctan2(across, np.sum(first.z * second.z, axis=-1)))

@@ -1,89 +1,101 @@
-"""Interface: a smooth boundary between two media, reflecting by Fresnel's equations."""
+"""Interface: a smooth boundary between two media, by Fresnel's equations."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
-from optipath.domains import Angle, Incidence, Index, OutsideIndex
+from optipath.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.frame_checks import incidence_between, share_x
-from optipath.kernels import REFLECTION
+from optipath.elements.boundary_frames import boundary_faults
+from optipath.kernels import REFLECTION, REFLECTION_BEHIND, TRANSMISSION, TRANSMISSION_BEHIND
 from optipath.materials import Material
-from optipath.shapes import broadcast_fault
 from optipath.views import View
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.domains import Domain
     from optipath.frames import Frame
 
 
 class Interface(Element, kind="interface"):
     """A smooth boundary; its frames have x = s, perpendicular to the plane of incidence.
 
-    Light that enters at ``in`` leaves at ``reflected``. The port ``transmitted`` is
-    named already, but gives no light in this version.
+    Light from the front enters at ``in``; what is reflected leaves at ``reflected``, and what
+    is refracted at ``transmitted``, as the power carried into the medium behind. Light from
+    behind enters at ``back``, against the way in which ``transmitted`` leaves: what is
+    reflected leaves at ``transmitted``, and what is refracted at ``reflected``. It needs a
+    medium behind that does not absorb.
 
     Parameters
     ----------
     index : float, complex, array_like, Material or Parameter
         The index of refraction n + ik of the medium behind the boundary.
     incidence : float, array_like or Parameter
-        The angle of incidence in radians, 0 to pi/2.
+        The angle of incidence in radians, 0 to pi/2, of light from the front.
     outside : float, array_like, Material or Parameter, optional
-        The index of the medium that light comes from, without absorption.
+        The index of the medium in front, without absorption.
     azimuth : float, array_like or Parameter, optional
-        The angle by which the frame of ``in`` is turned about the direction of
-        travel against the frame of the port before it.
+        The angle by which the frame of ``in``, or ``back``, is turned about the direction
+        of travel against the frame of the port before it.
+    incidence_in : float, array_like, Material or Parameter, optional
+        The index of the medium in which the incidence is measured; ``outside`` by default.
+        With it, one angle serves all parallel interfaces of a stack, refracted from the medium
+        in front of the stack by Snell's law.
 
     Examples
     --------
-    >>> Interface(index=0.608 + 2.12j, incidence=0.349)
-    Interface(index=(0.608+2.12j), incidence=0.349, outside=1.0, azimuth=0.0)
+    >>> Interface(index=0.608 + 2.12j, incidence=0.349).outside
+    1.0
+    >>> glass = Interface(index=1.5, incidence=0.0)
+    >>> print(glass.mueller("in", "transmitted").matrix[0, 0])
+    0.96
     """
 
+    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
     outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
     natural: ClassVar[str] = "reflected"
+    entry: ClassVar[str] = "in"
     straight: ClassVar[bool] = False
 
     index: Index
     incidence: Incidence
     outside: OutsideIndex = 1.0
     azimuth: Angle = 0.0
+    incidence_in: OptionalIndex | None = None
 
     def couplings(self) -> tuple[Coupling, ...]:
-        """Return the reflection from ``in`` to ``reflected``."""
-        outside = self.outside.n if isinstance(self.outside, Material) else self.outside
+        """Return what is reflected and what is let through, from either side.
+
+        Between media that do not absorb, both are the same from the two sides (Stokes'
+        relations): r' = -r for s and for p, and power carried either way is 1 - |r|^2.
+        """
         n, k = numbers_of(self.index, self.domains()["index"])
+        media = (_real(self.outside), n, k)
         angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
-        operation = Operation(REFLECTION, (outside, n, k, *angle))
-        return (Coupling("in", "reflected", (operation,)),)
+        reflection, transmission = REFLECTION, TRANSMISSION
+        if self.incidence_in is not None:
+            reflection, transmission = REFLECTION_BEHIND, TRANSMISSION_BEHIND
+            angle = (_real(self.incidence_in), *angle)
+        reflect = (Operation(reflection, (*media, *angle)),)
+        transmit = (Operation(transmission, (*media, *angle)),)
+        return (
+            Coupling("in", "reflected", reflect),
+            Coupling("in", "transmitted", transmit),
+            Coupling("back", "transmitted", reflect),
+            Coupling("back", "reflected", transmit),
+        )
+
+    def domains_entered(self, port: str) -> Mapping[str, Domain]:
+        """Return that the medium behind must not absorb where light comes from there."""
+        return {"index": LIT_BEHIND} if port == "back" else {}
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that x = s at both ports and that the directions meet at the incidence."""
-        if not {"in", "reflected"} <= frames.keys():
-            return []
-        arriving, leaving = frames["in"], frames["reflected"]
-        if not share_x(arriving, leaving):
-            problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"
-            return [f"{problem}, perpendicular to the plane of incidence"]
-        found = incidence_between(arriving, leaving)
-        problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
-        incidence = View(self.incidence)
-        if not incidence.known:
-            return [f"{problem}; give that, not the parameter '{self.incidence.name}'"]  # type: ignore[union-attr]
-        if self.faults(owner):
-            return []
-        given = incidence.numbers({})
-        if broadcast_fault({"frames": found.shape, "incidence": given.shape}):
-            return []  # Named with all other shapes.
-        if np.all(np.abs(found - given) <= 1e-7):
-            return []
-        return [f"{problem}, but its incidence is {_degrees(given)}; make them agree"]
+        """Check that x = s at all ports and that the directions obey reflection and Snell."""
+        return boundary_faults(owner, self, frames)
 
 
-def _degrees(angle: Any) -> str:
-    return f"{np.degrees(np.ravel(angle)[0]):.9g} deg"
+def _real(index: Any) -> Any:
+    """Return n of a medium that does not absorb."""
+    return index.n if isinstance(index, Material) else index

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.kernels import Way
+    from optipath.loops import Meeting
     from optipath.program import Program, Reading
     from optipath.views import Raw
 
@@ -55,10 +56,12 @@ def lights_formula(
     carried: Way = way(xp)
     if way is Plain and program.for_powers is not None:
         program, carried = program.for_powers, Powers(xp, tiny * _SPARE)
-    found = walk(program, leaves.of(program), carried, number=known or itself)
+    meetings: list[Meeting] = []
+    symbols = leaves.of(program)
+    found = walk(program, symbols, carried, number=known or itself, meetings=meetings)
     outputs: list[Any] = []
     exponents: list[Any] = []
-    holds: list[Any] = []
+    holds = [condition for meeting in meetings for condition in meeting.conditions]
     for reading in program.readings.values():
         components, exponent = found[reading.light]
         read = components[: 4 if as_it_stands else reading.components]
@@ -117,16 +120,18 @@ def matrix_formula(
     symbols, way = leaves.of(program), Linear(leaves.primitives)
     none, one = recorder.dtype.type(0.0), recorder.dtype.type(1.0)
     columns = []
+    meetings: list[Meeting] = []
     for place in range(4):
         emitted = {step: (none,) * 4 for step, _ in program.sources.values()}
         begin, _ = program.sources[source]
         emitted[begin] = tuple(one if row == place else none for row in range(4))
-        components, _ = walk(program, symbols, way, emitted)[reading.light]
+        components, _ = walk(program, symbols, way, emitted, meetings=meetings)[reading.light]
         columns.append(components)
     rows = range(reading.components)
     outputs = [column[row] for row in rows for column in columns]
     unread = [np.nan] * (16 - len(outputs))
-    return _formula(recorder, [*outputs, *unread], [_finite(outputs, recorder.dtype)])
+    holds = [condition for meeting in meetings[:1] for condition in meeting.conditions]
+    return _formula(recorder, [*outputs, *unread], [*holds, _finite(outputs, recorder.dtype)])
 
 
 def _finite(numbers: Any, dtype: np.dtype[Any]) -> Any:

@@ -9,7 +9,14 @@ from typing import TypeAlias
 from optipath.kernels import emission, filters, rotation
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
 from optipath.kernels.bounds import Boosts, Bounds, boosted, largest_error, ratio_bounds
-from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
+from optipath.kernels.carried import (
+    Carried,
+    Components,
+    add,
+    carry,
+    not_above_rounding,
+    stokes_of,
+)
 from optipath.kernels.circular import cosine, sine, without_rounding
 from optipath.kernels.compensated import (
     compensated_lossless_reflection,
@@ -18,13 +25,16 @@ from optipath.kernels.compensated import (
     compensated_transmission,
 )
 from optipath.kernels.double_double import DoubleDouble
+from optipath.kernels.elimination import Elimination, is_zero
 from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
 from optipath.kernels.linear import Linear
+from optipath.kernels.parted import Parts, energy, light_of, parts_of, unit_light
 from optipath.kernels.plain import Plain
 from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
 from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
+from optipath.kernels.refraction import all_behind, lossless_refraction, refraction
 from optipath.kernels.scaled import Scaled
 from optipath.kernels.stable import (
     denser_reflection,
@@ -97,6 +107,8 @@ TRANSMISSION = _family(
     amplitude=_fresnel(_REFRACTED, "amplitude", amplitude_transmission),
     textbook=_fresnel(_REFRACTED, "textbook", textbook_transmission),
 )
+REFLECTION_BEHIND, TRANSMISSION_BEHIND = all_behind(REFLECTION), all_behind(TRANSMISSION)
+
 Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers | Bounds
 
 METHODS = tuple(REFLECTION.methods)
@@ -134,10 +146,12 @@ __all__ = [
     "POLARIZER",
     "POWERS",
     "REFLECTION",
+    "REFLECTION_BEHIND",
     "RETARDER",
     "ROTATION",
     "SCALE",
     "TRANSMISSION",
+    "TRANSMISSION_BEHIND",
     "TURN",
     "TURN_BACK",
     "UNPOLARIZED",
@@ -146,10 +160,12 @@ __all__ = [
     "Carried",
     "Components",
     "DoubleDouble",
+    "Elimination",
     "Jones",
     "Kernel",
     "KernelFamily",
     "Linear",
+    "Parts",
     "Plain",
     "Powers",
     "Primitives",
@@ -160,10 +176,18 @@ __all__ = [
     "boosted",
     "carry",
     "cosine",
+    "energy",
+    "is_zero",
     "largest_error",
+    "light_of",
+    "lossless_refraction",
+    "not_above_rounding",
+    "parts_of",
     "ratio_bounds",
+    "refraction",
     "sine",
     "stokes_of",
     "turn_linear",
+    "unit_light",
     "without_rounding",
 ]

@@ -98,6 +98,18 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
     return xp.where((weak < 0.0) & _vanishes(weak, _SEVERAL * size), 0.0, weak)
 
 
+def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
+    """Return a number, 0 where it is no more than the roundings of a size.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
+    (0.0, 1e-06)
+    """
+    return xp.where(_vanishes(number, _SEVERAL * size), 0.0, number)
+
+
 def _vanishes(number: Any, beside: Any) -> Any:
     return beside + number == beside
 

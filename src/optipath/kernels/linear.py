@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING, Any
 from optipath.kernels.carried import products
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from optipath.kernels.carried import Components
+    from optipath.kernels.parted import Meeting, Parts
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.structures import Numbers, Structure
 
@@ -46,7 +49,24 @@ class Linear:
         s0, s1, s2, s3 = (one + other for one, other in zip(first, second, strict=True))
         return s0, s1, s2, s3
 
+    def meet(self, meeting: Meeting, arriving: Mapping[int, Components]) -> dict[int, Components]:
+        """Return the states at the knots of a loop, for those that arrive at some."""
+        parts = {knot: _parts(s, meeting.count(knot)) for knot, s in arriving.items()}
+        return {knot: _whole(found) for knot, found in meeting.lights(parts).items()}
+
     def read(self, state: Components, count: int = 4) -> tuple[Components, Any]:
         """Return the components, and the exponent of the power of two times them."""
         del count
         return state, 0
+
+
+def _parts(state: Components, count: int) -> Parts:
+    s0, s1, s2, s3 = state
+    return (s0,) if count == 1 else (0.5 * (s0 + s1), 0.5 * (s0 - s1), s2, s3)[:count]
+
+
+def _whole(parts: Parts) -> Components:
+    if len(parts) == 1:
+        return parts[0], 0.0, 0.0, 0.0
+    x, y, s2, s3 = (*parts, 0.0, 0.0)[:4]
+    return x + y, x - y, s2, s3

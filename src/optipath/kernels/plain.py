@@ -14,7 +14,12 @@ from optipath.kernels.carried import (
     stokes_of,
 )
 
+from optipath.kernels.parted import light_of, parts_of
+
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.kernels.parted import Meeting
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.structures import Numbers, Structure
 
@@ -38,6 +43,11 @@ class Plain:
     def add(self, first: Carried, second: Carried) -> Carried:
         """Return the state of two lights together, incoherently."""
         return add(self.xp, first, second)
+
+    def meet(self, meeting: Meeting, arriving: Mapping[int, Carried]) -> dict[int, Carried]:
+        """Return the states at the knots of a loop, for those that arrive at some."""
+        parts = {k: parts_of(self.xp, state, meeting.count(k)) for k, state in arriving.items()}
+        return {knot: light_of(self.xp, found) for knot, found in meeting.lights(parts).items()}
 
     def read(self, state: Carried, count: int = 4) -> tuple[Components, Any]:
         """Return the first components, and the exponent of the power of two times them."""

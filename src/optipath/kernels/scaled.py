@@ -15,9 +15,16 @@ from optipath.kernels.carried import (
     stokes_of,
 )
 
+from optipath.kernels.parted import light_of, parts_of
+
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.kernels.parted import Meeting
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.structures import Numbers, Structure
+
+_DARK = -(2**40)
 
 ScaledState: TypeAlias = tuple[Carried, Any]
 """The light is the first times two to the power of the second."""
@@ -66,6 +73,24 @@ class Scaled:
         light = _times_two_to(self.xp, light, exponent - most)
         other = _times_two_to(self.xp, other, of_other - most)
         return self._settled(add(self.xp, light, other), most)
+
+    def meet(
+        self, meeting: Meeting, arriving: Mapping[int, ScaledState]
+    ) -> dict[int, ScaledState]:
+        """Return the states at the knots of a loop, for those that arrive at some."""
+        most = reduce(self.xp.maximum, (self._exponent(state) for state in arriving.values()))
+        most = self.xp.where(most > _DARK, most, 0)
+        parts = {}
+        for knot, (carried, exponent) in arriving.items():
+            light = _times_two_to(self.xp, carried, exponent - most)
+            parts[knot] = parts_of(self.xp, light, meeting.count(knot))
+        lights = meeting.lights(parts).items()
+        return {knot: self._settled(light_of(self.xp, found), most) for knot, found in lights}
+
+    def _exponent(self, state: ScaledState) -> Any:
+        """Return the exponent of light, below all others where it is dark."""
+        carried, exponent = state
+        return self.xp.where(_size(self.xp, carried) > 0.0, exponent, _DARK)
 
     def read(self, state: ScaledState, count: int = 4) -> tuple[Components, Any]:
         """Return the first components, and the exponent of the power of two times them."""

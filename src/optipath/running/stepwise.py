@@ -11,12 +11,14 @@ from optipath.faint import FAINT, folded, is_faint
 from optipath.formulas import slack_of
 from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
+from optipath.running.gains import check_gains
 from optipath.walk import evaluated, walk
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.kernels import Components, Way
+    from optipath.loops import Meeting
     from optipath.program import Program, Reading
     from optipath.running.given import Given
     from optipath.views import Raw, View
@@ -70,9 +72,12 @@ class Stepwise:
             if not view.known:
                 number = numbers[view.raw]
                 leaves[place] = number if view.part == "present" else view.of_float(number)
+        meetings: list[Meeting] = []
         try:
-            found = walk(self.program, leaves, self._float_way)
+            found = walk(self.program, leaves, self._float_way, meetings=meetings)
         except (ArithmeticError, ValueError):
+            return None
+        if not all(all(meeting.conditions) for meeting in meetings):
             return None
         lights = []
         for reading in self.program.readings.values():
@@ -160,8 +165,11 @@ class Stepwise:
     def _walk(
         self, leaves: Sequence[Any], way: Way, emitted: Any = None, shared: Shared | None = None
     ) -> Any:
+        meetings: list[Meeting] = []
         with np.errstate(all="ignore"):
-            return walk(self.program, leaves, way, emitted, self._number, shared)
+            found = walk(self.program, leaves, way, emitted, self._number, shared, meetings)
+        check_gains(meetings)
+        return found
 
     def _number(self, number: Any) -> np.ndarray[Any, Any]:
         # Plain numbers among what kernels give have no precision of their own.

@@ -1,0 +1,99 @@
+"""The world frames of a boundary's four ports: one x, and directions by reflection and Snell."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.frame_checks import angle_between, incidence_between, share_x
+from optipath.fresnel import refraction_angle
+from optipath.materials import Material
+from optipath.shapes import broadcast_fault
+from optipath.views import View
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.elements.interface import Interface
+    from optipath.frames import Frame
+
+_TOLERANCE = 1e-7
+
+
+def boundary_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> list[str]:
+    """Return what is wrong with the frames of an interface's ports, a sentence each."""
+    placed = list(frames.items())
+    apart = [f"'{owner}.{port}'" for port, frame in placed[1:] if not share_x(frame, placed[0][1])]
+    if apart:
+        ports = " and ".join([f"'{owner}.{placed[0][0]}'", *apart])
+        problem = f"the frames of {ports} must share one x"
+        return [f"{problem}, perpendicular to the plane of incidence"]
+    return [*_meeting_faults(owner, element, frames), *_passing_faults(owner, element, frames)]
+
+
+def _meeting_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> Iterator[str]:
+    if not {"in", "reflected"} <= frames.keys():
+        return
+    found = incidence_between(frames["in"], frames["reflected"])
+    problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
+    if not View(element.incidence).known:
+        name = element.incidence.name  # type: ignore[union-attr]
+        yield f"{problem}; give that, not the parameter '{name}'"
+    angles = _angles(owner, element)
+    if angles and not _agree(found, angles[0]):
+        yield f"{problem}, but its incidence is {_degrees(angles[0])}; make them agree"
+
+
+def _passing_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> Iterator[str]:
+    angles = _angles(owner, element)
+    if not angles:
+        return
+    front, behind = angles
+    if {"back", "transmitted"} <= frames.keys():
+        found = incidence_between(frames["back"], frames["transmitted"])
+        if not _agree(found, behind):
+            yield (
+                f"the frames of '{owner}.back' and '{owner}.transmitted' meet at an incidence of "
+                f"{_degrees(found)}, but behind '{owner}' it is {_degrees(behind)}; make them agree"
+            )
+    for enters, leaves in (("in", "transmitted"), ("back", "reflected")):
+        if {enters, leaves} <= frames.keys():
+            found = angle_between(frames[enters], frames[leaves])
+            if not _agree(found, np.abs(front - behind)):
+                yield (
+                    f"light from '{owner}.{enters}' to '{owner}.{leaves}' is turned by "
+                    f"{_degrees(found)} in the world, but by {_degrees(np.abs(front - behind))} "
+                    f"by Snell's law; make them agree"
+                )
+
+
+def _angles(owner: str, element: Interface) -> tuple[Any, Any] | None:
+    """Return the angles in front and behind, if they are known and allowed."""
+    values = [element.incidence, element.index, element.outside, element.incidence_in]
+    parts = [p for v in values for p in ((v.n, v.k) if isinstance(v, Material) else (v,))]
+    if not all(View(part).known for part in parts) or element.faults(owner):
+        return None
+    shapes = {str(place): np.shape(part) for place, part in enumerate(parts) if part is not None}
+    if broadcast_fault(shapes):
+        return None  # Named with all other shapes.
+    incidence, outside = View(element.incidence).numbers({}), _complex(element.outside).real
+    if element.incidence_in is not None:
+        incidence = refraction_angle(outside, incidence, _complex(element.incidence_in).real)
+    return incidence, refraction_angle(_complex(element.index), incidence, outside)
+
+
+def _complex(index: Any) -> Any:
+    if isinstance(index, Material):
+        return View(index.n).numbers({}) + 1j * View(index.k).numbers({})
+    return View(index).numbers({})
+
+
+def _agree(found: Any, given: Any) -> bool:
+    if broadcast_fault({"found": np.shape(found), "given": np.shape(given)}):
+        return True  # Named with all other shapes.
+    return bool(np.all(np.abs(found - given) <= _TOLERANCE))
+
+
+def _degrees(angle: Any) -> str:
+    return f"{np.degrees(np.ravel(angle)[0]):.9g} deg"

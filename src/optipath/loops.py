@@ -1,0 +1,151 @@
+"""Loops: lights that depend on each other, found where they meet.
+
+Every way round a loop passes a knot, where lights add up. What light at one knot brings to
+others is found by sending unit lights along the steps between; a system of equations in the
+intensities along x and y, S2 and S3 of all knots then gives the light at each.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.kernels import (
+    Elimination,
+    Plain,
+    energy,
+    is_zero,
+    not_above_rounding,
+    parts_of,
+    unit_light,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.kernels import Carried, Parts, Primitives
+    from optipath.kernels.structures import Numbers
+    from optipath.program import Loop, Program
+
+
+_LITTLE = 1e-4
+"""What leaves a loop each time round where its sum takes a look, as a share."""
+
+
+class Column(NamedTuple):
+    """What becomes of one unit of light at a knot until it meets other light again.
+
+    Attributes
+    ----------
+    back : dict of int to tuple
+        The parts of the light that it brings to knots.
+    leaves : number
+        How much intensity leaves the loop, or is absorbed in it.
+    """
+
+    back: dict[int, Parts]
+    leaves: Any
+
+
+class Meeting:
+    """The lights at the knots of a loop, for any light that arrives there.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    loop : Loop
+        Those that are solved for.
+    numbers : callable
+        ``numbers(evaluation)`` gives the numbers of an evaluation.
+    xp : Primitives
+        What is computed with.
+
+    Attributes
+    ----------
+    unknowns : list of tuple of int
+        The knot and the part that each unknown is.
+    columns : list of Column
+        What becomes of a unit of each.
+    pivots : list
+        As those of `Elimination`.
+    """
+
+    def __init__(
+        self, program: Program, loop: Loop, numbers: Callable[[int], Numbers], xp: Primitives
+    ) -> None:
+        self.program = program
+        self.loop = loop
+        self.numbers = numbers
+        self.way = Plain(xp)
+        self._ends = Counter(reading.light for reading in program.readings.values())
+        self.unknowns = [(knot, part) for knot in loop.knots for part in range(self.count(knot))]
+        self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
+        self.columns = [self._column(*unknown) for unknown in self.unknowns]
+        self._system = Elimination(
+            [self.scattered(column.back) for column in self.columns],
+            [column.leaves for column in self.columns],
+            [part < 2 for _, part in self.unknowns],
+        )
+        self.pivots = self._system.pivots
+
+    def count(self, knot: int) -> int:
+        """Return by how many components the light at a knot is carried."""
+        return self.program.count(knot)
+
+    def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
+        """Return the parts of the light at each knot, for those of what arrives at some."""
+        given = self.scattered(arriving)
+        found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
+        lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())
+        for (knot, _), number in zip(self.unknowns, found, strict=True):
+            lights[knot] = (*lights[knot], number)
+        return lights
+
+    @property
+    def conditions(self) -> list[Any]:
+        """Whether so much of each unknown leaves that nobody needs to look at it."""
+        return [pivot > _LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+
+    def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
+        """Return the parts of the lights at some knots by their place among the unknowns."""
+        return {
+            self._place[knot, part]: number
+            for knot, parts in lights.items()
+            for part, number in enumerate(parts)
+        }
+
+    def _column(self, knot: int, part: int) -> Column:
+        """Follow a unit of light at a knot to the next ones."""
+        column, xp = Column({}, 0.0), self.way.xp
+        waiting = [(knot, unit_light(part, self.program.count(knot)))]
+        while waiting:
+            light, state = waiting.pop()
+            there = energy(xp, state)
+            passed = [there] * self._ends[light]
+            leaves = sum(passed, start=column.leaves)
+            for user in self.program.used_by[light]:
+                after = self._behind(user, state)
+                passed.append(energy(xp, after))
+                if user in self.loop.knots:
+                    parts = parts_of(xp, after, self.count(user))
+                    before = column.back.get(user, (0.0,) * len(parts))
+                    sums = (one + other for one, other in zip(before, parts, strict=True))
+                    column.back[user] = tuple(sums)
+                elif self.loop.start <= user < self.loop.stop:
+                    waiting.append((user, after))
+                else:
+                    leaves = leaves + passed[-1]
+            size = sum(map(xp.absolute, passed), start=xp.absolute(there))
+            # What a lossless element seems to absorb is its rounding.
+            absorbed = not_above_rounding(xp, there - sum(passed), size)
+            column = Column(column.back, leaves + absorbed)
+        return column
+
+    def _behind(self, user: int, state: Carried) -> Carried:
+        step, count = self.program.steps[user], self.count(user)
+        if step.evaluation is None:
+            return state
+        structure = self.program.evaluations[step.evaluation].kernel.structure
+        assert structure is not None  # noqa: S101 - sources take no light
+        return self.way.act(structure, self.numbers(step.evaluation), state, count)

@@ -1,0 +1,78 @@
+"""Gains: how much of the light in a loop comes back each time round; 1 or more has no sum."""
+
+from __future__ import annotations
+
+import warnings
+from functools import reduce
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import LoopWarning, ParameterError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.loops import Meeting
+
+    Array = np.ndarray[Any, Any]
+
+_MOST = 1 << 22
+"""How many entries of matrices are looked at together; larger systems are judged by pivots."""
+
+_WHOLE = 64.0 * np.finfo(np.float64).eps
+
+
+def check_gains(meetings: Sequence[Meeting]) -> None:
+    """Refuse light that gains going round; warn where nearly all of it comes back.
+
+    Raises
+    ------
+    ParameterError
+        Naming the loop and its gain.
+
+    Warns
+    -----
+    LoopWarning
+        With the gain and the condition number of the system.
+    """
+    faults = []
+    for meeting in meetings:
+        doubtful = reduce(np.logical_or, (~np.asarray(holds) for holds in meeting.conditions))
+        if not np.any(doubtful):
+            continue
+        place = meeting.program.steps[meeting.loop.start].label
+        gain, condition = _worst(meeting, doubtful)
+        if gain >= 1.0 - _WHOLE:
+            faults.append(
+                f"light that goes round at '{place}' never fades: {gain:.9g} of it comes back each "
+                f"time; let some of it leave, or absorb some"
+            )
+        else:
+            warnings.warn(
+                f"of the light that goes round at '{place}', {gain:.9g} comes back each time; the "
+                f"condition number of the sum is {condition:.2g}, by which errors of the values "
+                f"that are given may be enlarged",
+                LoopWarning,
+                stacklevel=2,
+            )
+    if faults:
+        raise ParameterError(*faults)
+
+
+def _worst(meeting: Meeting, doubtful: Array) -> tuple[float, float]:
+    """Return the largest gain among the doubtful paths of a batch, and the condition there."""
+    count = len(meeting.unknowns)
+    if count * count > _MOST:
+        least = float(np.nanmin([np.nanmin(pivot) for pivot in meeting.pivots]))
+        return 1.0 - least, 2.0 / max(least, np.finfo(float).tiny)
+    paths = max(1, _MOST // (count * count))
+    where = np.argwhere(np.atleast_1d(doubtful))[:paths]
+    matrices = np.zeros((len(where), count, count))
+    for column, found in enumerate(meeting.columns):
+        for row, number in meeting.scattered(found.back).items():
+            shaped = np.broadcast_to(np.asarray(number, float), np.atleast_1d(doubtful).shape)
+            matrices[:, row, column] = shaped[tuple(where.T)]
+    gains = np.abs(np.linalg.eigvals(matrices)).max(axis=-1)
+    worst = int(np.argmax(gains))
+    return float(gains[worst]), float(np.linalg.cond(np.eye(count) - matrices[worst]))
