@@ -62,6 +62,8 @@ def _with_bound(element: Element, bound: Mapping[str, Parameter]) -> Element:
 def _bound_value(value: Any, bound: Mapping[str, Parameter]) -> Any:
     if isinstance(value, Material):
         return Material(_bound_value(value.n, bound), _bound_value(value.k, bound))
+    if isinstance(value, tuple):
+        return tuple(_bound_value(one, bound) for one in value)
     if isinstance(value, Parameter) and value.name in bound:
         parameter = bound[value.name]
         return -parameter if value.negative else parameter

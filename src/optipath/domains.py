@@ -7,6 +7,7 @@ The annotated types below say it where the fields of an element are declared:
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, TypeAlias
 
@@ -14,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import ValueFault, did_you_mean
-from optipath.frozen import array_of
+from optipath.frozen import array_of, frozen
 from optipath.jax_values import is_traced
 from optipath.materials import Material
 from optipath.parameters import Parameter
@@ -79,6 +80,10 @@ class Domain:
         """Tell, for the plain floats that long paths are made of, whether all is well."""
         inside = type(value) is float and self.minimum <= value <= self.maximum
         return inside and math.isfinite(value) and not self.tail
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change."""
+        return frozen(value)
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -184,6 +189,56 @@ class LitBehind(OutsideDomain):
         super()._check_numbers(owner, real)
 
 
+class InnerDomain(OutsideDomain):
+    """Indices of the layers of a stack, between which light goes to and fro."""
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return (
+            "a real index of refraction above 0; what a layer absorbs depends on how thick it is: "
+            "link Interfaces with a Medium between"
+        )
+
+
+class IndicesDomain(Domain):
+    """Indices of the media of a stack, the front medium first and the substrate last."""
+
+    def kept(self, value: Any) -> Any:
+        """Return the indices one by one, since each may be an array of its own."""
+        if not isinstance(value, (list, tuple, np.ndarray)):
+            return value
+        return tuple(_plain_index(frozen(index)) for index in value)
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the numbers of each index, with what it may be."""
+        if not isinstance(value, tuple) or len(value) < 2:
+            return [(name, value, self)]
+        domains = [OUTSIDE, *[INNER] * (len(value) - 2), INDEX]
+        return [
+            part
+            for place, (index, domain) in enumerate(zip(value, domains, strict=True))
+            for part in domain.parts(f"{name}[{place}]", index)
+        ]
+
+    def check(self, owner: str, value: Any) -> Any:
+        """Refuse what is no list of two or more.
+
+        Raises
+        ------
+        ValueFault
+            Always, since good lists are checked by their parts.
+        """
+        raise ValueFault(
+            f"{owner} is {value!r}; give a list of two indices or more, the medium in front first "
+            f"and the substrate last"
+        )
+
+
+def _plain_index(index: Any) -> Any:
+    """Return an index that came out of an array with others as the real number that it is."""
+    return index.real if isinstance(index, complex) and index.imag == 0.0 else index
+
+
 class StokesDomain(Domain):
     """Stokes vectors that light can have; none at all is unpolarised light."""
 
@@ -258,9 +313,13 @@ Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
 Fraction: TypeAlias = Annotated[Quantity, Domain("fraction", minimum=0.0, maximum=1.0)]
 NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
 Real: TypeAlias = Annotated[Quantity, REAL]
-Index: TypeAlias = Annotated[Quantity | Material, IndexDomain("index of refraction")]
+INDEX = IndexDomain("index of refraction")
+Index: TypeAlias = Annotated[Quantity | Material, INDEX]
 OUTSIDE = OutsideDomain("index of refraction", minimum=np.finfo(float).tiny)
 OutsideIndex: TypeAlias = Annotated[Quantity | Material, OUTSIDE]
+INNER = InnerDomain("index of refraction", minimum=np.finfo(float).tiny)
+INDICES = IndicesDomain("indices of refraction")
+Indices: TypeAlias = Annotated[Sequence[Quantity | Material], INDICES]
 LIT_BEHIND = LitBehind("index of refraction", minimum=np.finfo(float).tiny)
 OptionalIndex: TypeAlias = Annotated[
     Quantity | Material, OptionalOutside("index of refraction", minimum=np.finfo(float).tiny)

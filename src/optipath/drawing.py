@@ -74,6 +74,8 @@ def _text(value: Any, unit: str) -> str:
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
         return f"{_text(value.n, '')} + {_text(value.k, '')} i"
+    if isinstance(value, tuple):
+        return "[" + ", ".join(_text(one, unit) for one in value) + "]"
     if isinstance(value, np.ndarray):
         return f"array{value.shape}"
     if isinstance(value, (int, float)):

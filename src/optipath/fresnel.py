@@ -158,7 +158,7 @@ def refraction_angle(
     Examples
     --------
     >>> print(np.degrees(refraction_angle(1.5, np.radians(40.0))).round(6))
-    25.374006
+    25.373994
     """
     m = _INDEX.check("index", index)
     angle = INCIDENCE.check("incidence", incidence)

@@ -57,6 +57,8 @@ def same(first: Any, second: Any) -> bool:
     """
     if first is second:
         return True
+    if isinstance(first, tuple) and isinstance(second, tuple):
+        return len(first) == len(second) and all(map(same, first, second))
     if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
         return np.array_equal(np.asarray(first), np.asarray(second))
     return bool(first == second)

@@ -69,6 +69,8 @@ class Meeting:
         What becomes of a unit of each.
     pivots : list
         As those of `Elimination`.
+    arriving : list
+        The parts of all light that has arrived from outside.
     """
 
     def __init__(
@@ -83,11 +85,13 @@ class Meeting:
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
         self._system = Elimination(
+            xp,
             [self.scattered(column.back) for column in self.columns],
             [column.leaves for column in self.columns],
             [part < 2 for _, part in self.unknowns],
         )
         self.pivots = self._system.pivots
+        self.arriving: list[Any] = []
 
     def count(self, knot: int) -> int:
         """Return by how many components the light at a knot is carried."""
@@ -95,6 +99,7 @@ class Meeting:
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
         """Return the parts of the light at each knot, for those of what arrives at some."""
+        self.arriving += [part for parts in arriving.values() for part in parts]
         given = self.scattered(arriving)
         found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
         lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())

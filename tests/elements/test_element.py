@@ -151,8 +151,8 @@ def test_a_bound_parameter_is_a_value():
 
 
 def test_a_way_that_does_not_exist_is_refused_with_those_that_do():
-    with pytest.raises(op.PathError, match="there are: in -> reflected"):
-        op.Interface(1.5, 0.1).mueller(leaves="transmitted")
+    with pytest.raises(op.PathError, match="there are: in -> reflected, in -> tran"):
+        op.Interface(1.5, 0.1).mueller("back", "back")
 
 
 def test_a_mueller_element_does_what_its_matrix_says():

@@ -9,6 +9,8 @@ from optipath.kernels import (
     ATTENUATOR,
     BLOCK,
     CONSTANT_BLOCK,
+    CONSTANT_DEPOLARIZING_BLOCK,
+    DEPOLARIZING_BLOCK,
     FLOAT,
     FULL,
     GIVEN_TURN,
@@ -22,8 +24,14 @@ if TYPE_CHECKING:
 
     from optipath.kernels import Kernel, Structure
 
-_KERNELS = {"scale": ATTENUATOR, "rotation": GIVEN_TURN, "full": MATRIX, BLOCK.name: CONSTANT_BLOCK}
-_COSTS = {"scale": 4, "rotation": 16, BLOCK.name: 14, "full": 34}
+_KERNELS = {
+    "scale": ATTENUATOR,
+    "rotation": GIVEN_TURN,
+    "full": MATRIX,
+    BLOCK.name: CONSTANT_BLOCK,
+    DEPOLARIZING_BLOCK.name: CONSTANT_DEPOLARIZING_BLOCK,
+}
+_COSTS = {"scale": 4, "rotation": 16, BLOCK.name: 14, DEPOLARIZING_BLOCK.name: 14, "full": 34}
 _EXTINCT = 0.01
 """Where less than this share of some light passes, a product of matrices may lose its digits."""
 

@@ -96,7 +96,7 @@ def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
         kind, leaves = wiring.elements[link[0]].kind, link[2][0]
         yield (
             f"link '{link_text(link)}' carries no light: {kind} names '{leaves}', but gives no "
-            f"light there in this version; remove the link"
+            f"light there; remove the link"
         )
 
 

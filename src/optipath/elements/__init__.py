@@ -6,6 +6,7 @@ from optipath.elements.combiner import Combiner
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.elements.interface import Interface
+from optipath.elements.layer_stack import LayerStack
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
 from optipath.elements.registry import element_class
@@ -23,6 +24,7 @@ __all__ = [
     "Dump",
     "Element",
     "Interface",
+    "LayerStack",
     "MuellerElement",
     "Operation",
     "Polarizer",

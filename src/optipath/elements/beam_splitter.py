@@ -20,7 +20,8 @@ class BeamSplitter(Element, kind="beam-splitter"):
     """A lossless beam splitter that does not polarise.
 
     Light that enters at ``in`` leaves in part at ``reflected``, as from an ideal
-    mirror (r_p = -r_s), and in part at ``transmitted``, unchanged.
+    mirror (r_p = -r_s), and in part at ``transmitted``, unchanged. Light that enters from
+    the other side, at ``back``, is reflected to ``transmitted`` and passes to ``reflected``.
 
     Parameters
     ----------
@@ -35,7 +36,9 @@ class BeamSplitter(Element, kind="beam-splitter"):
     BeamSplitter(reflectance=0.3, azimuth=0.0)
     """
 
+    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
     outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
+    entry: ClassVar[str] = "in"
     natural: ClassVar[str] = ""
     straight: ClassVar[bool] = False
 
@@ -43,21 +46,33 @@ class BeamSplitter(Element, kind="beam-splitter"):
     azimuth: Angle = 0.0
 
     def couplings(self) -> tuple[Coupling, ...]:
-        """Return the mirror and what passes it."""
+        """Return the mirror and what passes it, from either side."""
+        mirror = (Operation(MIRROR, (self.reflectance,)),)
+        passing = (Operation(COMPLEMENT, (self.reflectance,)),)
         return (
-            Coupling("in", "reflected", (Operation(MIRROR, (self.reflectance,)),)),
-            Coupling("in", "transmitted", (Operation(COMPLEMENT, (self.reflectance,)),)),
+            Coupling("in", "reflected", mirror),
+            Coupling("in", "transmitted", passing),
+            Coupling("back", "transmitted", mirror),
+            Coupling("back", "reflected", passing),
         )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that transmitted light keeps its frame and reflected light its x."""
         found = []
-        entry = frames.get("in")
-        if entry is not None and not same_frame(frames.get("transmitted", entry), entry):
-            found.append(
-                f"'{owner}' lets transmitted light go straight through; give '{owner}.in' and "
-                f"'{owner}.transmitted' one frame"
-            )
-        if entry is not None and not share_x(frames.get("reflected", entry), entry):
-            found.append(f"the frames of '{owner}.in' and '{owner}.reflected' must share one x")
+        for enters, passes, turns in (
+            ("in", "transmitted", "reflected"),
+            ("back", "reflected", "transmitted"),
+        ):
+            entry = frames.get(enters)
+            if entry is None:
+                continue
+            if not same_frame(frames.get(passes, entry), entry):
+                found.append(
+                    f"'{owner}' lets transmitted light go straight through; give "
+                    f"'{owner}.{enters}' and '{owner}.{passes}' one frame"
+                )
+            if not share_x(frames.get(turns, entry), entry):
+                found.append(
+                    f"the frames of '{owner}.{enters}' and '{owner}.{turns}' must share one x"
+                )
         return found

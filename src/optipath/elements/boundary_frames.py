@@ -46,7 +46,7 @@ def _meeting_faults(owner: str, element: Interface, frames: Mapping[str, Frame])
 
 
 def _passing_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> Iterator[str]:
-    angles = _angles(owner, element)
+    angles = _angles(owner, element) if len(frames) > 1 else None
     if not angles:
         return
     front, behind = angles
@@ -72,7 +72,8 @@ def _angles(owner: str, element: Interface) -> tuple[Any, Any] | None:
     """Return the angles in front and behind, if they are known and allowed."""
     values = [element.incidence, element.index, element.outside, element.incidence_in]
     parts = [p for v in values for p in ((v.n, v.k) if isinstance(v, Material) else (v,))]
-    if not all(View(part).known for part in parts) or element.faults(owner):
+    views = [View(part) for part in parts]
+    if not all(v.known and not v.traced for v in views) or element.faults(owner):
         return None
     shapes = {str(place): np.shape(part) for place, part in enumerate(parts) if part is not None}
     if broadcast_fault(shapes):

@@ -13,7 +13,7 @@ from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
 from optipath.errors import PathError, ValueFault
 from optipath.frames import Frame
-from optipath.frozen import frozen, same
+from optipath.frozen import same
 from optipath.inputs import Use
 from optipath.kernels import (
     REFLECTION,
@@ -92,7 +92,7 @@ class Element:
     def __post_init__(self) -> None:
         """Keep read-only copies of arrays, and give parameters the unit of their field."""
         for name, domain in self.domains().items():
-            object.__setattr__(self, name, in_unit_of(frozen(getattr(self, name)), domain))
+            object.__setattr__(self, name, in_unit_of(domain.kept(getattr(self, name)), domain))
 
     @classmethod
     def domains(cls) -> Mapping[str, Domain]:

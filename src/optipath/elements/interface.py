@@ -8,7 +8,7 @@ from optipath.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex,
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.boundary_frames import boundary_faults
-from optipath.kernels import REFLECTION, REFLECTION_BEHIND, TRANSMISSION, TRANSMISSION_BEHIND
+from optipath.kernels import REFLECTION, TRANSMISSION
 from optipath.materials import Material
 from optipath.views import View
 
@@ -74,12 +74,9 @@ class Interface(Element, kind="interface"):
         n, k = numbers_of(self.index, self.domains()["index"])
         media = (_real(self.outside), n, k)
         angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
-        reflection, transmission = REFLECTION, TRANSMISSION
-        if self.incidence_in is not None:
-            reflection, transmission = REFLECTION_BEHIND, TRANSMISSION_BEHIND
-            angle = (_real(self.incidence_in), *angle)
-        reflect = (Operation(reflection, (*media, *angle)),)
-        transmit = (Operation(transmission, (*media, *angle)),)
+        before = () if self.incidence_in is None else (_real(self.incidence_in),)
+        reflect = (Operation(REFLECTION, (*media, *before, *angle)),)
+        transmit = (Operation(TRANSMISSION, (*media, *before, *angle)),)
         return (
             Coupling("in", "reflected", reflect),
             Coupling("in", "transmitted", transmit),

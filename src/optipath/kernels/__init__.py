@@ -28,13 +28,14 @@ from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.elimination import Elimination, is_zero
 from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
+from optipath.kernels.layers import Stack
 from optipath.kernels.linear import Linear
 from optipath.kernels.parted import Parts, energy, light_of, parts_of, unit_light
 from optipath.kernels.plain import Plain
 from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
 from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
-from optipath.kernels.refraction import all_behind, lossless_refraction, refraction
+from optipath.kernels.refraction import Refracting, lossless_refraction, refraction
 from optipath.kernels.scaled import Scaled
 from optipath.kernels.stable import (
     denser_reflection,
@@ -45,6 +46,7 @@ from optipath.kernels.stable import (
 )
 from optipath.kernels.structures import (
     BLOCK,
+    DEPOLARIZING_BLOCK,
     FULL,
     POWERS,
     ROTATION,
@@ -94,8 +96,8 @@ REFLECTION = _family(
     compensated=_fresnel(
         _REFLECTED, "compensated", compensated_reflection, compensated_lossless_reflection
     ),
-    amplitude=_fresnel(_REFLECTED, "amplitude", amplitude_reflection),
-    textbook=_fresnel(_REFLECTED, "textbook", textbook_reflection),
+    amplitude=_fresnel(_REFLECTED, "amplitude", Refracting(amplitude_reflection)),
+    textbook=_fresnel(_REFLECTED, "textbook", Refracting(textbook_reflection)),
 )
 _REFRACTED = "Fresnel transmission"
 TRANSMISSION = _family(
@@ -104,14 +106,33 @@ TRANSMISSION = _family(
     compensated=_fresnel(
         _REFRACTED, "compensated", compensated_transmission, compensated_lossless_transmission
     ),
-    amplitude=_fresnel(_REFRACTED, "amplitude", amplitude_transmission),
-    textbook=_fresnel(_REFRACTED, "textbook", textbook_transmission),
+    amplitude=_fresnel(_REFRACTED, "amplitude", Refracting(amplitude_transmission)),
+    textbook=_fresnel(_REFRACTED, "textbook", Refracting(textbook_transmission)),
 )
-REFLECTION_BEHIND, TRANSMISSION_BEHIND = all_behind(REFLECTION), all_behind(TRANSMISSION)
+METHODS = tuple(REFLECTION.methods)
+
+
+def stack_family(*, through: bool, from_behind: bool) -> KernelFamily:
+    """Return the kernels of what a stack of layers lets through, or sends back."""
+    what = "stack transmission" if through else "stack reflection"
+    pairs = {method: (REFLECTION.methods[method], TRANSMISSION.methods[method]) for method in METHODS}
+    return _family(
+        what,
+        **{
+            method: Kernel(
+                f"{what} ({method})", DEPOLARIZING_BLOCK, Stack(*pair, through, from_behind)
+            )
+            for method, pair in pairs.items()
+        },
+    )
+
+
+STACK_REFLECTION = stack_family(through=False, from_behind=False)
+STACK_TRANSMISSION = stack_family(through=True, from_behind=False)
+STACK_REFLECTION_BACK = stack_family(through=False, from_behind=True)
+STACK_TRANSMISSION_BACK = stack_family(through=True, from_behind=True)
 
 Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers | Bounds
-
-METHODS = tuple(REFLECTION.methods)
 
 TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
@@ -124,6 +145,9 @@ ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
+CONSTANT_DEPOLARIZING_BLOCK = Kernel(
+    "depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given
+)
 MATRIX = Kernel("matrix", FULL, filters.given)
 
 UNPOLARIZED = Kernel("unpolarized light", None, emission.unpolarized)
@@ -135,6 +159,8 @@ __all__ = [
     "BLOCK",
     "COMPLEMENT",
     "CONSTANT_BLOCK",
+    "CONSTANT_DEPOLARIZING_BLOCK",
+    "DEPOLARIZING_BLOCK",
     "FLOAT",
     "FULL",
     "GIVEN_TURN",
@@ -146,12 +172,14 @@ __all__ = [
     "POLARIZER",
     "POWERS",
     "REFLECTION",
-    "REFLECTION_BEHIND",
     "RETARDER",
     "ROTATION",
     "SCALE",
+    "STACK_REFLECTION",
+    "STACK_REFLECTION_BACK",
+    "STACK_TRANSMISSION",
+    "STACK_TRANSMISSION_BACK",
     "TRANSMISSION",
-    "TRANSMISSION_BEHIND",
     "TURN",
     "TURN_BACK",
     "UNPOLARIZED",

@@ -114,11 +114,15 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
 
 
 def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
-    """Make ``(n1, n, k, cos, sin) -> Boundary``."""
+    """Make ``(n1, n, k, [n0,] cos, sin) -> Boundary``.
+
+    The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
+    refracted the light into n1.
+    """
     wave, root = absorbing_wave(xp), complex_root(xp)
 
-    def boundary(n1: Any, n: Any, k: Any, c: Any, s: Any) -> Boundary:
-        n1, n, k, p, contrast, u = wave(n1, n, k, c, s)
+    def boundary(n1: Any, n: Any, k: Any, *angle: Any) -> Boundary:
+        n1, n, k, c, s, p, contrast, u = wave(n1, n, k, *angle)
         a, b, squared = root(u, n, k)
         return Boundary(p, a, b, squared, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
 
@@ -126,24 +130,28 @@ def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
 
 
 def absorbing_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(n1, n, k, cos, sin) -> (n1, n, k, p, n^2 - n1^2, Re g^2)``, the indices divided."""
+    """Make ``(n1, n, k, [n0,] cos, sin) -> (n1, n, k, cos, sin, p, n^2 - n1^2, Re g^2)``.
+
+    The indices come out divided; the angle is that in the medium n1.
+    """
     divided, wave, absolute = near_one(xp), _wave(xp), xp.absolute
 
-    def absorbing(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
+    def absorbing(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        *n0, c, s = angle
         # The absolute value makes -0 a 0.
-        n1, n, k = divided(n1, n, absolute(k))
-        return n1, n, k, *wave(n1, n, k, c, s)
+        n1, n, k, *n0 = divided(n1, n, absolute(k), *n0)
+        return n1, n, k, *wave(n1, n, k, *n0, c, s)
 
     return absorbing
 
 
 def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
-    """Make ``(n1, n, cos, sin) -> Boundary``, for media that absorb nothing."""
+    """Make ``(n1, n, [n0,] cos, sin) -> Boundary``, for media that absorb nothing."""
     wave = _lossless_wave(xp)
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
-    def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
-        n1, n, p, contrast, u = wave(n1, n, c, s)
+    def boundary(n1: Any, n: Any, *angle: Any) -> Boundary:
+        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
         squared = absolute(u)
         size = sqrt(squared)
         forward = u >= 0.0
@@ -154,14 +162,17 @@ def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
 
 
 def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
-    """Make ``(n1, n, cos, sin) -> Boundary`` for n >= n1 without absorption.
+    """Make ``(n1, n, [n0,] cos, sin) -> Boundary`` for n >= n1 without absorption.
 
     The same again, where nothing is reflected totally: Re g^2 is never negative.
     """
     sqrt, wave = xp.sqrt, _lossless_wave(xp)
 
-    def boundary(n1: Any, n: Any, c: Any, s: Any) -> Boundary:
-        n1, n, p, contrast, u = wave(n1, n, c, s)
+    def boundary(n1: Any, n: Any, *angle: Any) -> Boundary:
+        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
+        if len(angle) > 2:
+            # Unless light has been refracted totally before, and there is none.
+            u = xp.maximum(u, 0.0)
         return Boundary(p, sqrt(u), 0.0, u, contrast, 0.0, s, c, n1, n, 0.0)
 
     return boundary
@@ -170,22 +181,46 @@ def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
 def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     divided, wave = near_one(xp), _wave(xp)
 
-    def lossless(n1: Any, n: Any, c: Any, s: Any) -> tuple[Any, ...]:
-        n1, n = divided(n1, n)
-        return n1, n, *wave(n1, n, 0.0, c, s)
+    def lossless(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
+        *n0, c, s = angle
+        n1, n, *n0 = divided(n1, n, *n0)
+        return n1, n, *wave(n1, n, 0.0, *n0, c, s)
 
     return lossless
 
 
-def _wave(xp: Primitives) -> Callable[..., tuple[Any, Any, Any]]:
-    where = xp.where
+def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    where, behind = xp.where, _refracted(xp)
 
-    def wave(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
+    def wave(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        """Return the cosine and sine in n1, p, n^2 - n1^2, and Re g^2."""
+        contrast = (n - n1) * (n + n1)
+        if len(angle) > 2:
+            c, s, p, squared = behind(n1, n, *angle)
+            return c, s, p, contrast, squared - k * k
+        c, s = angle
         p = n1 * c
         y = n1 * s
-        contrast = (n - n1) * (n + n1)
         # Re g^2, from whichever of cos and sin is small: that one carries the digits.
         u = where(c < s, contrast + p * p, (n - y) * (n + y)) - k * k
-        return p, contrast, u
+        return c, s, p, contrast, u
 
     return wave
+
+
+def _refracted(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    where, sqrt, maximum, minimum = xp.where, xp.sqrt, xp.maximum, xp.minimum
+
+    def refracted(n1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
+        """Return the cosine and sine in n1, p, and n^2 - (n0 sin)^2, by Snell's invariant."""
+        p0, y = n0 * c0, n0 * s0
+
+        def along(m: Any) -> Any:
+            """Return the square of the wave along the normal in a medium m."""
+            return where(c0 < s0, (m - n0) * (m + n0) + p0 * p0, (m - y) * (m + y))
+
+        # Where all has been reflected before, there is no light, and any angle will do.
+        p = sqrt(maximum(along(n1), 0.0))
+        return p / n1, minimum(y / n1, 1.0), p, along(n)
+
+    return refracted

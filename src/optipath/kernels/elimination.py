@@ -14,7 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
+
+    from optipath.kernels.primitives import Primitives
 
 
 class Elimination:
@@ -22,6 +24,8 @@ class Elimination:
 
     Parameters
     ----------
+    xp : Primitives
+        What is computed with.
     back : sequence of dict of int to number
         For each unknown, what of it comes back directly as which unknowns.
     leaves : sequence of number
@@ -40,17 +44,20 @@ class Elimination:
     --------
     Of x, 1/4 comes back as y and 3/4 leaves; of y, 1/2 comes back as x, and 1/2 leaves.
 
-    >>> found = Elimination([{1: 0.25}, {0: 0.5}], [0.75, 0.5], [True, True])
+    >>> from optipath.kernels import FLOAT
+    >>> found = Elimination(FLOAT, [{1: 0.25}, {0: 0.5}], [0.75, 0.5], [True, True])
     >>> found.pivots, found.solved([1.0, 0.0])
     ([1.0, 0.875], [1.1428571428571428, 0.2857142857142857])
     """
 
     def __init__(
         self,
+        xp: Primitives,
         back: Sequence[dict[int, Any]],
         leaves: Sequence[Any],
         intensities: Sequence[bool],
     ) -> None:
+        self._quotient = _quotient(xp)
         self._back = [{to: g for to, g in column.items() if not is_zero(g)} for column in back]
         self._leaves = list(leaves)
         self._intensities = intensities
@@ -65,13 +72,13 @@ class Elimination:
         found = list(arriving)
         for unknown, pivot in enumerate(self.pivots):
             if not is_zero(found[unknown]):
-                found[unknown] = found[unknown] / pivot
+                found[unknown] = self._quotient(found[unknown], pivot)
                 for to, gain in self._later(unknown):
                     found[to] = found[to] + gain * found[unknown]
         for unknown in reversed(range(len(found))):
             pivot = self.pivots[unknown]
             terms = [
-                self._back[source][unknown] / pivot * found[source]
+                self._quotient(self._back[source][unknown], pivot) * found[source]
                 for source in self._feeds[unknown]
                 if source > unknown and not is_zero(found[source])
             ]
@@ -92,12 +99,22 @@ class Elimination:
         for source in sorted(self._feeds[unknown]):
             if source > unknown:
                 column = self._back[source]
-                share = column[unknown] / pivot
+                share = self._quotient(column[unknown], pivot)
                 for to, gain in onwards:
                     column[to] = column[to] + share * gain if to in column else share * gain
                     self._feeds[to].add(source)
                 self._leaves[source] = self._leaves[source] + share * self._leaves[unknown]
         return pivot
+
+
+def _quotient(xp: Primitives) -> Callable[[Any, Any], Any]:
+    def quotient(number: Any, pivot: Any) -> Any:
+        if isinstance(pivot, (float, np.floating)) and pivot != 0.0:
+            return number / pivot
+        # Where nothing arrives, nothing comes of it, though what would might stay for good.
+        return number / xp.where((number == 0.0) & (pivot == 0.0), 1.0, pivot)
+
+    return quotient
 
 
 def is_zero(number: Any) -> bool:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(n1, n, k, cos, sin) -> (Fs d, Fp d, d)``.
+    """Make ``(n1, n, k, [n0,] cos, sin) -> (Fs d, Fp d, d)``.
 
     With Fs = |D|^2 / |p + g|^4 and Fp / Fs = |z - p g|^2 / |z + p g|^2, as in
     `stable_reflection`. The root g = a + ib comes as (ar + ibr) / r, with r the larger of a and
@@ -32,8 +32,8 @@ def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     wave = absorbing_wave(xp)
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
-    def powers(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
-        n1, n, k, p, contrast, u = wave(n1, n, k, c, s)
+    def powers(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        n1, n, k, c, s, p, contrast, u = wave(n1, n, k, *angle)
         ab, size = n * k, absolute(u)
         v = 2.0 * ab
         # What underflows here is too little beside p^2 to be seen.
@@ -53,15 +53,15 @@ def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def lossless_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(n1, n, cos, sin) -> (Fs d, Fp d, d)``: the same, cheaper, for k = 0."""
+    """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: the same, cheaper, for k = 0."""
     boundary = lossless_boundary(xp)
-    return lambda n1, n, c, s: _powers(boundary(n1, n, c, s))
+    return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))
 
 
 def denser_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(n1, n, cos, sin) -> (Fs d, Fp d, d)``: cheaper again, for n >= n1."""
+    """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: cheaper again, for n >= n1."""
     boundary = denser_boundary(xp)
-    return lambda n1, n, c, s: _powers(boundary(n1, n, c, s))
+    return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))
 
 
 def _powers(at: Boundary) -> tuple[Any, ...]:

@@ -1,8 +1,8 @@
-"""Refraction: the direction of light behind a boundary, and kernels that start in front of it."""
+"""Refraction: the direction of light behind a boundary, and kernels told its angle before it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.boundary import absorbing_boundary, hypotenuse, lossless_boundary
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.kernels.boundary import Boundary
-    from optipath.kernels.kernel import Factory, Kernel, KernelFamily
+    from optipath.kernels.kernel import Factory
     from optipath.kernels.primitives import Primitives
 
 
@@ -46,44 +46,25 @@ def _direction(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
 
 
 @dataclass(frozen=True)
-class Behind:
-    """Makes a kernel for light that has been refracted by parallel boundaries before.
+class Refracting:
+    """Makes a kernel that takes an angle before refraction, too, of one that does not.
 
     Attributes
     ----------
     factory : callable
-        Makes the kernel ``(*media, cos, sin)``, the medium in front being the first.
-    media : int
-        How many numbers say what the media are.
+        Makes the kernel ``(n1, n, k, cos, sin)``.
     """
 
     factory: Factory
-    media: int
 
     def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-        """Make ``(*media, n0, cos0, sin0)`` with the incidence in the medium n0 of the stack."""
-        kernel, refracted, media = self.factory(xp), lossless_refraction(xp), self.media
+        """Make ``(n1, n, k, [n0,] cos, sin)``."""
+        kernel, refracted = self.factory(xp), lossless_refraction(xp)
 
-        def behind(*given: Any) -> tuple[Any, ...]:
-            n0, c0, s0 = given[media:]
-            return kernel(*given[:media], *refracted(n0, given[0], c0, s0))
+        def refracting(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+            if len(angle) > 2:
+                n0, c, s = angle
+                angle = refracted(n0, n1, c, s)
+            return kernel(n1, n, k, *angle)
 
-        return behind
-
-
-def behind(kernel: Kernel, media: int = 3) -> Kernel:
-    """Return a kernel of a boundary as one for light refracted into the medium in front of it."""
-    without, denser, powers = kernel.without, kernel.denser, kernel.powers
-    return replace(
-        kernel,
-        factory=Behind(kernel.factory, media),
-        without=without and (without[0], behind(without[1], media - 1)),
-        denser=denser and (*denser[:2], behind(denser[2], media)),
-        powers=powers and behind(powers, media),
-    )
-
-
-def all_behind(family: KernelFamily) -> KernelFamily:
-    """Return every method of a boundary for light refracted into the medium in front of it."""
-    methods = {name: behind(kernel) for name, kernel in family.methods.items()}
-    return replace(family, methods=methods)
+        return refracting

@@ -23,7 +23,10 @@ _LOST, _LEAST = 2.0**-52, 2.0**-970
 
 
 def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
+    """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+
+    The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
+    refracted the light into n1.
 
     With p = n1 cos, z = (n1 sin)^2, D = m2^2 - n1^2 and g = a + ib = sqrt(m2^2 - z):
     r_s = -D / (p + g)^2 and r_p / r_s = (z - p g) / (z + p g), which are the
@@ -32,23 +35,23 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     Fs = Fp = 1 and B = 0 exactly.
     """
     boundary, reflected = absorbing_boundary(xp), _reflected(xp)
-    return lambda n1, n, k, c, s: reflected(boundary(n1, n, k, c, s))
+    return lambda n1, n, k, *angle: reflected(boundary(n1, n, k, *angle))
 
 
 def lossless_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, cos, sin) -> (Fs, Fp, B, C, S)``: the same, cheaper, for k = 0."""
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: the same, cheaper, for k = 0."""
     boundary, reflected = lossless_boundary(xp), _reflected(xp)
-    return lambda n1, n, c, s: reflected(boundary(n1, n, c, s))
+    return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
 
 
 def denser_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, cos, sin) -> (Fs, Fp, B, C, S)``: cheaper again, for n >= n1."""
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: cheaper again, for n >= n1."""
     boundary, reflected = denser_boundary(xp), _reflected(xp)
-    return lambda n1, n, c, s: reflected(boundary(n1, n, c, s))
+    return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
 
 
 def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, k, cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
+    """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
 
     Ts = 4 p a / |p + g|^2, Tp = Ts n1^2 (|g|^2 + z) / |z + p g|^2, and t_s / t_p =
     (z + p g) / (n1 m2). In a medium that absorbs, C and S have the phase between the
@@ -57,8 +60,8 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     boundary, transmitted = absorbing_boundary(xp), _transmitted(xp)
     sqrt, where, length = xp.sqrt, xp.where, hypotenuse(xp)
 
-    def transmit(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
-        at = boundary(n1, n, k, c, s)
+    def transmit(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        at = boundary(n1, n, k, *angle)
         powers, (re, im), behind, q = transmitted(at)
         size = length(at.n, at.k)
         n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
@@ -76,12 +79,12 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def lossless_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, cos, sin) -> (Ts, Tp, B, C, S)``: the same, cheaper, for k = 0."""
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``: the same, cheaper, for k = 0."""
     boundary, transmitted = lossless_boundary(xp), _transmitted(xp)
     where = xp.where
 
-    def transmit(n1: Any, n: Any, c: Any, s: Any) -> tuple[Any, ...]:
-        at = boundary(n1, n, c, s)
+    def transmit(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
+        at = boundary(n1, n, *angle)
         powers, (re, _), _, _ = transmitted(at)
         return *powers, _lossless(where, powers[0], at, re), 0.0
 

@@ -7,7 +7,7 @@ on light (its components kept apart, never stacked), and how they look as a matr
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.carried import (
@@ -231,6 +231,9 @@ BLOCK = Structure(
 Fs = A + B and Fp = A - B act along x and y; each of the three keeps digits that the
 other two have lost.
 """
+
+DEPOLARIZING_BLOCK = replace(BLOCK, name="depolarising diattenuator", jones=None)
+"""The same with C and S of any size that light allows: incoherent sums of such matrices."""
 
 POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, fraction_powers)
 """(Fs d, Fp d, d): what acts along x and y over one denominator, and nothing of the phase."""

@@ -6,7 +6,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import REAL, Choice, Domain, IndexDomain, OutsideDomain
+from optipath.domains import (
+    INDEX,
+    REAL,
+    Choice,
+    Domain,
+    IndexDomain,
+    IndicesDomain,
+    OutsideDomain,
+)
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
@@ -43,6 +51,10 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     """
     if isinstance(domain, Choice):
         return domain.check("the value", raw)
+    if isinstance(domain, IndicesDomain):
+        if not isinstance(raw, list):
+            raise PresetError(f"{raw!r} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]")
+        return [decode(one, INDEX, parameters) for one in raw]
     if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
         return _reference(raw, parameters)
     if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
@@ -86,7 +98,7 @@ def encode(value: Any, dimension: str) -> Any:
         return value
     if isinstance(value, np.ndarray) and value.dtype.kind != "c":
         return [encode(entry, dimension) for entry in value.tolist()]
-    if isinstance(value, list):
+    if isinstance(value, (list, tuple)):
         return [encode(entry, dimension) for entry in value]
     if isinstance(value, np.ndarray):
         return {"n": value.real.tolist(), "k": value.imag.tolist()}

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 FORMAT = 1
 
 TOP = {"format": int, "description": str, "parameters": dict, "elements": dict, "links": list}
-TOP |= {"cases": dict}
+TOP |= {"cases": dict, "loops": str}
 PARAMETER = {"default": object, "unit": str, "range": list, "help": str, "words": dict}
 PARAMETER |= {"optional": bool, "bound": bool}
 LINK = {"from": str, "to": str, "azimuth": object}

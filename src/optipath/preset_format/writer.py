@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer import parameters_of
+from optipath.composer import LOOPS, parameters_of
 from optipath.errors import OptipathError, PathError, did_you_mean
 from optipath.preset_format.codec import encode
 from optipath.preset_format.schema import FORMAT
@@ -36,7 +36,11 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     """
     faults: list[str] = []
     parameters = parameters_of(graph)
-    tables: list[str] = [_lines("", {"format": FORMAT, "description": description})]
+    top: dict[str, Any] = {"format": FORMAT, "description": description}
+    loops = graph.graph.get("loops", LOOPS[0])
+    if loops != LOOPS[0]:
+        top["loops"] = loops
+    tables: list[str] = [_lines("", top)]
     for name, parameter in parameters.items():
         tables.append(_lines(f"[parameters.{_key(name)}]", _parameter(parameter)))
     for name, element in graph.nodes(data="element"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer import partial_faults
+from optipath.composer import LOOPS, partial_faults
 from optipath.domains import ANGLE
 from optipath.errors import PathError, did_you_mean
 from optipath.path_graph import PathGraph
@@ -36,7 +36,11 @@ def read(document: dict[str, Any]) -> PathGraph:
         for name, table in _tables(document, "parameters", faults).items()
     }
     description = str(document.get("description", ""))
-    path = PathGraph(description, declared=tuple(parameters))
+    loops = document.get("loops", LOOPS[0])
+    if isinstance(loops, str) and loops not in LOOPS:
+        faults.append(f"the preset: loops {loops!r} is unknown{did_you_mean(loops, LOOPS)}")
+    loops = loops if loops in LOOPS else LOOPS[-1]
+    path = PathGraph(description, declared=tuple(parameters), loops=loops)
     elements = _tables(document, "elements", faults)
     lost = {
         name for name, table in elements.items() if not _add(path, name, table, parameters, faults)

@@ -38,7 +38,9 @@ def check_gains(meetings: Sequence[Meeting]) -> None:
     """
     faults = []
     for meeting in meetings:
-        doubtful = reduce(np.logical_or, (~np.asarray(holds) for holds in meeting.conditions))
+        holds = reduce(np.logical_and, meeting.conditions, np.True_)
+        lit = reduce(np.logical_or, (np.asarray(part) != 0.0 for part in meeting.arriving))
+        doubtful = np.asarray(~holds & lit)
         if not np.any(doubtful):
             continue
         place = meeting.program.steps[meeting.loop.start].label
@@ -61,7 +63,11 @@ def check_gains(meetings: Sequence[Meeting]) -> None:
 
 
 def _worst(meeting: Meeting, doubtful: Array) -> tuple[float, float]:
-    """Return the largest gain among the doubtful paths of a batch, and the condition there."""
+    """Return the largest gain among the doubtful paths of a batch, and the condition there.
+
+    The condition number is that of (I - M)^-1 with respect to I and M, which unlike that of
+    their difference sees a loop whose lights all stay alike.
+    """
     count = len(meeting.unknowns)
     if count * count > _MOST:
         least = float(np.nanmin([np.nanmin(pivot) for pivot in meeting.pivots]))
@@ -75,4 +81,7 @@ def _worst(meeting: Meeting, doubtful: Array) -> tuple[float, float]:
             matrices[:, row, column] = shaped[tuple(where.T)]
     gains = np.abs(np.linalg.eigvals(matrices)).max(axis=-1)
     worst = int(np.argmax(gains))
-    return float(gains[worst]), float(np.linalg.cond(np.eye(count) - matrices[worst]))
+    size = np.linalg.norm(matrices[worst], 2)
+    with np.errstate(all="ignore"):
+        sums = np.linalg.pinv(np.eye(count) - matrices[worst], rcond=0.0)
+    return float(gains[worst]), float((1.0 + size) * np.linalg.norm(sums, 2))

@@ -1,0 +1,90 @@
+"""LayerStack: any number of smooth layers as one element."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from optipath.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
+from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.element import Element
+from optipath.elements.frame_checks import incidence_between, share_x
+from optipath.kernels import (
+    STACK_REFLECTION,
+    STACK_REFLECTION_BACK,
+    STACK_TRANSMISSION,
+    STACK_TRANSMISSION_BACK,
+)
+from optipath.views import View
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.domains import Domain
+    from optipath.frames import Frame
+
+
+class LayerStack(Element, kind="layer-stack"):
+    """Smooth parallel layers on a substrate, with the ports of an `Interface`.
+
+    Light goes to and fro between the boundaries; intensities add up, as they do in layers much
+    thicker than the coherence length. For thin films, which interfere, it is not meant. It
+    depolarises, since light that has gone round more often has gained other phases.
+
+    Parameters
+    ----------
+    indices : sequence of float, complex, array_like, Material or Parameter
+        The medium in front first, then the layers, and the substrate last; all but the
+        substrate without absorption. Two media are one `Interface`.
+    incidence : float, array_like or Parameter
+        The angle of incidence in radians, 0 to pi/2, in the medium in front.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame, x = s, against the frame of the port before it.
+
+    Examples
+    --------
+    >>> pane = LayerStack([1.0, 1.5, 1.0], incidence=0.0)
+    >>> print(pane.mueller("in", "transmitted").matrix[0, 0].round(6), round(1.0 / 1.0833333, 6))
+    0.923077 0.923077
+    """
+
+    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
+    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
+    natural: ClassVar[str] = "reflected"
+    entry: ClassVar[str] = "in"
+    straight: ClassVar[bool] = False
+
+    indices: Indices
+    incidence: Incidence
+    azimuth: Angle = 0.0
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return what is reflected and what is let through, from either side."""
+        pairs = [numbers_of(index, INDEX) for index in self.indices]
+        media = [n for n, _ in pairs]
+        angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
+        front, back = (*media, pairs[-1][1], *angle), (*media[::-1], 0.0, *angle)
+        return (
+            Coupling("in", "reflected", (Operation(STACK_REFLECTION, front),)),
+            Coupling("in", "transmitted", (Operation(STACK_TRANSMISSION, front),)),
+            Coupling("back", "transmitted", (Operation(STACK_REFLECTION_BACK, back),)),
+            Coupling("back", "reflected", (Operation(STACK_TRANSMISSION_BACK, back),)),
+        )
+
+    def domains_entered(self, port: str) -> Mapping[str, Domain]:
+        """Return that the substrate must not absorb where light comes from there."""
+        return {"substrate": LIT_BEHIND} if port == "back" else {}
+
+    @property
+    def substrate(self) -> Any:
+        """The index of the last medium."""
+        return self.indices[-1]
+
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        """Check that x = s at all ports, and that the directions meet at the incidence."""
+        placed = list(frames.values())
+        if not all(share_x(frame, placed[0]) for frame in placed[1:]):
+            return [
+                f"the frames of the ports of '{owner}' must share one x, perpendicular to the "
+                f"plane of incidence"
+            ]
+        return []

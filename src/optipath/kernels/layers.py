@@ -1,0 +1,145 @@
+"""Stacks of smooth layers, thick enough that light which has gone round adds up incoherently."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+from operator import add
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from optipath.kernels.elimination import Elimination, is_zero
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from optipath.kernels.kernel import Kernel
+    from optipath.kernels.primitives import Primitives
+
+Rows: TypeAlias = tuple[tuple[Any, ...], ...]
+"""What becomes of some parts of light: rows of a small matrix."""
+
+
+class Boundaries(NamedTuple):
+    """What the boundaries of a stack do to some parts of light, from the front to the back.
+
+    Attributes
+    ----------
+    reflected, transmitted : list of Rows
+        The same from either side.
+    intensity : bool
+        Whether the part is an intensity, of which nothing gets lost.
+    """
+
+    reflected: list[Rows]
+    transmitted: list[Rows]
+    intensity: bool
+
+
+@dataclass(frozen=True)
+class Stack:
+    """Makes the kernel of a stack, ``(n, ..., k, cos, sin) -> (Fs, Fp, B, C, S)``.
+
+    Of the indices, front medium first and substrate last, only the last has a k. Layers are
+    added one after the other; the intensities along s and along p go their own ways, and
+    (S2, S3) together, the complex C + iS of a boundary being what multiplies S2 - iS3.
+
+    Attributes
+    ----------
+    reflection, transmission : Kernel
+        Of one boundary.
+    through : bool
+        Whether light that passes the stack is wanted, or that which comes back.
+    from_behind : bool
+        Whether the incidence is measured in the last medium, light coming from the other side.
+    """
+
+    reflection: Kernel
+    transmission: Kernel
+    through: bool
+    from_behind: bool
+
+    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        """Return the kernel in terms of these primitives."""
+
+        def stacked(*given: Any) -> tuple[Any, ...]:
+            *indices, k, c, s = given
+            measured_at = len(indices) - 1 if self.from_behind else 0
+            numbers = []
+            for place in range(len(indices) - 1):
+                before = () if place == measured_at else (indices[measured_at],)
+                absorbs = k if place == len(indices) - 2 else 0.0
+                media = (*indices[place : place + 2], absorbs)
+                numbers.append(self._boundary(xp, *media, *before, c, s))
+            channels = (self._came_out(xp, _channel(numbers, rows)) for rows in _CHANNELS)
+            (Fs,), (Fp,), (C, minus_s) = channels
+            return Fs, Fp, 0.5 * (Fs - Fp), C, -minus_s
+
+        return stacked
+
+    def _boundary(self, xp: Primitives, *given: Any) -> tuple[Any, Any]:
+        """Return the five numbers of the reflection, and those of the transmission."""
+        cheapest = (k.leaving_out(given, is_zero) for k in (self.reflection, self.transmission))
+        reflected, transmitted = (kernel.made_for(xp)(*left) for kernel, left in cheapest)
+        return reflected, transmitted
+
+    def _came_out(self, xp: Primitives, at: Boundaries) -> list[Any]:
+        """Return what comes out of a unit of the first part of light from the front."""
+        width = len(at.reflected[0])
+        first = [row[0] for row in at.transmitted[0]]
+        if len(at.reflected) == 1:
+            return first if self.through else [row[0] for row in at.reflected[0]]
+        columns = _columns(at)
+        system = Elimination(
+            xp,
+            [back for back, _ in columns],
+            [leaves for _, leaves in columns],
+            [at.intensity] * len(columns),
+        )
+        lights = system.solved([*first, *[0.0] * (len(columns) - width)])
+        down, up = lights[-2 * width : -width], lights[width : 2 * width]
+        if self.through:
+            return _times(at.transmitted[-1], down)
+        direct = [row[0] for row in at.reflected[0]]
+        return [one + other for one, other in zip(direct, _times(at.transmitted[0], up), strict=True)]
+
+
+_CHANNELS: tuple[Callable[[Any], Rows], ...] = (
+    lambda block: ((block[0],),),
+    lambda block: ((block[1],),),
+    lambda block: ((block[3], block[4]), (-block[4], block[3])),
+)
+"""The parts of light that boundaries keep apart: along s, along p, and (S2, S3)."""
+
+
+def _channel(numbers: Sequence[Any], rows: Callable[[Any], Rows]) -> Boundaries:
+    reflected, transmitted = ([rows(pair[side]) for pair in numbers] for side in (0, 1))
+    return Boundaries(reflected, transmitted, len(reflected[0]) == 1)
+
+
+def _columns(at: Boundaries) -> list[tuple[dict[int, Any], Any]]:
+    """Return what becomes of a unit of light that goes down, or up, in each layer.
+
+    The unknowns are the parts of the light below each boundary but the last, layer by layer:
+    first those that go down, then those that go up.
+    """
+    width, layers, columns = len(at.reflected[0]), len(at.reflected) - 1, []
+    for layer in range(layers):
+        down, up = 2 * width * layer, 2 * width * layer + width
+        ways = (
+            # What goes down meets the boundary behind the layer; what goes up, the one before.
+            (layer + 1, up, down + 2 * width if layer + 1 < layers else None),
+            (layer, down, up - 2 * width if layer else None),
+        )
+        for boundary, turned, onwards in ways:
+            for part in range(width):
+                back = {turned + i: row[part] for i, row in enumerate(at.reflected[boundary])}
+                passed = [row[part] for row in at.transmitted[boundary]]
+                if onwards is not None:
+                    back |= {onwards + i: number for i, number in enumerate(passed)}
+                leaves = passed[0] if onwards is None and at.intensity else 0.0
+                columns.append((back, leaves))
+    return columns
+
+
+def _times(rows: Rows, parts: Sequence[Any]) -> list[Any]:
+    return [reduce(add, (g * p for g, p in zip(row, parts, strict=True))) for row in rows]
