@@ -6,8 +6,12 @@ to the structure of what they return.
 
 from typing import TypeAlias
 
-from optipath.kernels import emission, filters, rotation
-from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
+from optipath.kernels import emission, filters, medium, rotation
+from optipath.kernels.amplitude import (
+    amplitude_reflection,
+    amplitude_transmission,
+    given_amplitudes,
+)
 from optipath.kernels.bounds import Boosts, Bounds, boosted, largest_error, ratio_bounds
 from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
 from optipath.kernels.circular import cosine, sine, without_rounding
@@ -110,7 +114,12 @@ POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
+DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
+GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, given_amplitudes)
+ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
+ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
+RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)
 
@@ -118,13 +127,16 @@ UNPOLARIZED = Kernel("unpolarized light", None, emission.unpolarized)
 POLARIZED = Kernel("polarized light", None, emission.polarized)
 
 __all__ = [
+    "ABSORPTION_ALONG",
     "ALIGN",
     "ATTENUATOR",
     "BLOCK",
     "COMPLEMENT",
     "CONSTANT_BLOCK",
+    "DEPOLARIZER",
     "FLOAT",
     "FULL",
+    "GIVEN_AMPLITUDES",
     "GIVEN_TURN",
     "MATRIX",
     "METHODS",
@@ -134,8 +146,10 @@ __all__ = [
     "POLARIZER",
     "POWERS",
     "REFLECTION",
+    "RETARDANCE_ALONG",
     "RETARDER",
     "ROTATION",
+    "ROTATION_ALONG",
     "SCALE",
     "TRANSMISSION",
     "TURN",
