@@ -47,7 +47,7 @@ class Draw:
         return op.Polarizer(0.0, 0.0, float(self.rng.uniform(0.3, 1)), 0.2).mueller().matrix
 
     def element(self):
-        match self.rng.integers(9):
+        match self.rng.integers(13):
             case 0 | 1 | 2:
                 incidence, outside = self.number(0, np.pi / 2), float(self.rng.choice([1.0, 1.5]))
                 return op.Interface(self.index(), incidence, outside, self.turn())
@@ -63,7 +63,34 @@ class Draw:
                 return op.Attenuator(self.number(0, 1))
             case 7:
                 return op.MuellerElement(self.matrix(), azimuth=self.turn())
+            case 8:
+                return op.Mirror(self.amplitude(), self.amplitude(), self.turn())
+            case 9:
+                transmittances = self.number(0, 1), self.number(0, 1)
+                return op.Diattenuator(*transmittances, self.turn(), self.turn())
+            case 10:
+                return op.Depolarizer(self.number(0, 1))
+            case 11:
+                return self.medium()
         return op.BeamSplitter(float(self.rng.uniform(0, 1)), self.turn())
+
+    def amplitude(self):
+        """A constant, an array, or a parameter; real, or of any phase."""
+        if self.chance(0.4):
+            return self.number(-1, 1)
+        drawn = self.rng.uniform(0, 1, 3) * np.exp(1j * self.rng.uniform(-3, 3, 3))
+        drawn = drawn if self.chance(0.4) else complex(drawn[0])
+        if self.chance(0.7):
+            return drawn
+        name = f"p{len(self.values)}"
+        self.values[name] = drawn
+        return op.Parameter(name)
+
+    def medium(self):
+        length, absorption = self.number(0, 0.1), self.number(0, 30)
+        either = (self.number(-40, 40), 0.0)
+        rotation, retardance = either if self.chance(0.5) else either[::-1]
+        return op.Medium(length, absorption, rotation, retardance, self.turn(), self.turn())
 
     def source(self):
         intensity = float(self.rng.uniform(0.5, 100))

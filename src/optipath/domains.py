@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, ClassVar, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -36,18 +36,30 @@ class Domain:
     name : str
         What error messages call the quantity.
     dimension : str
-        ``"angle"``, ``"length"``, or ``""``.
+        ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per length"``, or ``""``.
     minimum, maximum : float
-        The limits, in radians or metres where there is a dimension.
+        The limits, in radians and metres where there is a dimension.
     tail : tuple of int
         The axes behind the batch: ``(4,)`` for a Stokes vector.
+    own_unit : str
+        The unit that is usual here, where it is not the usual one of the dimension.
+    complex_parts : tuple of str
+        What files call the two parts of a complex number; none where numbers are real.
     """
+
+    complex_parts: ClassVar[tuple[str, ...]] = ()
 
     name: str
     dimension: str = ""
     minimum: float = -np.inf
     maximum: float = np.inf
     tail: tuple[int, ...] = ()
+    own_unit: str = ""
+
+    @property
+    def unit(self) -> str:
+        """The unit in which values are written where nobody says another."""
+        return self.own_unit or USUAL_UNITS[self.dimension]
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         """Return the value as an array of numbers, or say what is wrong with it.
@@ -75,6 +87,15 @@ class Domain:
             raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
         self._check_numbers(owner, array)
         return array
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        """Say what is wrong with a parameter standing here, whatever its value; mostly nothing.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner and the parameter.
+        """
 
     def quickly_allows(self, value: Any) -> bool:
         """Tell, for the plain floats that long paths are made of, whether all is well."""
@@ -104,7 +125,7 @@ class Domain:
         return f"a real {self.name} within {low} .. {high}"
 
     def _text(self, value: float) -> str:
-        return format_quantity(value, USUAL_UNITS[self.dimension])
+        return format_quantity(value, self.unit)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
         if array.dtype.kind == "c":
@@ -117,6 +138,8 @@ class Domain:
 
 class IndexDomain(Domain):
     """Complex numbers n + ik with n and k not negative."""
+
+    complex_parts = ("n", "k")
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -143,6 +166,32 @@ class IndexDomain(Domain):
             value = array[bad].ravel()[0]
             cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
             raise ValueFault(f"{owner} is {value}; give {self.described()}{cure}")
+
+
+class AmplitudeDomain(Domain):
+    """Complex numbers of a size of 1 or less."""
+
+    complex_parts = ("re", "im")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of both parts."""
+        return -1.0 - _ROUNDING, 1.0 + _ROUNDING
+
+    def quickly_allows(self, value: Any) -> bool:
+        """Tell, for plain floats, whether all is well."""
+        return type(value) is float and -1.0 <= value <= 1.0
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return f"a real or complex {self.name} of a size of 1 or less"
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        # Cut off, so that squares of what is far too much do not overflow.
+        parts = (np.minimum(np.abs(part), 2.0) for part in (array.real, array.imag))
+        bad = np.hypot(*parts) > 1.0 + _ROUNDING
+        if np.any(bad):
+            raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
 
 
 class OutsideDomain(Domain):
@@ -273,7 +322,7 @@ def in_unit_of(value: Any, domain: Domain) -> Any:
     'deg'
     """
     if isinstance(value, Parameter) and not value.unit:
-        return replace(value, unit=USUAL_UNITS[domain.dimension])
+        return replace(value, unit=domain.unit)
     return value
 
 
@@ -294,6 +343,17 @@ class Choice(Domain):
         if isinstance(value, str) and value in self.words:
             return value
         raise ValueFault(f"{owner} is {value!r}{did_you_mean(str(value), self.words)}")
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        """Refuse it.
+
+        Raises
+        ------
+        ValueFault
+            Always.
+        """
+        del parameter
+        raise ValueFault(f"{owner} cannot be a parameter; choose one word when building")
 
 
 _N = Domain("index of refraction", minimum=0.0)
@@ -324,6 +384,13 @@ LIT_BEHIND = LitBehind("index of refraction", minimum=np.finfo(float).tiny)
 OptionalIndex: TypeAlias = Annotated[
     Quantity | Material, OptionalOutside("index of refraction", minimum=np.finfo(float).tiny)
 ]
+AMPLITUDE = AmplitudeDomain("amplitude")
+Amplitude: TypeAlias = Annotated[Quantity, AMPLITUDE]
+Length: TypeAlias = Annotated[Quantity, Domain("length", "length", minimum=0.0, own_unit="mm")]
+Absorption: TypeAlias = Annotated[
+    Quantity, Domain("absorption coefficient", "inverse length", minimum=0.0)
+]
+AnglePerLength: TypeAlias = Annotated[Quantity, Domain("angle per length", "angle per length")]
 StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
 READINGS = ("stokes", "linear", "intensity")

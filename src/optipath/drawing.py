@@ -11,7 +11,7 @@ import numpy as np
 from optipath.composer import Wiring
 from optipath.materials import Material
 from optipath.parameters import Parameter
-from optipath.units import USUAL_UNITS, format_quantity
+from optipath.units import format_quantity
 
 if TYPE_CHECKING:
     from optipath.elements import Element
@@ -64,8 +64,7 @@ def _values(element: Element) -> str:
         value = getattr(element, f.name)
         if value is None or (isinstance(value, (int, float, str)) and value == f.default):
             continue
-        unit = USUAL_UNITS[domains[f.name].dimension]
-        shown.append(f"{f.name}={_text(value, unit)}")
+        shown.append(f"{f.name}={_text(value, domains[f.name].unit)}")
     return "  ".join(shown)
 
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import Choice
 from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean
 from optipath.parameters import Parameter
 from optipath.shapes import broadcast_fault
@@ -70,8 +69,7 @@ class Use:
         if not isinstance(self.value, Parameter):
             self.domain.check(self.owner, self.value)
             return
-        if isinstance(self.domain, Choice):
-            raise ValueFault(f"{self.owner} cannot be a parameter; choose one word when building")
+        self.domain.check_parameter(self.owner, self.value)
         unit, name = self.value.unit, self.value.name
         if unit and dimension_of(unit) != self.domain.dimension:
             raise ValueFault(

@@ -1,6 +1,7 @@
 """Quantities with units, as they stand in files and on the command line.
 
-Inside the library an angle is in radians and a length in metres.
+Inside the library an angle is in radians and a length in metres, and so is what is given per
+length.
 """
 
 from __future__ import annotations
@@ -17,21 +18,37 @@ _ANGLES = {
     "arcmin": math.pi / 10800.0,
     "arcsec": math.pi / 648000.0,
 }
-_LENGTHS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0}
+_LENGTHS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "dm": 1e-1, "m": 1.0}
+_PER_METRE = {"um": 1e6, "mm": 1e3, "cm": 1e2, "dm": 10.0, "m": 1.0}
+"""How many of a length a metre has; reciprocals of the sizes above would be rounded."""
 
 UNITS: dict[str, tuple[str, float]] = {
     **{unit: ("angle", size) for unit, size in _ANGLES.items()},
     **{unit: ("length", size) for unit, size in _LENGTHS.items()},
+    **{f"1/{length}": ("inverse length", count) for length, count in _PER_METRE.items()},
+    **{
+        f"{angle}/{length}": ("angle per length", _ANGLES[angle] * count)
+        for angle in ("deg", "rad")
+        for length, count in _PER_METRE.items()
+    },
 }
 
-USUAL_UNITS = {"angle": "deg", "length": "nm", "": ""}
+USUAL_UNITS = {
+    "angle": "deg",
+    "length": "nm",
+    "inverse length": "1/cm",
+    "angle per length": "deg/mm",
+    "": "",
+}
 """The unit in which a dimension is written where nobody says another."""
+
+_BASE_UNITS = {"angle": "rad", "length": "m", "inverse length": "1/m", "angle per length": "rad/m"}
 
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", re.ASCII)
 
 
 def dimension_of(unit: str) -> str:
-    """Return the dimension of a unit: ``"angle"``, ``"length"``, or ``""`` for no unit.
+    """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit.
 
     Raises
     ------
@@ -40,8 +57,8 @@ def dimension_of(unit: str) -> str:
 
     Examples
     --------
-    >>> dimension_of("deg"), dimension_of("")
-    ('angle', '')
+    >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
+    ('angle', 'inverse length', '')
     """
     if unit == "":
         return ""
@@ -58,7 +75,8 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
     text : str
         A number and its unit.
     dimension : str
-        The dimension asked for: ``"angle"``, ``"length"``, or ``""``.
+        The dimension asked for: ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per
+        length"``, or ``""``.
     default_unit : str, optional
         The unit of a bare number; without one, a bare number is accepted only
         where there is no dimension.
@@ -66,7 +84,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
     Returns
     -------
     float
-        Radians, metres, or a pure number.
+        Radians, metres, what of them there is per metre, or a pure number.
 
     Raises
     ------
@@ -90,7 +108,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
 
 
 def in_unit(value: float, unit: str) -> float:
-    """Return a number of radians or metres in another unit, without the noise of conversion.
+    """Return a number in base units in another unit, without the noise of conversion.
 
     Examples
     --------
@@ -119,8 +137,18 @@ def format_quantity(value: float, unit: str) -> str:
     number = in_unit(value, unit)
     if number * size == value:
         return f"{repr(number).removesuffix('.0')} {unit}"
-    base = {"angle": "rad", "length": "m"}[dimension]
-    return f"{float(value)!r} {base}"
+    return f"{float(value)!r} {_BASE_UNITS[dimension]}"
+
+
+def with_article(dimension: str) -> str:
+    """Return the name of a dimension for a sentence.
+
+    Examples
+    --------
+    >>> with_article("length"), with_article("angle per length")
+    ('a length', 'an angle per length')
+    """
+    return f"{'an' if dimension[:1] in 'aeiou' else 'a'} {dimension}"
 
 
 def _mismatch(text: str, unit: str, dimension: str) -> str:
@@ -128,5 +156,6 @@ def _mismatch(text: str, unit: str, dimension: str) -> str:
     if not dimension:
         return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
     if not unit:
-        return f"'{text}' has no unit, but an {dimension} is asked for; add one of {units}"
+        asked = with_article(dimension)
+        return f"'{text}' has no unit, but {asked} is asked for; add one of {units}"
     return f"'{text}' is no {dimension}; use one of {units}"

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.certificate import Certificate
-from optipath.errors import ParameterError
 from optipath.engines import COMPILED, NUMPY_STEPS
+from optipath.errors import ParameterError
 from optipath.formulas import bounds_formula, matrix_formula
 from optipath.running.found import joined
 from optipath.running.runner import Runner

@@ -102,6 +102,11 @@ def everything():
             op.Polarizer(0.4, 0.1, 0.9, 0.05),
             op.Attenuator(0.5),
             op.MuellerElement(foil),
+            op.Mirror(-0.9 + 0.2j, 0.8 - 0.3j, azimuth=0.5),
+            op.Diattenuator(0.9, 0.3, angle=0.2, azimuth=0.1),
+            op.Medium(0.1, 3.0, rotation=8.0),
+            op.Depolarizer(0.1),
+            op.Medium(0.2, 0.0, retardance=5.0, angle=0.7, azimuth=0.2),
         )
     ):
         node = node >> path.add(f"e{number}", element)
@@ -113,6 +118,14 @@ def test_every_element_has_a_reference_that_agrees_with_the_library():
     path = everything()
     exact = [float(part) for part in exact_lights(path)["eye"].stokes]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
+
+
+def test_turns_of_a_whole_number_of_right_angles_along_a_medium_are_exact():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
+    lamp >> path.add("quartz", op.Medium(np.pi / 0.7, rotation=0.35))
+    path["quartz"] >> path.add("eye", op.Detector())
+    assert exact_lights(path)["eye"].stokes == (1, -1, 0, 0)
 
 
 def test_world_frames_have_a_reference():

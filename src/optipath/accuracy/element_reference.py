@@ -13,8 +13,11 @@ from optipath.elements import (
     Attenuator,
     BeamSplitter,
     Combiner,
+    Diattenuator,
     Element,
     Interface,
+    Medium,
+    Mirror,
     Polarizer,
     Retarder,
     Rotator,
@@ -87,11 +90,22 @@ class Reader:
         """Return an index of refraction."""
         if isinstance(value, Material):
             return mpmath.mpc(self.real(value.n), self.real(value.k))
+        return self.complex(value)
+
+    def complex(self, value: Any) -> Any:
+        """Return a complex number."""
         return mpmath.mpc(self.real(value, "real"), self.real(value, "imag"))
 
     def angle(self, value: Any, turns: int = 1) -> Any:
         """Return an angle; its tangent, or that of `turns` times it, is what may be moved."""
         return self.move(exact_angle(float(self.pick(view_of(value).numbers(self.given)))), turns)
+
+    def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
+        """Return an angle that grows with a length, both given; else as `angle`."""
+        angle = self.real(per_length) * self.real(length)
+        nearest = exact_angle(float(angle))
+        # A multiple of 45 degrees is one, however its factors are rounded.
+        return self.move(nearest if nearest != float(angle) else angle, turns)
 
     def move(self, angle: Any, turns: int) -> Any:
         """Return an angle, moved if it is the one."""
@@ -125,16 +139,19 @@ def _(element: Interface, leaves: str, read: Reader) -> Jones:
 @jones.register
 def _(element: Polarizer, leaves: str, read: Reader) -> Jones:
     del leaves
-    along, across = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
-    return _turned(_diagonal(along, across), read.angle(element.angle, 2))
+    return _filter(read, element.transmittance, element.leakage, element.angle)
+
+
+@jones.register
+def _(element: Diattenuator, leaves: str, read: Reader) -> Jones:
+    del leaves
+    return _filter(read, element.maximum, element.minimum, element.angle)
 
 
 @jones.register
 def _(element: Retarder, leaves: str, read: Reader) -> Jones:
     del leaves
-    # The field is exp(-iwt): what falls behind gains a positive phase.
-    slow = mpmath.mpc(*cos_sin(read.angle(element.retardance)))
-    return _turned(_diagonal(1, slow), read.angle(element.angle, 2))
+    return _retarding(read, read.angle(element.retardance), element.angle)
 
 
 @jones.register
@@ -148,6 +165,24 @@ def _(element: Attenuator, leaves: str, read: Reader) -> Jones:
     del leaves
     root = mpmath.sqrt(read.real(element.transmittance))
     return _diagonal(root, root)
+
+
+@jones.register
+def _(element: Medium, leaves: str, read: Reader) -> Jones:
+    del leaves
+    depth = read.real(element.absorption) * read.real(element.length)
+    left = mpmath.exp(-depth / 2)
+    rotation = read.angle_along(element.rotation, element.length, 2)
+    retardance = read.angle_along(element.retardance, element.length)
+    # Only one of both is not 0.
+    passed = times(_retarding(read, retardance, element.angle), turn(-rotation))
+    return times(_diagonal(left, left), passed)
+
+
+@jones.register
+def _(element: Mirror, leaves: str, read: Reader) -> Jones:
+    del leaves
+    return _diagonal(read.complex(element.r_s), read.complex(element.r_p))
 
 
 @jones.register
@@ -172,6 +207,17 @@ def mueller(coupling: Coupling, read: Reader) -> list[list[Any]]:
         assert kernel.structure is not None  # noqa: S101 - only sources have none
         matrix = mpmath.matrix(kernel.structure.rows(MANY_DIGITS, numbers)) * matrix
     return matrix.tolist()  # type: ignore[no-any-return]
+
+
+def _filter(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
+    roots = (mpmath.sqrt(read.real(transmittance)) for transmittance in (along, across))
+    return _turned(_diagonal(*roots), read.angle(angle, 2))
+
+
+def _retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
+    # The field is exp(-iwt): what falls behind gains a positive phase.
+    slow = mpmath.mpc(*cos_sin(retardance))
+    return _turned(_diagonal(1, slow), read.angle(angle, 2))
 
 
 def _diagonal(x: Any, y: Any) -> Jones:

@@ -13,6 +13,7 @@ from rich.table import Table
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.cli.progress_bar import progress_bar
 from optipath.presets import load_preset
+from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from optipath.bench import Report
@@ -80,7 +81,11 @@ def _opened(preset: str, case: str | None, values: dict[str, Any]) -> Any:
     path = load_preset(preset)
     if case not in path.cases:
         return load_preset(preset, case=case)
-    angles = [name for name, p in path.parameters.items() if p.unit and not p.optional]
+    angles = [
+        name
+        for name, p in path.parameters.items()
+        if dimension_of(p.unit) == "angle" and not p.optional
+    ]
     kept = {name: value for name, value in path.cases[case].values.items() if name not in angles}
     return load_preset(preset, **{**kept, **values})
 

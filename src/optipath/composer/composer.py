@@ -30,7 +30,7 @@ CHOICES = {
     "model": ("auto", *MODELS),
     "engine": ENGINES,
     "composing": ("stokes", "jones"),
-    "loops": (None, *LOOPS),
+    "loops": LOOPS,
 }
 
 
@@ -103,7 +103,7 @@ class Composer:
         faults = []
         for option, choices in CHOICES.items():
             value = getattr(self, option)
-            if value not in choices:
+            if value not in choices and not (option == "loops" and value is None):
                 faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
         try:
             precision(self.dtype)

@@ -6,7 +6,7 @@ from heapq import heapify, heappop, heappush
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
     from optipath.program import Step
 
@@ -45,9 +45,7 @@ def in_order_of_elimination(
     return order
 
 
-def neighbours(
-    steps: Sequence[Step], start: int, knots: tuple[int, ...]
-) -> Mapping[int, set[int]]:
+def neighbours(steps: Sequence[Step], start: int, knots: tuple[int, ...]) -> dict[int, set[int]]:
     """Return which knots of a loop light passes next to each other."""
     behind = {knot: knot for knot in knots}
     for light in range(start, len(steps)):

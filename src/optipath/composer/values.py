@@ -40,7 +40,9 @@ class Values:
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
-        entries = dict.fromkeys((end, enters) for _, end, (_, enters) in self.graph.edges(keys=True))
+        entries = dict.fromkeys(
+            (end, enters) for _, end, (_, enters) in self.graph.edges(keys=True)
+        )
         elements = self.graph.nodes(data="element")
         return [
             Use(f"{name}.{part}", value, domain)

@@ -188,9 +188,7 @@ def _loop(ports: nx.DiGraph, together: set[Port]) -> Stretch:
     between = nx.DiGraph()
     between.add_nodes_from(together)
     between.add_edges_from(
-        (start, end)
-        for end in together.difference(knots)
-        for start in ports.predecessors(end)
+        (start, end) for end in together.difference(knots) for start in ports.predecessors(end)
     )
     order = nx.lexicographical_topological_sort(between)
     return Stretch(tuple(order), knots)

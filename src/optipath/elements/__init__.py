@@ -4,9 +4,13 @@ from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
 from optipath.elements.combiner import Combiner
 from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.depolarizer import Depolarizer
+from optipath.elements.diattenuator import Diattenuator
 from optipath.elements.element import Element
 from optipath.elements.interface import Interface
 from optipath.elements.layer_stack import LayerStack
+from optipath.elements.medium import Medium
+from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
 from optipath.elements.registry import element_class
@@ -20,11 +24,15 @@ __all__ = [
     "BeamSplitter",
     "Combiner",
     "Coupling",
+    "Depolarizer",
     "Detector",
+    "Diattenuator",
     "Dump",
     "Element",
     "Interface",
     "LayerStack",
+    "Medium",
+    "Mirror",
     "MuellerElement",
     "Operation",
     "Polarizer",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -15,13 +15,31 @@ from optipath.views import View
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.interface import Interface
     from optipath.frames import Frame
 
 _TOLERANCE = 1e-7
 
 
-def boundary_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> list[str]:
+class Boundary(Protocol):
+    """An element with a medium in front and one behind."""
+
+    @property
+    def incidence(self) -> Any:
+        """The angle of incidence of light from the front."""
+
+    @property
+    def index(self) -> Any:
+        """The index of the medium behind."""
+
+    @property
+    def outside(self) -> Any:
+        """The index of the medium in front."""
+
+    def faults(self, owner: str) -> list[str]:
+        """Return what is wrong with the values."""
+
+
+def boundary_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> list[str]:
     """Return what is wrong with the frames of an interface's ports, a sentence each."""
     placed = list(frames.items())
     apart = [f"'{owner}.{port}'" for port, frame in placed[1:] if not share_x(frame, placed[0][1])]
@@ -32,20 +50,20 @@ def boundary_faults(owner: str, element: Interface, frames: Mapping[str, Frame])
     return [*_meeting_faults(owner, element, frames), *_passing_faults(owner, element, frames)]
 
 
-def _meeting_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> Iterator[str]:
+def _meeting_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> Iterator[str]:
     if not {"in", "reflected"} <= frames.keys():
         return
     found = incidence_between(frames["in"], frames["reflected"])
     problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
     if not View(element.incidence).known:
-        name = element.incidence.name  # type: ignore[union-attr]
+        name = element.incidence.name
         yield f"{problem}; give that, not the parameter '{name}'"
     angles = _angles(owner, element)
     if angles and not _agree(found, angles[0]):
         yield f"{problem}, but its incidence is {_degrees(angles[0])}; make them agree"
 
 
-def _passing_faults(owner: str, element: Interface, frames: Mapping[str, Frame]) -> Iterator[str]:
+def _passing_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> Iterator[str]:
     angles = _angles(owner, element) if len(frames) > 1 else None
     if not angles:
         return
@@ -68,10 +86,13 @@ def _passing_faults(owner: str, element: Interface, frames: Mapping[str, Frame])
                 )
 
 
-def _angles(owner: str, element: Interface) -> tuple[Any, Any] | None:
+def _angles(owner: str, element: Boundary) -> tuple[Any, Any] | None:
     """Return the angles in front and behind, if they are known and allowed."""
-    values = [element.incidence, element.index, element.outside, element.incidence_in]
-    parts = [p for v in values for p in ((v.n, v.k) if isinstance(v, Material) else (v,))]
+    before = getattr(element, "incidence_in", None)
+    values = [element.incidence, element.index, element.outside, before]
+    parts: list[Any] = [
+        p for v in values for p in ((v.n, v.k) if isinstance(v, Material) else (v,))
+    ]
     views = [View(part) for part in parts]
     if not all(v.known and not v.traced for v in views) or element.faults(owner):
         return None
@@ -79,8 +100,8 @@ def _angles(owner: str, element: Interface) -> tuple[Any, Any] | None:
     if broadcast_fault(shapes):
         return None  # Named with all other shapes.
     incidence, outside = View(element.incidence).numbers({}), _complex(element.outside).real
-    if element.incidence_in is not None:
-        incidence = refraction_angle(outside, incidence, _complex(element.incidence_in).real)
+    if before is not None:
+        incidence = refraction_angle(outside, incidence, _complex(before).real)
     return incidence, refraction_angle(_complex(element.index), incidence, outside)
 
 

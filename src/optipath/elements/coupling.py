@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import IndexDomain
 from optipath.frozen import frozen
 from optipath.kernels import NUMPY, TURN, TURN_BACK
 from optipath.materials import Material
@@ -68,8 +67,8 @@ def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
 def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
     """Return a value as the plain numbers that kernels take.
 
-    An index of refraction is two numbers (n, k), a Stokes vector four, a matrix
-    sixteen, anything else one.
+    An index of refraction is two numbers (n, k), and so is any complex number; a Stokes
+    vector is four, a matrix sixteen, anything else one.
 
     Examples
     --------
@@ -82,7 +81,7 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
         return tuple(View(value, position, domain.tail) for position in range(count))
     if isinstance(value, Material):
         return value.n, value.k
-    if not isinstance(domain, IndexDomain):
+    if not domain.complex_parts:
         return (value,)
     if isinstance(value, (int, float, complex, np.ndarray)):
         return frozen(np.real(value)), frozen(np.imag(value))

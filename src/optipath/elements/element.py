@@ -6,7 +6,7 @@ from dataclasses import MISSING, dataclass, fields
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
 
-from optipath.domains import REAL, Domain, IndexDomain, in_unit_of
+from optipath.domains import REAL, Domain, in_unit_of
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
@@ -37,9 +37,9 @@ class Element:
 
     - ``mueller_rows(xp, *values)``, a static method that returns the rows of its Mueller
       matrix, elementwise: `xp` has ``sin``, ``cos``, ``exp``, ``sqrt``, ``where``, ...
-      Each field gives one value, but an `Index` gives two (n and k), a Stokes
-      vector four and a matrix sixteen. A field ``azimuth`` gives none: it turns the
-      frame of ``in`` against the one before it, for every element; or
+      Each field gives one value, but an `Index` gives two (n and k), an `Amplitude` two
+      (its parts), a Stokes vector four and a matrix sixteen. A field ``azimuth`` gives
+      none: it turns the frame of ``in`` against the one before it, for every element; or
     - ``couplings()``, which names a kernel for each way from an in-port to an out-port.
 
     Attributes
@@ -257,7 +257,7 @@ def _annotated(hint: Any) -> Iterator[Domain]:
 
 
 def _same_value(first: Any, second: Any, domain: Domain) -> bool:
-    if same(first, second) or not isinstance(domain, IndexDomain):
+    if same(first, second) or not domain.complex_parts:
         return same(first, second)
     # An index may be written as a complex number or as a Material.
     pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)

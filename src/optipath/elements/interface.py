@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
+from optipath.elements.boundary_frames import boundary_faults
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.boundary_frames import boundary_faults
 from optipath.kernels import REFLECTION, TRANSMISSION
 from optipath.materials import Material
 from optipath.views import View

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
+from optipath.elements.boundary_frames import boundary_faults
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.frame_checks import incidence_between, share_x
 from optipath.kernels import (
     STACK_REFLECTION,
     STACK_REFLECTION_BACK,
@@ -72,19 +72,18 @@ class LayerStack(Element, kind="layer-stack"):
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
         """Return that the substrate must not absorb where light comes from there."""
-        return {"substrate": LIT_BEHIND} if port == "back" else {}
+        return {"index": LIT_BEHIND} if port == "back" else {}
 
     @property
-    def substrate(self) -> Any:
-        """The index of the last medium."""
+    def outside(self) -> Any:
+        """The index of the medium in front."""
+        return self.indices[0]
+
+    @property
+    def index(self) -> Any:
+        """The index of the substrate."""
         return self.indices[-1]
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that x = s at all ports, and that the directions meet at the incidence."""
-        placed = list(frames.values())
-        if not all(share_x(frame, placed[0]) for frame in placed[1:]):
-            return [
-                f"the frames of the ports of '{owner}' must share one x, perpendicular to the "
-                f"plane of incidence"
-            ]
-        return []
+        """Check that x = s at all ports and that the directions obey reflection and Snell."""
+        return boundary_faults(owner, self, frames)

@@ -6,8 +6,12 @@ to the structure of what they return.
 
 from typing import TypeAlias
 
-from optipath.kernels import emission, filters, rotation
-from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
+from optipath.kernels import emission, filters, medium, rotation
+from optipath.kernels.amplitude import (
+    amplitude_reflection,
+    amplitude_transmission,
+    given_amplitudes,
+)
 from optipath.kernels.bounds import Boosts, Bounds, boosted, largest_error, ratio_bounds
 from optipath.kernels.carried import (
     Carried,
@@ -112,10 +116,12 @@ TRANSMISSION = _family(
 METHODS = tuple(REFLECTION.methods)
 
 
-def stack_family(*, through: bool, from_behind: bool) -> KernelFamily:
+def _stack_family(*, through: bool, from_behind: bool) -> KernelFamily:
     """Return the kernels of what a stack of layers lets through, or sends back."""
     what = "stack transmission" if through else "stack reflection"
-    pairs = {method: (REFLECTION.methods[method], TRANSMISSION.methods[method]) for method in METHODS}
+    pairs = {
+        method: (REFLECTION.methods[method], TRANSMISSION.methods[method]) for method in METHODS
+    }
     return _family(
         what,
         **{
@@ -127,10 +133,10 @@ def stack_family(*, through: bool, from_behind: bool) -> KernelFamily:
     )
 
 
-STACK_REFLECTION = stack_family(through=False, from_behind=False)
-STACK_TRANSMISSION = stack_family(through=True, from_behind=False)
-STACK_REFLECTION_BACK = stack_family(through=False, from_behind=True)
-STACK_TRANSMISSION_BACK = stack_family(through=True, from_behind=True)
+STACK_REFLECTION = _stack_family(through=False, from_behind=False)
+STACK_TRANSMISSION = _stack_family(through=True, from_behind=False)
+STACK_REFLECTION_BACK = _stack_family(through=False, from_behind=True)
+STACK_TRANSMISSION_BACK = _stack_family(through=True, from_behind=True)
 
 Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers | Bounds
 
@@ -143,26 +149,32 @@ POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
+DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
+GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, given_amplitudes)
+ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
+ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
+RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
-CONSTANT_DEPOLARIZING_BLOCK = Kernel(
-    "depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given
-)
+CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)
 
 UNPOLARIZED = Kernel("unpolarized light", None, emission.unpolarized)
 POLARIZED = Kernel("polarized light", None, emission.polarized)
 
 __all__ = [
+    "ABSORPTION_ALONG",
     "ALIGN",
     "ATTENUATOR",
     "BLOCK",
     "COMPLEMENT",
     "CONSTANT_BLOCK",
     "CONSTANT_DEPOLARIZING_BLOCK",
+    "DEPOLARIZER",
     "DEPOLARIZING_BLOCK",
     "FLOAT",
     "FULL",
+    "GIVEN_AMPLITUDES",
     "GIVEN_TURN",
     "MATRIX",
     "METHODS",
@@ -172,8 +184,10 @@ __all__ = [
     "POLARIZER",
     "POWERS",
     "REFLECTION",
+    "RETARDANCE_ALONG",
     "RETARDER",
     "ROTATION",
+    "ROTATION_ALONG",
     "SCALE",
     "STACK_REFLECTION",
     "STACK_REFLECTION_BACK",

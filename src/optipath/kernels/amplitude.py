@@ -36,6 +36,22 @@ def amplitude_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return reflect
 
 
+def given_amplitudes(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(Re rs, Im rs, Re rp, Im rp) -> (Fs, Fp, B, C, S)``.
+
+    B = Re((rs - rp) conj(rs + rp)) / 2, which keeps the digits of what is given where the
+    difference of Fs and Fp would lose them.
+    """
+    del xp
+
+    def reflect(a: Any, b: Any, c: Any, d: Any) -> tuple[Any, ...]:
+        rs, rp = (a, b), (c, d)
+        B = 0.5 * _times_conjugate((a - c, b - d), (a + c, b + d))[0]
+        return _power(rs), _power(rp), B, *_times_conjugate(rs, rp)
+
+    return reflect
+
+
 def amplitude_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
 

@@ -1,4 +1,4 @@
-"""Filters: polarisers, retarders, attenuators, ideal mirrors, and given matrices."""
+"""Filters: polarisers, retarders, attenuators, depolarisers, ideal mirrors, given matrices."""
 
 from __future__ import annotations
 
@@ -48,6 +48,18 @@ def complement(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make ``(reflectance,) -> (1 - reflectance,)``: what a lossless splitter lets through."""
     del xp
     return lambda reflectance: (1.0 - reflectance,)
+
+
+def depolarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(depolarization,) ->`` the sixteen numbers of diag(1, p, p, p), p = 1 - d."""
+    del xp
+
+    def depolarize(depolarization: Any) -> tuple[Any, ...]:
+        p = 1.0 - depolarization
+        rows = (1.0, 0.0, 0.0, 0.0), (0.0, p, 0.0, 0.0), (0.0, 0.0, p, 0.0), (0.0, 0.0, 0.0, p)
+        return tuple(entry for row in rows for entry in row)
+
+    return depolarize
 
 
 def mirror(xp: Primitives) -> Callable[..., tuple[Any, ...]]:

@@ -100,7 +100,9 @@ class Stack:
         if self.through:
             return _times(at.transmitted[-1], down)
         direct = [row[0] for row in at.reflected[0]]
-        return [one + other for one, other in zip(direct, _times(at.transmitted[0], up), strict=True)]
+        return [
+            one + other for one, other in zip(direct, _times(at.transmitted[0], up), strict=True)
+        ]
 
 
 _CHANNELS: tuple[Callable[[Any], Rows], ...] = (

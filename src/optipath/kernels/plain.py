@@ -13,7 +13,6 @@ from optipath.kernels.carried import (
     leaving,
     stokes_of,
 )
-
 from optipath.kernels.parted import light_of, parts_of
 
 if TYPE_CHECKING:

@@ -14,7 +14,6 @@ from optipath.kernels.carried import (
     leaving,
     stokes_of,
 )
-
 from optipath.kernels.parted import light_of, parts_of
 
 if TYPE_CHECKING:
@@ -74,9 +73,7 @@ class Scaled:
         other = _times_two_to(self.xp, other, of_other - most)
         return self._settled(add(self.xp, light, other), most)
 
-    def meet(
-        self, meeting: Meeting, arriving: Mapping[int, ScaledState]
-    ) -> dict[int, ScaledState]:
+    def meet(self, meeting: Meeting, arriving: Mapping[int, ScaledState]) -> dict[int, ScaledState]:
         """Return the states at the knots of a loop, for those that arrive at some."""
         most = reduce(self.xp.maximum, (self._exponent(state) for state in arriving.values()))
         most = self.xp.where(most > _DARK, most, 0)

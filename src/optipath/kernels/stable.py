@@ -39,13 +39,13 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def lossless_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: the same, cheaper, for k = 0."""
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: cheaper, for k = 0."""
     boundary, reflected = lossless_boundary(xp), _reflected(xp)
     return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
 
 
 def denser_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: cheaper again, for n >= n1."""
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: the same for n >= n1."""
     boundary, reflected = denser_boundary(xp), _reflected(xp)
     return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
 
@@ -79,7 +79,7 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def lossless_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``: the same, cheaper, for k = 0."""
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``: cheaper, for k = 0."""
     boundary, transmitted = lossless_boundary(xp), _transmitted(xp)
     where = xp.where
 

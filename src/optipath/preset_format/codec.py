@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.domains import (
+    AMPLITUDE,
     INDEX,
-    REAL,
     Choice,
     Domain,
     IndexDomain,
@@ -18,12 +18,10 @@ from optipath.domains import (
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
-from optipath.units import USUAL_UNITS, dimension_of, format_quantity, parse_quantity
+from optipath.units import dimension_of, format_quantity, parse_quantity, with_article
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-_INDEX = ("n", "k")
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -53,13 +51,17 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return domain.check("the value", raw)
     if isinstance(domain, IndicesDomain):
         if not isinstance(raw, list):
-            raise PresetError(f"{raw!r} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]")
+            raise PresetError(
+                f"{raw!r} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
+            )
         return [decode(one, INDEX, parameters) for one in raw]
     if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
         return _reference(raw, parameters)
     if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
-        return _material(raw, domain, parameters)
-    return _number(raw, domain.dimension)
+        return Material(**_parts(raw, domain, parameters))
+    if isinstance(raw, dict) and domain.complex_parts:
+        return _complex(_parts(raw, domain, {}))
+    return _number(raw, domain.unit)
 
 
 def decode_given(raw: Any, parameter: Parameter) -> Any:
@@ -75,13 +77,22 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
     if isinstance(raw, list):
         return [decode_given(entry, parameter) for entry in raw]
     if isinstance(raw, dict):
-        index = _material(raw, REAL, {})
-        return np.asarray(index.n) + 1j * np.asarray(index.k)
-    return _number(raw, dimension_of(parameter.unit))
+        domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
+        return _complex(_parts(raw, domain, {}))
+    return _number(raw, parameter.unit)
 
 
-def encode(value: Any, dimension: str) -> Any:
+def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex_parts) -> Any:
     """Write a value so that decoding gives it back.
+
+    Parameters
+    ----------
+    value : Any
+        A number, an array, a material, a word, or a parameter.
+    unit : str
+        The unit of numbers.
+    complex_parts : tuple of str, optional
+        What the two parts of complex numbers are called.
 
     Raises
     ------
@@ -93,21 +104,20 @@ def encode(value: Any, dimension: str) -> Any:
     if isinstance(value, Parameter):
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
-        return {"n": encode(value.n, dimension), "k": encode(value.k, dimension)}
+        return {"n": encode(value.n, unit), "k": encode(value.k, unit)}
     if isinstance(value, str):
         return value
     if isinstance(value, np.ndarray) and value.dtype.kind != "c":
-        return [encode(entry, dimension) for entry in value.tolist()]
+        return [encode(entry, unit) for entry in value.tolist()]
     if isinstance(value, (list, tuple)):
-        return [encode(entry, dimension) for entry in value]
+        return [encode(entry, unit) for entry in value]
     if isinstance(value, np.ndarray):
-        return {"n": value.real.tolist(), "k": value.imag.tolist()}
+        parts = value.real.tolist(), value.imag.tolist()
+        return dict(zip(complex_parts, parts, strict=True))
     if isinstance(value, complex):
-        return {"n": value.real, "k": value.imag}
+        return dict(zip(complex_parts, (value.real, value.imag), strict=True))
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        if not dimension or np.isinf(value):
-            return float(value)
-        return format_quantity(value, USUAL_UNITS[dimension])
+        return format_quantity(value, unit) if unit and np.isfinite(value) else float(value)
     raise PresetError(f"{value!r} has no form in a preset file; use numbers or parameters")
 
 
@@ -119,28 +129,36 @@ def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
     return -parameters[name] if sign else parameters[name]
 
 
-def _material(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Material:
+def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
+    """Return the parts of a complex number or a material that is written as a table."""
+    names = domain.complex_parts or INDEX.complex_parts
     faults = [
-        f"key '{key}' is unknown{did_you_mean(key, _INDEX)}" for key in raw if key not in _INDEX
+        f"key '{key}' is unknown{did_you_mean(key, names)}" for key in raw if key not in names
     ]
-    if "n" not in raw:
-        faults.append("an index written as a table needs 'n'")
+    if names[0] not in raw:
+        faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
     parts = {}
-    for key in [key for key in _INDEX if key in raw]:
+    for key in [key for key in names if key in raw]:
         try:
             parts[key] = decode(raw[key], Domain(domain.name), parameters)
         except OptipathError as fault:
             faults += [f"{key}: {sentence}" for sentence in fault.faults]
     if faults:
         raise PresetError(*faults)
-    return Material(**parts)
+    return parts
 
 
-def _number(raw: Any, dimension: str) -> Any:
+def _complex(parts: Mapping[str, Any]) -> Any:
+    real, *imaginary = map(np.asarray, parts.values())
+    return (real + 1j * sum(imaginary))[()]
+
+
+def _number(raw: Any, unit: str) -> Any:
+    dimension = dimension_of(unit)
     if isinstance(raw, list) and not raw:
         raise UnitError("an empty list is no value; give at least one number")
     if isinstance(raw, list):
-        return [_number(entry, dimension) for entry in raw]
+        return [_number(entry, unit) for entry in raw]
     if isinstance(raw, str):
         return parse_quantity(raw, dimension)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
@@ -150,8 +168,6 @@ def _number(raw: Any, dimension: str) -> Any:
     except OverflowError:
         raise UnitError(f"{raw} is too large a number") from None
     if dimension and np.isfinite(number):
-        unit = USUAL_UNITS[dimension]
-        raise UnitError(
-            f"{raw!r} has no unit, but an {dimension} is asked for; write '{raw} {unit}'"
-        )
+        asked = with_article(dimension)
+        raise UnitError(f"{raw!r} has no unit, but {asked} is asked for; write '{raw} {unit}'")
     return number

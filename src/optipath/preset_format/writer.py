@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer import LOOPS, parameters_of
+from optipath.domains import ANGLE, INDEX
 from optipath.errors import OptipathError, PathError, did_you_mean
+from optipath.parameters import Parameter
 from optipath.preset_format.codec import encode
 from optipath.preset_format.schema import FORMAT
-from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from optipath.cases import Case
     from optipath.elements import Element
     from optipath.frames import Frame
-    from optipath.parameters import Parameter
 
 
 def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
@@ -41,8 +41,10 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     if loops != LOOPS[0]:
         top["loops"] = loops
     tables: list[str] = [_lines("", top)]
+    parts = _complex_parts(graph)
     for name, parameter in parameters.items():
-        tables.append(_lines(f"[parameters.{_key(name)}]", _parameter(parameter)))
+        row = _parameter(parameter, parts.get(name, INDEX.complex_parts))
+        tables.append(_lines(f"[parameters.{_key(name)}]", row))
     for name, element in graph.nodes(data="element"):
         try:
             row = _element(element, graph.nodes[name]["frames"])
@@ -53,7 +55,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     for start, end, (leaves, enters), azimuth in graph.edges(keys=True, data="azimuth"):
         link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
         if azimuth is not None:
-            link["azimuth"] = encode(azimuth, "angle")
+            link["azimuth"] = encode(azimuth, ANGLE.unit)
         tables.append(_lines("[[links]]", link))
     for name, case in cases.items():
         faults += [
@@ -62,26 +64,36 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
             for given in case.values
             if given not in parameters
         ]
-        tables.append(_lines(f"[cases.{_key(name)}]", _case(case, parameters)))
+        tables.append(_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
     if faults:
         raise PathError(*faults)
     return "\n".join(tables)
 
 
-def _parameter(parameter: Parameter) -> dict[str, Any]:
-    dimension = dimension_of(parameter.unit)
+def _complex_parts(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
+    """Return what the parts of complex numbers are called, for each parameter of such."""
+    quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
+    return {
+        value.name: domain.complex_parts
+        for _, value, domain in quantities
+        if isinstance(value, Parameter) and domain.complex_parts
+    }
+
+
+def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str, Any]:
+    unit = parameter.unit
     row: dict[str, Any] = {}
     if parameter.default is not None:
-        row["default"] = encode(parameter.default, dimension)
-    if parameter.unit:
-        row["unit"] = parameter.unit
+        row["default"] = encode(parameter.default, unit, complex_parts)
+    if unit:
+        row["unit"] = unit
     if np.isfinite([parameter.minimum, parameter.maximum]).any():
         limits = (parameter.minimum, parameter.maximum)
-        row["range"] = [encode(limit, dimension) for limit in limits]
+        row["range"] = [encode(limit, unit) for limit in limits]
     if parameter.help:
         row["help"] = parameter.help
     if parameter.words:
-        row["words"] = {word: encode(v, dimension) for word, v in parameter.words.items()}
+        row["words"] = {word: encode(v, unit) for word, v in parameter.words.items()}
     if parameter.optional:
         row["optional"] = True
     if parameter.bound:
@@ -99,7 +111,8 @@ def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
     for f in fields(element):  # type: ignore[arg-type]
         value = getattr(element, f.name)
         if value is not None:
-            row[f.name] = encode(value, element.domains()[f.name].dimension)
+            domain = element.domains()[f.name]
+            row[f.name] = encode(value, domain.unit, domain.complex_parts or INDEX.complex_parts)
     if frames:
         row["frames"] = {
             port: {axis: getattr(frame, axis).tolist() for axis in "xyz"}
@@ -108,11 +121,13 @@ def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
     return row
 
 
-def _case(case: Case, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
+def _case(
+    case: Case, parameters: Mapping[str, Parameter], parts: Mapping[str, tuple[str, ...]]
+) -> dict[str, Any]:
     values = {}
     for name, value in case.values.items():
         unit = parameters[name].unit if name in parameters else ""
-        values[name] = encode(value, dimension_of(unit))
+        values[name] = encode(value, unit, parts.get(name, INDEX.complex_parts))
     row: dict[str, Any] = {"values": values}
     if case.published:
         row["published"] = {name: list(stokes) for name, stokes in case.published.items()}

@@ -14,7 +14,7 @@ from optipath.preset_reader.cases import read_case
 from optipath.preset_reader.elements import read_element, read_frames
 from optipath.preset_reader.faults import Faults
 from optipath.preset_reader.parameters import read_parameter
-from optipath.units import dimension_of
+from optipath.units import dimension_of, with_article
 
 if TYPE_CHECKING:
     from optipath.parameters import Parameter
@@ -71,8 +71,8 @@ def read(document: dict[str, Any]) -> PathGraph:
 
 def _unit_faults(path: PathGraph, parameters: dict[str, Parameter]) -> list[str]:
     return [
-        f"parameters.{name} is used where an {dimension_of(parameter.unit)} is asked for; "
-        f'add unit = "{parameter.unit}" or another'
+        f"parameters.{name} is used where {with_article(dimension_of(parameter.unit))} is "
+        f'asked for; add unit = "{parameter.unit}" or another'
         for name, parameter in path.parameters.items()
         if name in parameters and parameter.unit != parameters[name].unit
     ]

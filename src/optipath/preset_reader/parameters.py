@@ -25,7 +25,7 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
     dimension = faults.attempt(where, dimension_of, unit) if isinstance(unit, str) else None
     if dimension is None or len(faults) > before:
         return bare
-    domain = Domain("value", dimension)
+    domain = Domain("value", dimension, own_unit=unit)
     low, high = _range(where, table, domain, faults)
     words = {
         word: faults.attempt(f"{where}.words.{word}", decode, raw, domain, {})

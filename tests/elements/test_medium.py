@@ -1,0 +1,136 @@
+import numpy as np
+import pytest
+
+import optipath as op
+from paths import chain
+
+STATE = [1.0, 0.5, 0.6, 0.4]
+
+
+def test_intensity_decays_by_beer_and_lambert():
+    lengths = np.linspace(0.0, 0.5, 20)
+    light = chain([op.Medium(lengths, absorption=13.8)], STATE).trace()
+    np.testing.assert_allclose(light.intensity, np.exp(-13.8 * lengths), rtol=4e-15)
+    np.testing.assert_allclose(light.dop, np.linalg.norm(STATE[1:]), rtol=1e-15)
+
+
+def test_two_stretches_are_one_of_both_lengths():
+    both = [op.Medium(0.2, 3.0, rotation=2.0), op.Medium(0.3, 3.0, rotation=2.0)]
+    whole = [op.Medium(0.5, 3.0, rotation=2.0)]
+    found, wanted = (chain(elements, STATE).trace().stokes for elements in (both, whole))
+    np.testing.assert_allclose(found, wanted, atol=2e-16)
+
+
+def test_sugar_solution_turns_light_as_the_handbook_says():
+    # Sucrose, 589 nm, 20 deg C: 66.5 deg per dm and g/ml. A 2 dm tube of 0.1 g/ml: 13.3 deg.
+    # Sugar is dextrorotatory, clockwise to who looks at the source, which is from y towards x.
+    solution = op.Medium(0.2, rotation=-np.radians(66.5 * 0.1) / 0.1)
+    light = chain([solution], [1.0, 1.0, 0.0, 0.0]).trace()
+    turned = 0.5 * np.degrees(np.arctan2(light.stokes[2], light.stokes[1]))
+    assert turned == pytest.approx(-13.3, abs=1e-13)
+
+
+def test_a_rotation_turns_from_x_towards_y_as_a_rotator_does():
+    medium = op.Medium(0.5, rotation=0.6).mueller().matrix
+    np.testing.assert_array_equal(medium, op.Rotator(0.3).mueller().matrix)
+
+
+def test_a_retardance_grows_with_the_length_as_in_a_wave_plate():
+    # Quartz, 589 nm: a birefringence of 0.00911 makes a quarter wave in 16.16 um.
+    per_metre = 2 * np.pi * 0.00911 / 589e-9
+    plate = op.Medium(589e-9 / (4 * 0.00911), retardance=per_metre).mueller()
+    light = plate @ op.Light([1.0, 0.0, 1.0, 0.0])
+    np.testing.assert_allclose(light.stokes, [1, 0, 0, 1], atol=1e-15)
+
+
+def test_the_fast_axis_is_that_of_a_retarder():
+    medium = chain([op.Medium(0.5, retardance=1.4, angle=0.3, azimuth=0.2)], STATE)
+    plate = chain([op.Retarder(0.7, 0.3, azimuth=0.2)], STATE)
+    np.testing.assert_array_equal(medium.trace().stokes, plate.trace().stokes)
+
+
+def test_absorption_comes_from_the_extinction_coefficient():
+    # One skin depth of the intensity, wavelength / (4 pi k), leaves 1/e.
+    medium = op.Medium.from_extinction(500e-9 / (4 * np.pi * 2.12), k=2.12, wavelength=500e-9)
+    assert medium.mueller().matrix[0, 0] == pytest.approx(np.exp(-1), rel=1e-15)
+
+
+def test_extinction_coefficients_and_wavelengths_broadcast():
+    k, wavelength = np.array([[0.0], [0.1]]), np.array([4e-7, 5e-7, 6e-7])
+    assert op.Medium.from_extinction(1e-6, k, wavelength, rotation=0.1).absorption.shape == (2, 3)
+
+
+def test_parameters_cannot_be_an_extinction_coefficient():
+    with pytest.raises(op.ValueFault) as error:
+        op.Medium.from_extinction(1.0, k=op.Parameter("k"), wavelength=0.0)
+    assert [fault.split()[0] for fault in error.value.faults] == ["k", "wavelength"]
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("acts", ["rotation", "retardance"])
+def test_all_values_may_be_parameters(engine, dtype, acts):
+    names = ("length", "absorption", acts, "angle")
+    path = chain([op.Medium(**{name: op.Parameter(name) for name in names})], STATE)
+    values = dict(zip(names, np.random.default_rng(2).uniform(0, 1, (4, 3000)), strict=True))
+    found = op.Composer(engine=engine, dtype=dtype).compose(path).run(**values).stokes
+    wanted = chain([op.Medium(**values)], STATE).trace().stokes
+    np.testing.assert_allclose(found, wanted, atol=1e-6 if dtype == "float32" else 1e-15)
+
+
+def test_parameters_have_the_units_that_are_usual_for_a_medium():
+    names = ("length", "absorption", "rotation")
+    path = chain([op.Medium(*map(op.Parameter, names))])
+    assert [path.parameters[name].unit for name in names] == ["mm", "1/cm", "deg/mm"]
+
+
+def test_jones_columns_pass():
+    path = chain([op.Medium(0.1, 5.0, rotation=2.0), op.Medium(0.1, retardance=3.0)], STATE)
+    jones = op.Composer(composing="jones").compose(path).run().stokes
+    np.testing.assert_allclose(jones, path.trace().stokes, atol=1e-15)
+
+
+def test_a_medium_that_does_nothing_takes_no_step():
+    assert len(chain([op.Medium(op.Parameter("l"))]).compose().program.steps) == 1
+
+
+@pytest.mark.parametrize(
+    ("rotation", "retardance"),
+    [
+        (1.0, 2.0),
+        (op.Parameter("a"), 2.0),
+        (1.0, op.Parameter("a")),
+        (op.Parameter("a"), op.Parameter("b")),
+        (np.array([0.0, 1.0]), np.array([1.0, 0.0])),
+        (op.Parameter("a", 1.0, bound=True), op.Parameter("b", 2.0, bound=True)),
+    ],
+)
+def test_rotation_and_retardance_together_are_refused(rotation, retardance):
+    path = chain([op.Medium(0.1, rotation=rotation, retardance=retardance)])
+    with pytest.raises(op.PathError, match=r"e0\.retardance.*put two Media one after the other"):
+        path.compose()
+
+
+@pytest.mark.parametrize("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
+def test_one_of_both_may_be_0(zero):
+    found = op.Medium(0.5, rotation=zero, retardance=1.0).mueller().matrix
+    np.testing.assert_array_equal(found, op.Retarder(0.5).mueller().matrix)
+    found = op.Medium(0.5, rotation=1.0, retardance=zero).mueller().matrix
+    np.testing.assert_array_equal(found, op.Rotator(0.5).mueller().matrix)
+
+
+def test_all_faults_are_told_at_once():
+    path = chain([op.Medium(-0.1, -2.0, rotation="x", retardance=op.Parameter("r", unit="deg"))])
+    with pytest.raises(op.PathError) as error:
+        path.compose()
+    found = "\n".join(error.value.faults)
+    assert "e0.length is -100 mm; give a real length of 0 mm or more" in found
+    assert "e0.absorption is -0.02 1/cm" in found
+    assert "e0.rotation must be" in found
+    assert "e0.retardance is parameter 'r'" in found
+
+
+def test_a_parameter_in_a_unit_of_another_dimension_is_refused():
+    path = chain([op.Medium(op.Parameter("l", unit="deg"))])
+    with pytest.raises(op.PathError, match=r"is in deg, but e0\.length takes a real length"):
+        path.compose()
