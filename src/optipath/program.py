@@ -50,11 +50,17 @@ class Step:
         The lights that are added up; empty where light is emitted.
     evaluation : int or None
         What is done to the sum; None leaves it as it is.
+    port : bool
+        Whether the label is an out-port, which the light of this step leaves by.
+    bounces : int
+        How often light is reflected here.
     """
 
     label: str
     inputs: tuple[int, ...]
     evaluation: int | None = None
+    port: bool = False
+    bounces: int = 0
 
 
 @dataclass(frozen=True)

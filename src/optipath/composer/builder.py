@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from optipath.composer.knots import in_order_of_elimination
 from optipath.program import Evaluation, Loop, Program, Reading, Step
@@ -63,15 +63,19 @@ class Builder:
         kernel: Kernel,
         views: Sequence[View],
         presence: View | None = None,
+        **about: Any,
     ) -> int:
-        """Add a step that does something to light; return the light that it makes."""
+        """Add a step that does something to light; return the light that it makes.
+
+        What else a `Step` tells about itself may be given by name.
+        """
         arguments = tuple(map(self._leaf, views))
         there = None if presence is None else self._leaf(presence)
         evaluation = Evaluation(kernel, arguments, there)
         index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
         if index == len(self.evaluations):
             self.evaluations.append(evaluation)
-        self.steps.append(Step(label, inputs, index))
+        self.steps.append(Step(label, inputs, index, **about))
         return len(self.steps) - 1
 
     def sum(self, label: str, lights: Sequence[int]) -> int:

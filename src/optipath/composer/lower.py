@@ -145,23 +145,30 @@ class _Lowering:
     def _pass(self, name: str, coupling: Coupling) -> int:
         label = f"{name}.{coupling.leaves}"
         if coupling.enters is None:
-            light = self._step(label, (), coupling.operations[0], None)
+            light = self._step(label, (), coupling.operations[0], None, port=True)
             self.sources[name] = (light, frame_at(self.wiring, name, coupling.leaves) or Frame())
             return light
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
         if presence is not None and presence.known and not np.any(presence.present()):
             return light
-        for operation in coupling.operations:
-            light = self._step(label, (light,), operation, presence)
+        last = len(coupling.operations) - 1
+        for place, operation in enumerate(coupling.operations):
+            bounces = int(coupling.reflects and place == last)
+            light = self._step(label, (light,), operation, presence, port=True, bounces=bounces)
         return light
 
     def _step(
-        self, label: str, inputs: tuple[int, ...], operation: Operation, presence: View | None
+        self,
+        label: str,
+        inputs: tuple[int, ...],
+        operation: Operation,
+        presence: View | None,
+        **about: Any,
     ) -> int:
         views = [view_of(argument) for argument in operation.arguments]
         kernel = operation.kernel.by_method(self.method)
-        return self.builder.step(label, inputs, kernel, views, presence)
+        return self.builder.step(label, inputs, kernel, views, presence, **about)
 
     def _reading_frame(self, name: str, port: str) -> Frame:
         own = frame_at(self.wiring, name, port)

@@ -50,9 +50,9 @@ class BeamSplitter(Element, kind="beam-splitter"):
         mirror = (Operation(MIRROR, (self.reflectance,)),)
         passing = (Operation(COMPLEMENT, (self.reflectance,)),)
         return (
-            Coupling("in", "reflected", mirror),
+            Coupling("in", "reflected", mirror, reflects=True),
             Coupling("in", "transmitted", passing),
-            Coupling("back", "transmitted", mirror),
+            Coupling("back", "transmitted", mirror, reflects=True),
             Coupling("back", "reflected", passing),
         )
 

@@ -30,12 +30,13 @@ class Operation:
 class Coupling:
     """One way through an element: from an in-port to an out-port, in order of travel.
 
-    `enters` is None where light begins (a source).
+    `enters` is None where light begins (a source); `reflects` tells a bounce from a passage.
     """
 
     enters: str | None
     leaves: str
     operations: tuple[Operation, ...]
+    reflects: bool = False
 
     def matrix(self, method: str) -> np.ndarray[Any, Any]:
         """Return the Mueller matrix of shape (..., 4, 4); every value must be a number."""

@@ -78,9 +78,9 @@ class Interface(Element, kind="interface"):
         reflect = (Operation(REFLECTION, (*media, *before, *angle)),)
         transmit = (Operation(TRANSMISSION, (*media, *before, *angle)),)
         return (
-            Coupling("in", "reflected", reflect),
+            Coupling("in", "reflected", reflect, reflects=True),
             Coupling("in", "transmitted", transmit),
-            Coupling("back", "transmitted", reflect),
+            Coupling("back", "transmitted", reflect, reflects=True),
             Coupling("back", "reflected", transmit),
         )
 

@@ -64,9 +64,9 @@ class LayerStack(Element, kind="layer-stack"):
         angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
         front, back = (*media, pairs[-1][1], *angle), (*media[::-1], 0.0, *angle)
         return (
-            Coupling("in", "reflected", (Operation(STACK_REFLECTION, front),)),
+            Coupling("in", "reflected", (Operation(STACK_REFLECTION, front),), reflects=True),
             Coupling("in", "transmitted", (Operation(STACK_TRANSMISSION, front),)),
-            Coupling("back", "transmitted", (Operation(STACK_REFLECTION_BACK, back),)),
+            Coupling("back", "transmitted", (Operation(STACK_REFLECTION_BACK, back),), reflects=True),
             Coupling("back", "reflected", (Operation(STACK_TRANSMISSION_BACK, back),)),
         )
 

@@ -96,7 +96,7 @@ class Stepwise:
 
         What several parts of a batch have in common may be given, see `shared`.
         """
-        leaves = self._leaves(given)
+        leaves = self.leaves(given)
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
         found = self._stacked(leaves, self._ways[self.way], given.batch, own)
         if self.way is Plain and any(np.any(is_faint(s[..., 0])) for s, _ in found):
@@ -108,7 +108,7 @@ class Stepwise:
 
         Together they are no more than the light that the batch gives.
         """
-        leaves, way = self._leaves(given), self._ways[self.way]
+        leaves, way = self.leaves(given), self._ways[self.way]
         left, found = 4 * given.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
@@ -116,13 +116,13 @@ class Stepwise:
                 shapes += [] if evaluation.presence is None else [leaves[evaluation.presence].shape]
                 size = 16 * int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
                 if size <= min(left, given.paths):
-                    found[index] = evaluated(evaluation, leaves, way, self._number)
+                    found[index] = evaluated(evaluation, leaves, way, self.number)
                     left -= size
         return found
 
     def matrix(self, given: Given, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
-        leaves = self._leaves(given)
+        leaves = self.leaves(given)
         columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(given.batch))
         none = self.dtype.type(0.0)
         emitted: dict[int, Components] = {
@@ -137,7 +137,7 @@ class Stepwise:
     def bounds(self, given: Given) -> list[np.ndarray[Any, Any]]:
         """Return what `Bounds` reads at every end, shape (4, ...)."""
         way = Bounds(NUMPY, slack_of(self.dtype.name))
-        found = self._walk(self._leaves(given), way)
+        found = self._walk(self.leaves(given), way)
         read = []
         for reading in self.program.readings.values():
             parts = np.empty((4, *given.batch), self.dtype)
@@ -167,15 +167,15 @@ class Stepwise:
     ) -> Any:
         meetings: list[Meeting] = []
         with np.errstate(all="ignore"):
-            found = walk(self.program, leaves, way, emitted, self._number, shared, meetings)
+            found = walk(self.program, leaves, way, emitted, self.number, shared, meetings)
         check_gains(meetings)
         return found
 
-    def _number(self, number: Any) -> np.ndarray[Any, Any]:
+    def number(self, number: Any) -> np.ndarray[Any, Any]:
         # Plain numbers among what kernels give have no precision of their own.
         return np.asarray(number, self.dtype)
 
-    def _leaves(self, given: Given) -> list[np.ndarray[Any, Any]]:
+    def leaves(self, given: Given) -> list[np.ndarray[Any, Any]]:
         if self._known is None:
             self._known = [
                 self._cast(self._of_known(view)) if view.known else None
