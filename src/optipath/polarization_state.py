@@ -30,6 +30,7 @@ def length(*components: Any) -> Any:
     return reduce(_hypotenuse, components)
 
 
+@np.errstate(over="ignore")
 def _hypotenuse(a: Any, b: Any) -> Any:
     xp = namespace(a)
     there = (a != 0.0) | (b != 0.0)

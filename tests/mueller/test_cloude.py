@@ -52,6 +52,13 @@ def test_what_cannot_exist_is_told(matrix):
     assert not op.Mueller(matrix).is_physical()
 
 
+def test_no_size_hides_what_cannot_exist():
+    for scale in (1.7e308, 1.0, 1e-310):
+        unlike = op.Mueller(scale * (np.diag([1.0, 1.0, 1.0, -1.0]) + np.eye(4, k=1)))
+        assert not unlike.is_physical(), scale
+        assert op.Mueller(scale * np.eye(4)).is_physical(), scale
+
+
 def test_elements_are_physical_and_so_is_darkness():
     for element in (op.Polarizer(0.3), op.Retarder(1.0, 0.2), op.Interface(0.6 + 2.1j, 0.8)):
         assert element.mueller().is_physical()

@@ -47,6 +47,20 @@ def eigenvalues(matrix: Array) -> Array:
     return unscaled(matrix, found[..., np.newaxis], power)[..., 0]
 
 
+def is_physical(matrix: Array, tolerance: float) -> Array:
+    """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not.
+
+    Examples
+    --------
+    >>> print(is_physical(np.eye(4), 0.0))
+    True
+    """
+    # Near 1, where the largest neither runs over nor fades.
+    parts, _ = scaled(matrix)
+    values = eigenvalues(unscaled(matrix, parts, 0))
+    return np.asarray(values[..., 3] >= -tolerance * values[..., 0])
+
+
 def nearest_physical(matrix: Array) -> Array:
     """Return the matrices without what has negative eigenvalues.
 

@@ -56,7 +56,8 @@ class LuChipman:
     @property
     def diattenuation(self) -> npt.NDArray[Any]:
         """The diattenuation of the diattenuator, in [0, 1], of shape (...)."""
-        return self.diattenuator.diattenuation
+        # Of a matrix next to the smallest floats, roundings are not small.
+        return np.asarray(np.minimum(self.diattenuator.diattenuation, 1.0))
 
     @property
     def diattenuation_vector(self) -> npt.NDArray[Any]:

@@ -211,8 +211,7 @@ class Mueller:
         >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
         False
         """
-        values = self.cloude_eigenvalues
-        return np.asarray(values[..., 3] >= -tolerance * values[..., 0])
+        return cloude.is_physical(self.matrix, tolerance)
 
     def nearest_physical(self) -> Mueller:
         """Return the physical matrix with the least sum of squared differences.

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 _ROUNDING = 2.0**-46
 # No physical matrix has an entry above its M00; where one has, ratios must not run over.
 _DARK = 2.0**-200
+_NOTHING = 2.0**-960
 _UNIT = np.eye(3)
 _LAST = np.array([False, False, True])
 
@@ -41,8 +42,7 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     unit = np.where(lit, parts / np.where(lit, m00, 1.0), np.eye(4))
     polarizance, m = unit[..., 1:, 0], unit[..., 1:, 1:]
 
-    size = norm(unit[..., 0, 1:])[..., np.newaxis]
-    d = unit[..., 0, 1:] / np.where(size == 0.0, 1.0, size)
+    size, d = _size_and_direction(unit[..., 0, 1:])
     ideal = size > 1.0 - _ROUNDING
     D = np.where(ideal, 1.0, size)
     diattenuator = _bordered(D * d, D * d, _diattenuation(D, d))
@@ -55,18 +55,17 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     depolarizing, turn = _depolarizer_and_turn(across + _outer(along, d), _ROUNDING / gap)
 
     # Behind an ideal polariser the light has one state, whatever follows: the least will do.
-    degree = norm(polarizance)[..., np.newaxis, np.newaxis]
-    one_state, blind = ideal[..., np.newaxis], degree == 0.0
-    seen = np.where(blind[..., 0], d, polarizance / np.where(blind, 1.0, degree)[..., 0])
-    turn = np.where(one_state, least_turn(d, seen), turn)
-    depolarizing = np.where(one_state, degree * _UNIT, depolarizing)
+    degree, seen = _size_and_direction(polarizance)
+    least = least_turn(d, np.where(degree == 0.0, d, seen))
+    turn = np.where(ideal[..., np.newaxis], least, turn)
+    depolarizing = np.where(ideal[..., np.newaxis], degree[..., np.newaxis] * _UNIT, depolarizing)
 
     none = np.zeros_like(d)
     depolarizer = _bordered(none, np.where(ideal, 0.0, p), depolarizing)
     retarder = _bordered(none, none, turn)
     return (
-        unscaled(matrix, depolarizer, np.zeros_like(power)),
-        unscaled(matrix, retarder, np.zeros_like(power)),
+        unscaled(matrix, depolarizer, 0),
+        unscaled(matrix, retarder, 0),
         unscaled(matrix, m00 * diattenuator, power),
     )
 
@@ -84,9 +83,7 @@ def least_turn(a: Array, b: Array) -> Array:
     least = _UNIT[np.argmin(np.abs(a), axis=-1)]
     axis = np.where(sine > _ROUNDING, normal, np.cross(a, least))
     # Of vectors all but opposite the product is rounding, not all of it across a.
-    axis = axis - a * np.sum(a * axis, axis=-1, keepdims=True)
-    size = norm(axis)[..., np.newaxis]
-    axis = axis / np.where(size == 0.0, 1.0, size)
+    _, axis = _size_and_direction(axis - a * np.sum(a * axis, axis=-1, keepdims=True))
     cosine = np.sum(a * b, axis=-1, keepdims=True)[..., np.newaxis]
     crossed = np.cross(axis[..., np.newaxis, :], _UNIT)
     # Row i of `crossed` is axis x e_i, and so minus row i of the matrix of (axis x).
@@ -107,6 +104,13 @@ def _depolarizer_and_turn(m: Array, rounding: Array) -> tuple[Array, Array]:
     turn = np.where(one, least_turn(v[..., 0, :], u[..., :, 0]), turn)
     depolarizing = (u * (signs * sizes)[..., np.newaxis, :]) @ np.swapaxes(u, -1, -2)
     return depolarizing, np.where(none, _UNIT, turn)
+
+
+def _size_and_direction(vector: Array) -> tuple[Array, Array]:
+    """Return lengths, shape (..., 1), and unit vectors; 0 and 0 for what has too few digits."""
+    size = norm(vector)[..., np.newaxis]
+    none = size < _NOTHING
+    return np.where(none, 0.0, size), np.where(none, 0.0, vector / np.where(none, 1.0, size))
 
 
 def _diattenuation(D: Array, d: Array) -> Array:

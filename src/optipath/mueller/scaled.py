@@ -30,7 +30,7 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
     return parts.reshape(matrix.shape), power
 
 
-def unscaled(matrix: Any, parts: Array, power: Array) -> Array:
+def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
     """Return what was found for scaled matrices, shape (..., 4, n), in their own scale; or NaN."""
     *batch, rows, columns = parts.shape
     found = times_two_to(parts.reshape(*batch, rows * columns), power)
