@@ -20,6 +20,7 @@ ROOMS = [
     "kernels",
     "frames",
     "incidence",
+    "polarization_state",
     "light",
     "mueller",
     "materials",

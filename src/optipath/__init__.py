@@ -61,7 +61,7 @@ from optipath.fresnel import fresnel_reflection, fresnel_transmission, refractio
 from optipath.incidence import PlaneOfIncidence, plane_of_incidence
 from optipath.light import Light
 from optipath.materials import Material
-from optipath.mueller import Mueller
+from optipath.mueller import LuChipman, Mueller
 from optipath.parameters import Parameter
 from optipath.path_graph import PathGraph
 from optipath.plan import Plan
@@ -97,6 +97,7 @@ __all__ = [
     "Length",
     "Light",
     "LoopWarning",
+    "LuChipman",
     "Material",
     "Medium",
     "Mirror",

@@ -12,6 +12,15 @@ from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.jax_values import is_jax, namespace
 from optipath.kernels import turn_linear
+from optipath.polarization_state import (
+    amplitude_angle,
+    ellipticity,
+    ellipticity_angle,
+    handedness,
+    linear_degree,
+    major_axis,
+    phase_difference,
+)
 from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
@@ -135,6 +144,80 @@ class Light:
         xp, square = namespace(self.mantissa), (self.normalized[..., 1:] ** 2).sum(axis=-1)
         there = square > 0.0
         return xp.where(there, xp.sqrt(xp.where(there, square, 1.0)), 0.0)  # type: ignore[no-any-return]
+
+    @property
+    def dolp(self) -> npt.NDArray[Any]:
+        """The degree of linear polarisation, hypot(S1, S2) / S0, of shape (...)."""
+        return linear_degree(self.normalized)
+
+    @property
+    def docp(self) -> npt.NDArray[Any]:
+        """The signed degree of circular polarisation, S3 / S0, of shape (...)."""
+        return namespace(self.mantissa).asarray(self.normalized[..., 3])  # type: ignore[no-any-return]
+
+    @property
+    def aop(self) -> npt.NDArray[Any]:
+        """The angle of polarisation, of shape (...): of the major axis, from x towards y.
+
+        In radians, in (-pi/2, pi/2]; 0 where S1 and S2 are both 0, as in circular light.
+
+        Examples
+        --------
+        >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
+        0.7854
+        """
+        return major_axis(self.normalized)
+
+    @property
+    def ellipticity(self) -> npt.NDArray[Any]:
+        """The minor axis over the major axis, in [-1, 1], with the sign of S3; shape (...).
+
+        Of the polarised part; 0 where the light is linear or unpolarised.
+
+        Examples
+        --------
+        >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
+        -0.5
+        """
+        return ellipticity(self.normalized)
+
+    @property
+    def ellipticity_angle(self) -> npt.NDArray[Any]:
+        """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
+        return ellipticity_angle(self.normalized)
+
+    @property
+    def handedness(self) -> npt.NDArray[Any]:
+        """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
+
+        The sign of S3, be it but a rounding; 0 where S3 is 0 or not read.
+        """
+        return handedness(self.normalized)
+
+    @property
+    def psi(self) -> npt.NDArray[Any]:
+        """The ellipsometric psi of the polarised part, of shape (...), in [0, pi/2].
+
+        tan psi = abs(Ey) / abs(Ex). Behind a sample that light of +45 degrees has met, with
+        x along s and y along p, psi and `delta` are those of the sample.
+
+        Examples
+        --------
+        >>> mirror = [[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, -0.8, 0], [0, 0, 0, -0.8]]
+        >>> stokes = np.array(mirror) @ [1.0, 0.0, 1.0, 0.0]
+        >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
+        0.5 3.1416
+        """
+        return amplitude_angle(self.normalized)
+
+    @property
+    def delta(self) -> npt.NDArray[Any]:
+        """The ellipsometric Delta of the polarised part, of shape (...), in (-pi, pi].
+
+        The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
+        field exp(-i w t) of this library has the opposite sign.
+        """
+        return phase_difference(self.normalized)
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.

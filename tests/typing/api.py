@@ -32,6 +32,10 @@ light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])
 lights: dict[str, op.Light] = path.trace_all(theta=0.1, angle=0.2)
 matrix: op.Mueller = path.mueller(theta=0.1, angle=0.2) @ op.Polarizer(0.1).mueller()
 attenuated: op.Light = matrix @ light
+parts_of_matrix: op.LuChipman = matrix.lu_chipman()
+again: op.Mueller = parts_of_matrix.depolarizer @ parts_of_matrix.retarder
+physical: bool = bool(matrix.nearest_physical().is_physical(tolerance=1e-9).all())
+angles: list[Any] = [light.psi, light.aop, matrix.delta, parts_of_matrix.retardance]
 plan: op.Plan = op.Composer(method="textbook").compose(path)
 quick: op.Light = (
     op.Composer(engine="numpy", threads=2).compose(path).run(theta=op.CosSin(1.0, 0.0), angle=0.2)

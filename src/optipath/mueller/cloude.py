@@ -1,0 +1,82 @@
+"""Cloude's coherency matrix of a Mueller matrix, which tells whether it can exist.
+
+S. R. Cloude, Optik 75, 26 (1986); Proc. SPIE 1166, 177 (1989).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.mueller.scaled import scaled, unscaled
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Array = npt.NDArray[Any]
+
+PAULI = np.array(
+    [[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]], np.complex128
+)
+"""The matrices s_i for which S_i = <E| s_i |E>, in the order and with the signs of `Light`."""
+
+# M_ij = 1/2 tr(s_i T s_j T*) with T = sum_k c_k s_k, and c_k conj(c_l) gathered into C_kl.
+_TO_MUELLER = 0.5 * np.einsum("iab,kbc,jcd,lda->klij", *[PAULI] * 4).reshape(16, 16)
+_FROM_MUELLER = 0.25 * _TO_MUELLER.conj().T
+
+
+def coherency(matrix: Array) -> Array:
+    """Return the coherency matrices, shape (..., 4, 4), complex; NaN all over where an entry is.
+
+    Examples
+    --------
+    >>> coherency(np.diag([1.0, 1.0, -1.0, -1.0])).real.diagonal()
+    array([0., 1., 0., 0.])
+    """
+    parts, power = scaled(matrix)
+    found = _coherency(parts)
+    real, imaginary = (unscaled(matrix, part, power) for part in (found.real, found.imag))
+    return real + 1j * imaginary
+
+
+def eigenvalues(matrix: Array) -> Array:
+    """Return the eigenvalues of the coherency matrices, shape (..., 4), the largest first."""
+    parts, power = scaled(matrix)
+    found = np.linalg.eigvalsh(_coherency(parts))[..., ::-1]
+    return unscaled(matrix, found[..., np.newaxis], power)[..., 0]
+
+
+def is_physical(matrix: Array, tolerance: float) -> Array:
+    """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not.
+
+    Examples
+    --------
+    >>> print(is_physical(np.eye(4), 0.0))
+    True
+    """
+    # Near 1, where the largest neither runs over nor fades.
+    parts, _ = scaled(matrix)
+    values = eigenvalues(unscaled(matrix, parts, 0))
+    return np.asarray(values[..., 3] >= -tolerance * values[..., 0])
+
+
+def nearest_physical(matrix: Array) -> Array:
+    """Return the matrices without what has negative eigenvalues.
+
+    Examples
+    --------
+    >>> nearest_physical(np.diag([1.0, 1.0, 1.0, -1.0])).diagonal().round(12)
+    array([ 1.5,  0.5,  0.5, -0.5])
+    """
+    parts, power = scaled(matrix)
+    values, vectors = np.linalg.eigh(_coherency(parts))
+    kept = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
+    positive = kept @ np.swapaxes(vectors.conj(), -1, -2)
+    found = (positive.reshape(*parts.shape[:-2], 16) @ _TO_MUELLER).real
+    return unscaled(matrix, found.reshape(parts.shape), power)
+
+
+def _coherency(parts: Array) -> Array:
+    flat = parts.reshape(*parts.shape[:-2], 16) @ _FROM_MUELLER
+    return np.asarray(flat.reshape(parts.shape))

@@ -1,0 +1,42 @@
+"""Mueller matrices brought near 1 for linear algebra, which knows no NaN and no faintness."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.faint import near_one, times_two_to
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Array = npt.NDArray[Any]
+
+
+def scaled(matrix: Any) -> tuple[Array, Array]:
+    """Return matrices over a power of two, in double precision, and its exponent.
+
+    A matrix of which an entry is not known becomes 0, for `unscaled` to give back.
+
+    Examples
+    --------
+    >>> [part.tolist() for part in scaled(np.diag([6.0, 3.0, 3.0, 3.0]))][1]
+    3
+    """
+    with np.errstate(over="ignore"):
+        flat = np.asarray(matrix, np.float64).reshape(*matrix.shape[:-2], 16)
+    parts, power = near_one(np.where(_known(flat), flat, 0.0), 0)
+    return parts.reshape(matrix.shape), power
+
+
+def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
+    """Return what was found for scaled matrices, shape (..., 4, n), in their own scale; or NaN."""
+    *batch, rows, columns = parts.shape
+    found = times_two_to(parts.reshape(*batch, rows * columns), power)
+    flat = np.asarray(matrix).reshape(*matrix.shape[:-2], 16)
+    return np.where(_known(flat), found, np.nan).reshape(parts.shape)
+
+
+def _known(flat: Array) -> Array:
+    return np.asarray(np.isfinite(flat).all(axis=-1, keepdims=True))

@@ -1,0 +1,102 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from random_matrices import jones, of_jones
+
+PAULI = np.array([[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]])
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 6])
+@pytest.mark.parametrize("scale", [1e-290, 1.0, 1e290])
+def test_a_mixture_has_an_eigenvalue_for_each_jones_matrix(count, scale):
+    rng = np.random.default_rng(count)
+    weights = rng.uniform(0.1, 1.0, (20, count, 1, 1))
+    mixed = op.Mueller(scale * (weights * of_jones(jones(rng, 20, count))).sum(axis=1))
+    values = mixed.cloude_eigenvalues / mixed.matrix[..., :1, 0]
+    rank = min(count, 4)
+    assert (values[:, :rank] > 1e-4).all()
+    np.testing.assert_allclose(values[:, rank:], 0.0, atol=1e-15)
+    np.testing.assert_allclose(values.sum(axis=-1), 1.0, rtol=1e-14)
+    assert (np.diff(values) <= 0.0).all()
+    assert mixed.is_physical().all()
+
+
+def test_the_coherency_is_the_mean_of_the_products_of_pauli_components():
+    rng = np.random.default_rng(3)
+    T = jones(rng, 5)
+    c = 0.5 * np.einsum("kab,nba->nk", PAULI, T)
+    mean = np.einsum("nk,nl->kl", c, c.conj())
+    found = op.Mueller(of_jones(T).sum(axis=0)).coherency
+    np.testing.assert_allclose(found, mean, rtol=1e-13, atol=1e-14)
+    np.testing.assert_array_equal(found, found.conj().T)
+
+
+def test_an_ideal_depolariser_is_all_jones_matrices_alike():
+    np.testing.assert_allclose(op.Mueller(np.diag([1.0, 0, 0, 0])).cloude_eigenvalues, 0.25)
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [
+        np.diag([1.0, 1.0, 1.0, -1.0]),
+        np.diag([1.0, 1.2, 1.0, 1.0]),
+        np.diag([0.0, 1.0, 1.0, 1.0]),
+        -np.eye(4),
+        np.full((4, 4), np.nan),
+    ],
+)
+def test_what_cannot_exist_is_told(matrix):
+    assert not op.Mueller(matrix).is_physical()
+
+
+def test_no_size_hides_what_cannot_exist():
+    for scale in (1.7e308, 1.0, 1e-310):
+        unlike = op.Mueller(scale * (np.diag([1.0, 1.0, 1.0, -1.0]) + np.eye(4, k=1)))
+        assert not unlike.is_physical(), scale
+        assert op.Mueller(scale * np.eye(4)).is_physical(), scale
+
+
+def test_elements_are_physical_and_so_is_darkness():
+    for element in (op.Polarizer(0.3), op.Retarder(1.0, 0.2), op.Interface(0.6 + 2.1j, 0.8)):
+        assert element.mueller().is_physical()
+    assert op.Mueller(np.zeros((4, 4))).is_physical(tolerance=0.0)
+
+
+def test_the_tolerance_is_against_the_largest_eigenvalue():
+    slightly = op.Mueller(1e-100 * np.diag([1.0, 1.0, 1.0, 1.0 - 4e-6]))
+    slightly_not = op.Mueller(1e-100 * np.diag([1.0, 1.0, 1.0, 1.0 + 4e-6]))
+    assert slightly.is_physical(tolerance=1e-5)
+    assert slightly_not.is_physical(tolerance=1.1e-6)
+    assert not slightly_not.is_physical(tolerance=0.9e-6)
+
+
+@given(seed=st.integers(0, 10**6), power=st.integers(-280, 280))
+def test_no_physical_matrix_is_nearer_than_the_nearest(seed, power):
+    rng = np.random.default_rng(seed)
+    noisy = op.Mueller(10.0**power * rng.normal(size=(4, 4)))
+    nearest = noisy.nearest_physical()
+    assert nearest.is_physical(tolerance=1e-13)
+    distance = np.linalg.norm((nearest.matrix - noisy.matrix) / 10.0**power)
+    other = of_jones(jones(rng, 4)).sum(axis=0)
+    between = nearest.matrix / 10.0**power + 1e-3 * (other - nearest.matrix / 10.0**power)
+    assert np.linalg.norm(between - noisy.matrix / 10.0**power) >= distance - 1e-12
+
+
+def test_what_is_physical_is_its_own_nearest_and_keeps_its_frames():
+    metal = op.Interface(0.6 + 2.1j, 0.8).mueller()
+    nearest = metal.nearest_physical()
+    np.testing.assert_allclose(nearest.matrix, metal.matrix, atol=1e-15)
+    assert (nearest.frame_in, nearest.frame_out) == (metal.frame_in, metal.frame_out)
+
+
+def test_what_is_not_known_stays_so_beside_what_is():
+    matrices = np.stack([np.eye(4), np.eye(4), np.eye(4)])
+    matrices[1, 3], matrices[2, 0, 0] = np.nan, np.inf
+    mixed = op.Mueller(matrices)
+    np.testing.assert_array_equal(mixed.is_physical(), [True, False, False])
+    for found in (mixed.coherency, mixed.nearest_physical().matrix):
+        np.testing.assert_array_equal(np.isnan(found).all(axis=(1, 2)), [False, True, True])
+    np.testing.assert_array_equal(np.isnan(mixed.cloude_eigenvalues[:, 0]), [False, True, True])

@@ -1,0 +1,128 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+from random_matrices import jones, of_jones
+
+SCALARS = ["diattenuation", "polarizance", "depolarization_index", "psi", "delta"]
+VECTORS = ["diattenuation_vector", "polarizance_vector"]
+METALS = [0.6 + 2.1j, 1.5, 0.05 + 3.3j, 0.7]
+
+
+def amplitudes(m, incidence):
+    c, s = np.cos(incidence), np.sin(incidence)
+    g = np.sqrt(m**2 - s**2 + 0j)
+    return (c - g) / (c + g), (m**2 * c - g) / (m**2 * c + g)
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4, -1.0])
+def test_an_ideal_polariser_diattenuates_and_polarises_along_its_axis(angle):
+    matrix = op.Polarizer(angle).mueller()
+    axis = [np.cos(2 * angle), np.sin(2 * angle), 0.0]
+    assert matrix.diattenuation == pytest.approx(1.0, abs=1e-15)
+    assert matrix.polarizance == pytest.approx(1.0, abs=1e-15)
+    np.testing.assert_allclose(matrix.diattenuation_vector, axis, atol=1e-15)
+    np.testing.assert_allclose(matrix.polarizance_vector, axis, atol=1e-15)
+
+
+@given(retardance=st.floats(-3.0, 3.0), angle=st.floats(-3.0, 3.0))
+def test_a_retarder_does_neither(retardance, angle):
+    matrix = op.Retarder(retardance, angle).mueller()
+    assert matrix.diattenuation == matrix.polarizance == 0.0
+    assert matrix.depolarization_index == pytest.approx(1.0, abs=1e-14)
+
+
+def test_diattenuation_is_of_what_comes_in_and_polarizance_of_what_goes_out():
+    matrix = op.Rotator(np.pi / 4).mueller() @ op.Polarizer().mueller()
+    np.testing.assert_allclose(matrix.diattenuation_vector, [1.0, 0.0, 0.0], atol=1e-15)
+    np.testing.assert_allclose(matrix.polarizance_vector, [0.0, 1.0, 0.0], atol=1e-15)
+
+
+@given(before=st.floats(-4.0, 4.0), after=st.floats(-4.0, 4.0))
+def test_frames_leave_sizes_as_they_are(before, after):
+    matrix = of_jones(jones(np.random.default_rng(1), 3)).sum(axis=0)
+    plain = op.Mueller(matrix)
+    turned = op.Rotator(after).mueller() @ plain @ op.Rotator(before).mueller()
+    for name in ("diattenuation", "polarizance", "depolarization_index", "cloude_eigenvalues"):
+        np.testing.assert_allclose(getattr(turned, name), getattr(plain, name), atol=1e-13)
+    assert turned.lu_chipman().depolarization == pytest.approx(plain.lu_chipman().depolarization)
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e-160, 1.0, 1e300])
+def test_what_jones_describes_has_the_index_1_at_any_scale(scale):
+    matrices = op.Mueller(of_jones(jones(np.random.default_rng(2), 50)) * scale)
+    np.testing.assert_allclose(matrices.depolarization_index, 1.0, rtol=1e-14)
+    np.testing.assert_allclose(matrices.diattenuation, matrices.polarizance, rtol=1e-14)
+
+
+@pytest.mark.parametrize("m", METALS)
+@pytest.mark.parametrize("incidence", [0.0, 0.5, 1.2, 1.5])
+@pytest.mark.parametrize("scale", [1e-300, 1.0])
+def test_psi_and_delta_are_those_of_the_ratio_of_amplitudes(m, incidence, scale):
+    rs, rp = amplitudes(m, incidence)
+    rho = np.conj(rp / rs)
+    sample = op.Mueller(op.Interface(m, incidence).mueller().matrix * scale)
+    assert np.tan(sample.psi) == pytest.approx(abs(rho), rel=1e-12)
+    np.testing.assert_allclose(np.exp(1j * sample.delta), rho / abs(rho), atol=1e-12)
+
+
+def test_delta_falls_from_half_a_turn_to_none_at_a_bare_metal():
+    incidence = np.linspace(0.0, np.pi / 2 - 1e-9, 200)
+    delta = op.Interface(0.6 + 2.1j, incidence).mueller().delta
+    assert delta[0] == np.pi
+    assert (np.diff(delta) < 0.0).all()
+    assert 0.0 <= delta[-1] < 1e-6
+
+
+def test_delta_jumps_at_brewsters_angle_of_glass():
+    brewster = np.arctan(1.5)
+    sample = op.Interface(1.5, brewster + np.array([-0.1, 0.1])).mueller()
+    np.testing.assert_array_equal(sample.delta, [np.pi, 0.0])
+    assert op.Interface(1.5, brewster).mueller().psi == pytest.approx(0.0, abs=1e-15)
+
+
+def test_a_sample_and_the_diagonal_light_it_met_agree():
+    sample = op.Interface(0.6 + 2.1j, np.linspace(0.0, 1.5, 7)).mueller()
+    light = sample @ op.Light([1.0, 0.0, 1.0, 0.0])
+    np.testing.assert_allclose(light.psi, sample.psi, rtol=1e-14)
+    np.testing.assert_allclose(light.delta, sample.delta, rtol=1e-14)
+
+
+@pytest.mark.parametrize("name", SCALARS)
+def test_no_matrix_has_none_of_it(name):
+    assert getattr(op.Mueller(np.zeros((4, 4))), name) == 0.0
+    assert getattr(op.Mueller(np.ones((4, 4)) - np.diag([1.0, 0, 0, 0])), name) == 0.0
+
+
+@pytest.mark.parametrize("name", SCALARS + VECTORS)
+def test_each_figure_has_the_shape_of_the_batch(name):
+    tail = (3,) if name in VECTORS else ()
+    for batch in ((), (5,), (2, 1, 0)):
+        assert getattr(op.Mueller(np.ones((*batch, 4, 4))), name).shape == (*batch, *tail)
+
+
+def test_what_is_not_read_is_not_known_and_all_else_is():
+    matrix = np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
+    whole = op.Mueller(matrix.copy())
+    matrix[3] = np.nan
+    read = op.Mueller(matrix)
+    for name in ("diattenuation", "psi", "delta"):
+        assert getattr(read, name) == getattr(whole, name)
+    assert np.isnan(read.polarizance)
+    assert np.isnan(read.depolarization_index)
+    np.testing.assert_array_equal(np.isnan(read.polarizance_vector), [False, False, True])
+
+
+@pytest.mark.parametrize("name", SCALARS)
+@pytest.mark.parametrize("matrix", [np.diag([1.0, 0, 0, 0]), np.eye(4), np.ones((4, 4))])
+def test_jax_gives_what_numpy_gives_and_finite_slopes(name, matrix):
+    jax = pytest.importorskip("jax")
+
+    def figure(m):
+        return getattr(op.Mueller(m), name)
+
+    given = jax.numpy.array(matrix)
+    np.testing.assert_allclose(jax.jit(figure)(given), figure(matrix), rtol=1e-6)
+    assert np.isfinite(jax.grad(figure)(given)).all()

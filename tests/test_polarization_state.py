@@ -1,0 +1,135 @@
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import optipath as op
+
+PHASES = st.floats(-3.1, 3.1)
+SIZES = st.floats(1e-3, 1e3)
+FIGURES = [
+    "dolp",
+    "docp",
+    "aop",
+    "ellipticity",
+    "ellipticity_angle",
+    "handedness",
+    "psi",
+    "delta",
+]
+
+# Stokes vector; aop, ellipticity, handedness, psi, delta.
+HANDBOOK = {
+    "horizontal": ([1, 1, 0, 0], 0.0, 0.0, 0, 0.0, 0.0),
+    "vertical": ([1, -1, 0, 0], np.pi / 2, 0.0, 0, np.pi / 2, 0.0),
+    "diagonal": ([1, 0, 1, 0], np.pi / 4, 0.0, 0, np.pi / 4, 0.0),
+    "antidiagonal": ([1, 0, -1, 0], -np.pi / 4, 0.0, 0, np.pi / 4, np.pi),
+    "right-handed": ([1, 0, 0, 1], 0.0, 1.0, 1, np.pi / 4, -np.pi / 2),
+    "left-handed": ([1, 0, 0, -1], 0.0, -1.0, -1, np.pi / 4, np.pi / 2),
+    "unpolarised": ([1, 0, 0, 0], 0.0, 0.0, 0, 0.0, 0.0),
+    "dark": ([0, 0, 0, 0], 0.0, 0.0, 0, 0.0, 0.0),
+}
+
+
+def stokes_of_jones(ex, ey):
+    across = np.conj(ex) * ey
+    powers = abs(ex) ** 2, abs(ey) ** 2
+    parts = sum(powers), powers[0] - powers[1], 2 * across.real, 2 * across.imag
+    return np.stack(np.broadcast_arrays(*parts), axis=-1)
+
+
+@pytest.mark.parametrize("name", HANDBOOK)
+@pytest.mark.parametrize("exponent", [0, -5000])
+@pytest.mark.parametrize("zero", [0.0, -0.0])
+def test_states_of_the_handbook_come_out(name, exponent, zero):
+    stokes, *expected = HANDBOOK[name]
+    light = op.Light([float(s) if s else zero for s in stokes], exponent=exponent)
+    found = light.aop, light.ellipticity, light.handedness, light.psi, light.delta
+    np.testing.assert_allclose(found, expected, rtol=1e-15, atol=0)
+    assert light.ellipticity_angle == pytest.approx(np.arctan(expected[1]), abs=1e-16)
+    assert light.handedness.dtype.kind == "i"
+
+
+@given(psi=st.floats(0.01, 1.56), delta=PHASES)
+def test_psi_and_delta_are_those_of_the_field(psi, delta):
+    # exp(-i w t) here, exp(+i w t) in ellipsometry: the conjugate.
+    light = op.Light(stokes_of_jones(np.cos(psi), np.sin(psi) * np.exp(-1j * delta)))
+    assert light.psi == pytest.approx(psi, abs=1e-14)
+    assert light.delta == pytest.approx(delta, abs=1e-13)
+
+
+@given(a=SIZES, ratio=st.floats(-1.0, 1.0), turn=st.floats(-1.5, 1.5))
+def test_the_ellipse_is_that_which_the_field_draws(a, ratio, turn):
+    # An ellipse along x' that turns from x' to y' where the ratio is positive.
+    along, across = a, 1j * ratio * a
+    c, s = np.cos(turn), np.sin(turn)
+    light = op.Light(stokes_of_jones(c * along - s * across, s * along + c * across))
+    assert light.ellipticity == pytest.approx(ratio, abs=1e-7)
+    if abs(ratio) < 0.99:
+        assert light.aop == pytest.approx(turn, abs=1e-12)
+        assert light.ellipticity == pytest.approx(ratio, abs=1e-13)
+
+
+def test_a_hair_of_ellipticity_keeps_its_digits():
+    light = op.Light([1.0, 1.0, 0.0, 2e-200])
+    assert light.ellipticity == pytest.approx(1e-200, rel=1e-15)
+    assert light.ellipticity_angle == pytest.approx(1e-200, rel=1e-15)
+    assert light.psi == pytest.approx(1e-200, rel=1e-15)
+    assert light.handedness == 1
+
+
+@given(turn=st.floats(-4.0, 4.0))
+def test_turning_the_frame_turns_the_axis_and_nothing_else(turn):
+    light = op.Light([1.0, 0.4, 0.3, -0.5])
+    turned = light.in_frame(op.Frame().turned(turn))
+    for name in ("dop", "dolp", "docp", "ellipticity", "handedness"):
+        np.testing.assert_allclose(getattr(turned, name), getattr(light, name), rtol=1e-14)
+    # Half a turn is none, for an axis.
+    assert np.sin(turned.aop - light.aop + turn) == pytest.approx(0.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("incidence", [0.0, 0.6, 1.3])
+def test_diagonal_light_brings_the_psi_and_delta_of_a_metal(incidence):
+    m, c = 0.6 + 2.1j, np.cos(incidence)
+    g = np.sqrt(m**2 - np.sin(incidence) ** 2)
+    rs, rp = (c - g) / (c + g), (m**2 * c - g) / (m**2 * c + g)
+    rho = np.conj(rp / rs)
+    seen = op.Interface(m, incidence).mueller() @ op.Light([1.0, 0.0, 1.0, 0.0])
+    assert np.tan(seen.psi) == pytest.approx(abs(rho), rel=1e-13)
+    assert np.cos(seen.delta) == pytest.approx(rho.real / abs(rho), abs=1e-13)
+    assert np.sin(seen.delta) == pytest.approx(rho.imag / abs(rho), abs=1e-13)
+
+
+def test_what_is_not_read_is_not_known():
+    light = op.Light([[1.0, 0.6, 0.3, np.nan], [1.0, np.nan, np.nan, np.nan]])
+    np.testing.assert_array_equal(np.isnan(light.aop), [False, True])
+    np.testing.assert_array_equal(np.isnan(light.dolp), [False, True])
+    for name in ("docp", "ellipticity", "ellipticity_angle", "psi", "delta", "dop"):
+        assert np.isnan(getattr(light, name)).all(), name
+    np.testing.assert_array_equal(light.handedness, 0)
+
+
+@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("batch", [(), (3,), (2, 1, 0)])
+def test_each_figure_has_the_shape_of_the_batch(name, batch):
+    assert getattr(op.Light(np.ones((*batch, 4))), name).shape == batch
+
+
+@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize("state", HANDBOOK)
+def test_jax_gives_what_numpy_gives_and_finite_slopes(name, state):
+    jax = pytest.importorskip("jax")
+    stokes = np.array(HANDBOOK[state][0], np.float32)
+
+    def figure(s):
+        return getattr(op.Light(s), name)
+
+    np.testing.assert_allclose(jax.jit(figure)(stokes), figure(stokes), rtol=1e-6)
+    if name != "handedness":
+        assert np.isfinite(jax.grad(figure)(jax.numpy.array(stokes))).all()
+
+
+def test_the_axis_of_linear_light_has_its_slope():
+    jax = pytest.importorskip("jax")
+    slope = jax.grad(lambda s: op.Light(s).aop)(jax.numpy.array([1.0, 1.0, 0.0, 0.0]))
+    np.testing.assert_allclose(slope, [0.0, 0.0, 0.5, 0.0], atol=1e-7)
