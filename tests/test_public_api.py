@@ -40,6 +40,7 @@ ROOMS = [
     "certificate",
     "execution",
     "whole_path",
+    "light_paths",
     "approximation",
     "explanation",
     "explaining",

@@ -60,6 +60,7 @@ from optipath.frames import Frame
 from optipath.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
 from optipath.incidence import PlaneOfIncidence, plane_of_incidence
 from optipath.light import Light
+from optipath.light_paths import LightPath
 from optipath.materials import Material
 from optipath.mueller import LuChipman, Mueller
 from optipath.parameters import Parameter
@@ -96,6 +97,7 @@ __all__ = [
     "LayerStack",
     "Length",
     "Light",
+    "LightPath",
     "LoopWarning",
     "LuChipman",
     "Material",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import networkx as nx
 
@@ -13,7 +13,7 @@ from optipath.cases import Case
 from optipath.composer import LOOPS, Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Detector, Element
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import ParameterError, PathError, did_you_mean
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
 from optipath.port_names import check_port, element_at, find_port
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.light import Light
+    from optipath.light_paths import LightPath
     from optipath.mueller import Mueller
     from optipath.parameters import Parameter
     from optipath.plan import Plan
@@ -103,6 +104,7 @@ class PathGraph:
             raise PathError(f"loops {loops!r} is unknown{did_you_mean(str(loops), LOOPS)}")
         self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
         self._plan: Plan | None = None
+        self._plan_of_all: Plan | None = None
 
     @property
     def graph(self) -> nx.MultiDiGraph:
@@ -173,7 +175,7 @@ class PathGraph:
         for port in frames:
             check_port(element, name, port, (*element.inputs, *element.outputs))
         self._graph.add_node(name, element=element, frames=frames)
-        self._plan = None
+        self._plan = self._plan_of_all = None
         return Node(self, name)
 
     def connect(self, leaves: str, enters: str, azimuth: Any = None) -> None:
@@ -208,7 +210,7 @@ class PathGraph:
         self._graph.add_edge(
             start, end, key=(out_port, in_port), azimuth=in_unit_of(frozen(azimuth), ANGLE)
         )
-        self._plan = None
+        self._plan = self._plan_of_all = None
 
     def element(self, name: str) -> Element:
         """Return the element of a node.
@@ -240,9 +242,43 @@ class PathGraph:
             self._plan = Composer().compose(self._graph)
         return self._plan
 
-    def trace(self, /, **parameters: Any) -> Light:
-        """Return the light at the only detector; see `Plan.run`."""
-        return self.compose().run(**parameters)
+    @overload
+    def trace(self, /, keep: Literal["ends"] = ..., **parameters: Any) -> Light: ...
+    @overload
+    def trace(self, /, keep: Literal["all"], **parameters: Any) -> dict[str, Light]: ...
+    def trace(self, /, keep: str = "ends", **parameters: Any) -> Light | dict[str, Light]:
+        """Return the light at the only detector; see `Plan.run`.
+
+        Parameters
+        ----------
+        keep : {"ends", "all"}, optional
+            With ``"all"``, the light at every end, on every link, such as
+            ``"lamp.out -> eye.in"``, and at every outlet, such as ``"glass.transmitted"``, by
+            name, each in the frame in which it leaves its element.
+        **parameters : float or array_like
+            The values of open parameters.
+
+        Raises
+        ------
+        ParameterError
+            With every unknown, missing or unsuitable parameter.
+        """
+        if "keep" in self.parameters:
+            raise ParameterError(
+                "a parameter of this path is called 'keep', as the option of trace is; use "
+                "plan.run, or rename it"
+            )
+        if keep == "ends":
+            return self.compose().run(**parameters)
+        if self._plan_of_all is None:
+            self._plan_of_all = Composer(keep=keep).compose(self._graph)
+        return self._plan_of_all.run_all(**parameters)
+
+    def paths(
+        self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
+    ) -> list[LightPath]:
+        """Return the ways of light one by one, the brightest first; see `Plan.paths`."""
+        return self.compose().paths(limit, bounces, **parameters)
 
     def trace_all(self, /, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and dump by name; see `Plan.run_all`."""

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from optipath.explanation import Explanation
     from optipath.frames import Frame
     from optipath.inputs import Inputs
+    from optipath.light_paths import LightPath
     from optipath.program import Program
     from optipath.reduction import Reduction, Tolerance
     from optipath.running.found import Found
@@ -141,6 +142,9 @@ class Plan:
     def run_all(self, /, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.
 
+        Of a plan that keeps all, also that on every link, such as ``"lamp.out -> eye.in"``,
+        and that which leaves the path by an outlet, such as ``"glass.transmitted"``.
+
         Raises
         ------
         ParameterError
@@ -243,6 +247,38 @@ class Plan:
         end = self._only("detector", ends, "certificate(detector)", detector)
         whole = self.whole_path
         return whole.certificates(whole.given(parameters), parameters)[end]
+
+    def paths(
+        self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
+    ) -> list[LightPath]:
+        """Return the ways of light from sources to detectors and dumps, the brightest first.
+
+        The light of all of them together is what `run_all` gives; where light goes round, there
+        is no end of them, and with more bounces their sum comes as near as one likes.
+
+        Parameters
+        ----------
+        limit : int, optional
+            How many at most.
+        bounces : int, optional
+            How often light may be reflected at most on its way.
+        **parameters : float or array_like
+            As in `run`; of a batch, the brightest member counts.
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if light goes round and nothing says when to stop.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> for path in op.load_preset("two-panes").compose().paths():
+        ...     print(path)
+        """
+        from optipath.light_paths import light_paths  # noqa: PLC0415 - not for every import
+
+        return light_paths(self.whole_path, limit, bounces, parameters)
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.

@@ -7,7 +7,7 @@ makes them, evaluations and leaves by their place in their lists.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -129,6 +129,8 @@ class Program:
     loops : tuple of Loop
         Where light goes round. A knot may add up lights of later steps of its loop; all other
         steps have inputs before them.
+    links : mapping of str to Reading
+        Light on its way that is kept, and light that leaves the path, by link or out-port.
     """
 
     leaves: tuple[View, ...]
@@ -139,6 +141,7 @@ class Program:
     dumps: Mapping[str, Reading]
     counts: tuple[int, ...] = ()
     loops: tuple[Loop, ...] = ()
+    links: Mapping[str, Reading] = field(default_factory=dict)
 
     def count(self, light: int) -> int:
         """Return by how many components a light is carried."""
@@ -196,5 +199,5 @@ class Program:
 
     @cached_property
     def readings(self) -> Mapping[str, Reading]:
-        """Where light ends, detectors and dumps together."""
-        return {**self.detectors, **self.dumps}
+        """All light that is read: by detectors, by dumps, and on links."""
+        return {**self.detectors, **self.dumps, **self.links}

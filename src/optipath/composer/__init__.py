@@ -3,10 +3,11 @@
 from optipath.composer.composer import CHOICES, Composer
 from optipath.composer.validate import partial_faults, validate
 from optipath.composer.values import parameters_of, value_faults
-from optipath.composer.wiring import LOOPS, Wiring
+from optipath.composer.wiring import KEPT, LOOPS, Wiring
 
 __all__ = [
     "CHOICES",
+    "KEPT",
     "LOOPS",
     "Composer",
     "Wiring",

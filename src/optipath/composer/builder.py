@@ -32,10 +32,12 @@ class Builder:
         sources: Mapping[str, tuple[int, Frame]],
         detectors: Mapping[str, Reading],
         dumps: Mapping[str, Reading],
+        links: Mapping[str, Reading],
     ) -> Program:
         """Return what has been collected."""
         collected = tuple(self.leaves), tuple(self.evaluations), tuple(self.steps)
-        return Program(*collected, sources, detectors, dumps, loops=tuple(self.loops))
+        ends = sources, detectors, dumps
+        return Program(*collected, *ends, loops=tuple(self.loops), links=links)
 
     def instead_of(self, old: Program, moved: Callable[[int], int]) -> Program:
         """Return what has been collected, with the ends of another program.
@@ -52,9 +54,9 @@ class Builder:
             return {name: replace(r, light=moved(r.light)) for name, r in readings.items()}
 
         # In this order, since some lights are made when they are asked for.
-        detectors, dumps = ends(old.detectors), ends(old.dumps)
+        read = ends(old.detectors), ends(old.dumps), ends(old.links)
         sources = {name: (moved(at), frame) for name, (at, frame) in old.sources.items()}
-        return self.program(sources, detectors, dumps)
+        return self.program(sources, *read)
 
     def step(
         self,

@@ -13,7 +13,7 @@ from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
 from optipath.composer.reduce import as_it_stands, by_name, for_jones, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
-from optipath.composer.wiring import LOOPS, Wiring
+from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
 from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
@@ -31,6 +31,7 @@ CHOICES = {
     "engine": ENGINES,
     "composing": ("stokes", "jones"),
     "loops": LOOPS,
+    "keep": KEPT,
 }
 
 
@@ -72,6 +73,10 @@ class Composer:
         What becomes of light that goes round in a cycle: an error that names the cycle, or the
         sum of intensities over all rounds, found by solving for it. By default what the path
         says, which refuses unless it was built with ``loops="sum"``.
+    keep : {"ends", "all"}, optional
+        Which light a plan gives: that at detectors and dumps, or also that on every link,
+        named like ``"lamp.out -> eye.in"``, and that which leaves the path by an outlet, named
+        like ``"glass.transmitted"``, each in the frame in which it leaves its element.
     threads : int, optional
         How many threads share a batch of more than 65,536 paths; one by default, since
         threads that wait for a busy machine cost more than they bring.
@@ -98,6 +103,7 @@ class Composer:
     tolerance: float | None = None
     threads: int = 1
     loops: str | None = None
+    keep: str = "ends"
 
     def __post_init__(self) -> None:
         faults = []
@@ -159,7 +165,7 @@ class Composer:
             return self._plan(graph)
 
     def _plan(self, graph: nx.MultiDiGraph) -> Plan:
-        values, wiring = Values(graph), Wiring(graph, self.loops)
+        values, wiring = Values(graph), Wiring(graph, self.loops, self.keep)
         refuse_faults(values, wiring)
         whole = lower(wiring, self.method)
         if self.composing == "jones":

@@ -95,7 +95,22 @@ class _Lowering:
             kept = detectors if isinstance(element, Detector) else dumps
             light, frame = self.lights[name, port], self._reading_frame(name, port)
             kept[name] = Reading(light, frame, _COMPONENTS[reads])
-        return self.builder.program(self.sources, detectors, dumps)
+        return self.builder.program(self.sources, detectors, dumps, self._links())
+
+    def _links(self) -> dict[str, Reading]:
+        """Return the light of every link and outlet, if all is to be kept."""
+        if self.wiring.keep != "all":
+            return {}
+        links = self.wiring.graph.edges(keys=True)
+        ports = {link_text(link): (link[0], link[2][0]) for link in links}
+        for outlet in self.wiring.outlets:
+            name, _, leaves = outlet.partition(".")
+            ports[outlet] = name, leaves
+        return {
+            text: Reading(self.lights[port], frame_at(self.wiring, *port) or Frame())
+            for text, port in ports.items()
+            if port in self.lights
+        }
 
     def add(self, stretch: Stretch) -> None:
         """Add the steps that make the light at the ports of a stretch."""

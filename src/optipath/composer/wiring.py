@@ -22,6 +22,10 @@ LOOPS = ("refuse", "sum")
 """What becomes of light that goes round: an error, or the sum over all rounds."""
 
 
+KEPT = ("ends", "all")
+"""Which light is kept: that at the ends of a path, or on every link as well."""
+
+
 class Stretch(NamedTuple):
     """Ports that light passes one after the other: one port, or all those of a loop.
 
@@ -55,10 +59,15 @@ class Wiring:
         Elements and links.
     loops : {"refuse", "sum"}, optional
         Whether light may go round; by default what the graph says, and else not.
+    keep : {"ends", "all"}, optional
+        Which light is wanted: that which reaches an end, or all.
     """
 
-    def __init__(self, graph: nx.MultiDiGraph, loops: str | None = None) -> None:
+    def __init__(
+        self, graph: nx.MultiDiGraph, loops: str | None = None, keep: str = KEPT[0]
+    ) -> None:
         self.graph = graph
+        self.keep = keep
         self.loops = graph.graph.get("loops", LOOPS[0]) if loops is None else loops
 
     @cached_property
@@ -134,8 +143,8 @@ class Wiring:
 
     @cached_property
     def wanted(self) -> nx.DiGraph:
-        """The ports that light passes on its way from a start to an end."""
-        kept = self.lit & self.useful
+        """The ports that light passes on its way from a start to an end, or all of them."""
+        kept = self.lit if self.keep == "all" else self.lit & self.useful
         found = nx.DiGraph()
         found.add_nodes_from(kept)
         found.add_edges_from(edge for edge in self.ports.edges if kept.issuperset(edge))

@@ -66,7 +66,9 @@ class LayerStack(Element, kind="layer-stack"):
         return (
             Coupling("in", "reflected", (Operation(STACK_REFLECTION, front),), reflects=True),
             Coupling("in", "transmitted", (Operation(STACK_TRANSMISSION, front),)),
-            Coupling("back", "transmitted", (Operation(STACK_REFLECTION_BACK, back),), reflects=True),
+            Coupling(
+                "back", "transmitted", (Operation(STACK_REFLECTION_BACK, back),), reflects=True
+            ),
             Coupling("back", "reflected", (Operation(STACK_TRANSMISSION_BACK, back),)),
         )
 

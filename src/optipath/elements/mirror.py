@@ -53,7 +53,9 @@ class Mirror(Element, kind="mirror"):
             *numbers_of(self.r_s, domains["r_s"]),
             *numbers_of(self.r_p, domains["r_p"]),
         )
-        return (Coupling("in", "reflected", (Operation(GIVEN_AMPLITUDES, numbers),), reflects=True),)
+        return (
+            Coupling("in", "reflected", (Operation(GIVEN_AMPLITUDES, numbers),), reflects=True),
+        )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that x = s at both ports."""

@@ -172,10 +172,12 @@ class Stepwise:
         return found
 
     def number(self, number: Any) -> np.ndarray[Any, Any]:
+        """Return what a kernel gives in the precision of the plan."""
         # Plain numbers among what kernels give have no precision of their own.
         return np.asarray(number, self.dtype)
 
     def leaves(self, given: Given) -> list[np.ndarray[Any, Any]]:
+        """Return the numbers behind the leaves of the program."""
         if self._known is None:
             self._known = [
                 self._cast(self._of_known(view)) if view.known else None
