@@ -27,6 +27,15 @@ if TYPE_CHECKING:
 
 _ROWS = 20
 
+_TOLD = {
+    "dop": ("DoP", ""),
+    "dolp": ("DoLP", ""),
+    "aop": ("AoP", "deg"),
+    "ellipticity": ("ellipticity", ""),
+    "psi": ("psi", "deg"),
+    "delta": ("delta", "deg"),
+}
+
 
 @dataclass(frozen=True)
 class Result:
@@ -127,12 +136,17 @@ def _as_json(result: Result) -> dict[str, Any]:
 
 def _reading(result: Result, name: str) -> dict[str, Any]:
     published, light = result.published(name), result.lights[name]
-    found = {"stokes": plain(light.stokes)}
+    found = {"stokes": plain(light.stokes), "polarization": _polarization(light)}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
         found["log10_intensity"] = plain(light.log10_intensity)
         found["normalized"] = plain(light.normalized)
     return found | ({"published": list(published)} if published else {})
+
+
+def _polarization(light: Light) -> dict[str, Any]:
+    """Return what is told of light besides its Stokes vector, angles in degrees."""
+    return {name: plain(getattr(light, name), unit) for name, (_, unit) in _TOLD.items()}
 
 
 def _print(result: Result) -> None:
@@ -166,6 +180,10 @@ def _light_table(result: Result, name: str) -> Table:
         row = [f"S{position}", _shown(component)]
         table.add_row(*map(Text, [*row, *([f"{published[position]:g}"] if published else [])]))
     light = result.lights[name]
+    for key, (word, unit) in _TOLD.items():
+        number = plain(getattr(light, key), unit)
+        if number is not None:
+            table.add_row(word, f"{_shown(number)} {unit}".strip())
     if light.exponent:
         table.add_row("log10 S0", f"{light.log10_intensity:.12g}")
         table.add_row("over S0", ", ".join(_shown(part) for part in light.normalized.tolist()))
