@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-import networkx as nx
 import numpy as np
 
 from optipath.composer import Wiring
@@ -51,9 +50,7 @@ def draw(path: PathGraph) -> str:
 
 
 def _in_order_of_travel(wiring: Wiring) -> list[str]:
-    passed = []
-    if nx.is_directed_acyclic_graph(wiring.wanted):
-        passed = [name for name, _ in nx.lexicographical_topological_sort(wiring.wanted)]
+    passed = [name for stretch in wiring.stretches for name, _ in stretch.ports]
     return list(dict.fromkeys([*passed, *wiring.elements]))
 
 

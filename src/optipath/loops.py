@@ -7,7 +7,6 @@ intensities along x and y, S2 and S3 of all knots then gives the light at each.
 
 from __future__ import annotations
 
-from collections import Counter
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels import (
@@ -80,7 +79,6 @@ class Meeting:
         self.loop = loop
         self.numbers = numbers
         self.way = Plain(xp)
-        self._ends = Counter(reading.light for reading in program.readings.values())
         self.unknowns = [(knot, part) for knot in loop.knots for part in range(self.count(knot))]
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
@@ -127,7 +125,7 @@ class Meeting:
         while waiting:
             light, state = waiting.pop()
             there = energy(xp, state)
-            passed = [there] * self._ends[light]
+            passed = [there] * self.program.times_read[light]
             leaves = sum(passed, start=column.leaves)
             for user in self.program.used_by[light]:
                 after = self._behind(user, state)

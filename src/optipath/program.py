@@ -170,8 +170,13 @@ class Program:
     def light_uses(self) -> tuple[int, ...]:
         """How often each light is read, by a later step or by a detector."""
         uses = Counter(light for step in self.steps for light in step.inputs)
-        uses.update(reading.light for reading in self.readings.values())
+        uses.update(self.times_read)
         return tuple(uses[light] for light in range(len(self.steps)))
+
+    @cached_property
+    def times_read(self) -> Mapping[int, int]:
+        """How often each light is read at an end, or kept."""
+        return Counter(reading.light for reading in self.readings.values())
 
     @cached_property
     def evaluation_uses(self) -> tuple[int, ...]:

@@ -131,6 +131,15 @@ class View:
             return (_FLOAT_COS if self.part == "cos" else _FLOAT_SIN)(signed)
         return signed
 
+    @property
+    def known_float(self) -> float | None:
+        """The number that it is, if it comes of a plain float; None for all else."""
+        if type(self.value) is not float or isinstance(self.part, int):
+            return None
+        if self.part in ("value", "real"):
+            return self.value
+        return float(self.numbers({})) if self.part in ("cos", "sin", "imag") else None
+
     def present(self, given: Mapping[str, Resolved] | None = None) -> np.ndarray[Any, Any]:
         """Return where an optional parameter is there."""
         return self._resolved(given or {}).present
@@ -154,6 +163,8 @@ class View:
 
     def key(self) -> Hashable:
         """Return what equal views share; None for large arrays, which are not compared."""
+        if type(self.value) is float and self.value:
+            return self.value, self.part
         if isinstance(self.value, Parameter):
             return self.value.name, self.value.negative, self.part
         if isinstance(self.value, (int, float, complex)):

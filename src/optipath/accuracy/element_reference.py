@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from functools import singledispatch
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.accuracy.boundary_reference import Jones, boundary, refracted, stack
 from optipath.accuracy.many_digits import MANY_DIGITS, cos_sin, exact_angle, exactly, mpmath
-from optipath.accuracy.reference import amplitudes
 from optipath.elements import (
     Attenuator,
     BeamSplitter,
     Combiner,
+    Coupling,
     Diattenuator,
     Element,
     Interface,
+    LayerStack,
     Medium,
     Mirror,
     Polarizer,
@@ -29,10 +31,7 @@ from optipath.views import View, view_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.elements import Coupling
     from optipath.parameters import Resolved
-
-Jones: TypeAlias = tuple[tuple[Any, Any], tuple[Any, Any]]
 
 
 class Reader:
@@ -122,54 +121,56 @@ def turn(angle: Any) -> Jones:
 
 
 @singledispatch
-def jones(element: Element, leaves: str, read: Reader) -> Jones | None:
-    """Return the Jones matrix of the way to an out-port; None where only Mueller's will do."""
-    del element, leaves, read
+def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
+    """Return the Jones matrix of a way through; None where only Mueller's will do."""
+    del element, way, read
     return None
 
 
 @jones.register
-def _(element: Interface, leaves: str, read: Reader) -> Jones:
-    del leaves
-    m = read.index(element.index) / read.index(element.outside).real
-    rs, rp, _ = amplitudes(m, *cos_sin(read.angle(element.incidence)))
-    return _diagonal(rs, rp)
+def _(element: Interface, way: Coupling, read: Reader) -> Jones:
+    outside = read.index(element.outside).real
+    c, s = cos_sin(read.angle(element.incidence))
+    if element.incidence_in is not None:
+        c, s = refracted(read.index(element.incidence_in).real / outside, s)
+    found = boundary(read.index(element.index) / outside, c, s)
+    return found.reflected if way.reflects else found.transmitted
 
 
 @jones.register
-def _(element: Polarizer, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Polarizer, way: Coupling, read: Reader) -> Jones:
+    del way
     return _filter(read, element.transmittance, element.leakage, element.angle)
 
 
 @jones.register
-def _(element: Diattenuator, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Diattenuator, way: Coupling, read: Reader) -> Jones:
+    del way
     return _filter(read, element.maximum, element.minimum, element.angle)
 
 
 @jones.register
-def _(element: Retarder, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Retarder, way: Coupling, read: Reader) -> Jones:
+    del way
     return _retarding(read, read.angle(element.retardance), element.angle)
 
 
 @jones.register
-def _(element: Rotator, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Rotator, way: Coupling, read: Reader) -> Jones:
+    del way
     return turn(-read.angle(element.angle, 2))
 
 
 @jones.register
-def _(element: Attenuator, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Attenuator, way: Coupling, read: Reader) -> Jones:
+    del way
     root = mpmath.sqrt(read.real(element.transmittance))
     return _diagonal(root, root)
 
 
 @jones.register
-def _(element: Medium, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Medium, way: Coupling, read: Reader) -> Jones:
+    del way
     depth = read.real(element.absorption) * read.real(element.length)
     left = mpmath.exp(-depth / 2)
     rotation = read.angle_along(element.rotation, element.length, 2)
@@ -180,26 +181,30 @@ def _(element: Medium, leaves: str, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: Mirror, leaves: str, read: Reader) -> Jones:
-    del leaves
+def _(element: Mirror, way: Coupling, read: Reader) -> Jones:
+    del way
     return _diagonal(read.complex(element.r_s), read.complex(element.r_p))
 
 
 @jones.register
-def _(element: BeamSplitter, leaves: str, read: Reader) -> Jones:
+def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
     reflectance = read.real(element.reflectance)
-    root = mpmath.sqrt(reflectance if leaves == "reflected" else 1 - reflectance)
-    return _diagonal(root, -root if leaves == "reflected" else root)
+    root = mpmath.sqrt(reflectance if way.reflects else 1 - reflectance)
+    return _diagonal(root, -root if way.reflects else root)
 
 
 @jones.register
-def _(element: Combiner, leaves: str, read: Reader) -> Jones:
-    del element, leaves, read
+def _(element: Combiner, way: Coupling, read: Reader) -> Jones:
+    del element, way, read
     return _diagonal(1, 1)
 
 
-def mueller(coupling: Coupling, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of a way through an element of one's own."""
+def mueller(element: Element, coupling: Coupling, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of a way through a stack, or an element of one's own."""
+    if isinstance(element, LayerStack):
+        angle = cos_sin(read.angle(element.incidence))
+        indices = [read.index(index) for index in element.indices]
+        return stack(indices, *angle, back=coupling.enters == "back", way=coupling.reflects)
     matrix = mpmath.eye(4)
     for operation in coupling.operations:
         kernel = operation.kernel.by_method(next(iter(REFLECTION.methods)))

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import networkx as nx
 import numpy as np
 
-from optipath.accuracy.element_reference import Jones, Reader, jones, mueller, times, turn
+from optipath.accuracy.element_reference import Reader, jones, mueller, times, turn
 from optipath.accuracy.many_digits import DIGITS, WORKING_DIGITS, exactly, mpmath
 from optipath.composer import Wiring
 from optipath.composer.placement import azimuth_of, frame_at
@@ -18,6 +17,11 @@ from optipath.path_graph import PathGraph
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    import networkx as nx
+
+    from optipath.accuracy.boundary_reference import Jones
+    from optipath.composer.travel import Port, Stretch
+    from optipath.composer.wiring import Link
     from optipath.elements import Coupling, Element
     from optipath.frames import Frame
     from optipath.parameters import Resolved
@@ -110,58 +114,99 @@ class _Walk:
     def __init__(self, wiring: Wiring, read: Reader) -> None:
         self.wiring = wiring
         self.read = read
-        self.at: dict[tuple[str, str], Jones] = {}
+        self.at: dict[Port, Jones] = {}
+        self._known: dict[Any, Any] = {}
 
     def stokes(self) -> dict[str, tuple[Any, ...]]:
         """Return the Stokes vector at every end that light reaches."""
-        for name, way in nx.lexicographical_topological_sort(self.wiring.wanted):
-            element = self.wiring.elements[name]
-            if way in element.inputs:
-                self.at[name, way] = _sum(self._arriving(name, way))
+        for stretch in self.wiring.stretches:
+            if stretch.knots:
+                self._go_round(stretch)
             else:
-                self.at[name, way] = _sum(self._passing(name, way, element))
+                (port,) = stretch.ports
+                self.at[port] = _sum(self._lights(port))
         return {name: _stokes(self.at[name, port]) for name, port in self.wiring.ends}
 
-    def _arriving(self, name: str, way: str) -> list[Jones]:
-        found = []
-        for link in self.wiring.links_to[name, way]:
-            start, _, (leaves, _) = link
-            if (start, leaves) not in self.at:
-                continue
-            before, behind = (
-                frame_at(self.wiring, *port) for port in ((start, leaves), (name, way))
-            )
-            if before is not None and behind is not None:
-                angle = self.read.move(_angle_between(before, behind), 2)
-            else:
-                angle = self.read.angle(azimuth_of(self.wiring, link), 2)
-            found.append(_passed(turn(angle), self.at[start, leaves]))
-        return found
+    def _go_round(self, loop: Stretch) -> None:
+        """Solve for the light where it meets, in all four components."""
+        arriving = [_sum(self._lights(knot)) for knot in loop.knots]
+        given = mpmath.matrix([part for light in arriving for part in _all_of(light)])
+        size = 4 * len(loop.knots)
+        system = mpmath.eye(size)
+        for column in range(size):
+            unit = [mpmath.mpf(row == column) for row in range(size)]
+            back = self._once_round(loop, unit)
+            for row in range(size):
+                system[row, column] -= back[row]
+        found = mpmath.lu_solve(system, given) if any(given) else given
+        self._once_round(loop, list(found))
 
-    def _passing(self, name: str, way: str, element: Element) -> list[Jones]:
+    def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
+        """Return what the light at the knots brings back to them."""
+        for place, knot in enumerate(loop.knots):
+            self.at[knot] = _coherency(parts[4 * place : 4 * place + 4])
+        members = set(loop.ports)
+        for port in loop.ports[len(loop.knots) :]:
+            self.at[port] = _sum(self._lights(port, members))
+        back = (_sum(self._lights(knot, members)) for knot in loop.knots)
+        return [part for light in back for part in _all_of(light)]
+
+    def _lights(self, port: Port, within: set[Port] | None = None) -> list[Jones]:
+        """Return what arrives at a port, from ports within some alone."""
+        name, way = port
+        if way in self.wiring.elements[name].inputs:
+            links = self.wiring.links_to[port]
+            return [
+                _passed(self._turn(link), self.at[link[0], link[2][0]])
+                for link in links
+                if self._is_there((link[0], link[2][0]), within)
+            ]
         found = []
         for coupling in self.wiring.couplings[name]:
             if coupling.leaves != way:
                 continue
             if coupling.enters is None:
-                found.append(self._emitted(coupling))
-            elif (name, coupling.enters) in self.at:
-                light = self.at[name, coupling.enters]
-                found.append(
-                    light if self._absent(element) else self._through(coupling, element, light)
-                )
+                found += [self._emitted(coupling)] if within is None else []
+            elif self._is_there((name, coupling.enters), within):
+                found.append(self._through(name, coupling))
         return found
+
+    def _is_there(self, port: Port, within: set[Port] | None) -> bool:
+        return port in self.at and (within is None or port in within)
+
+    def _turn(self, link: Link) -> Jones:
+        if link not in self._known:
+            start, end, (leaves, enters) = link
+            before, behind = (
+                frame_at(self.wiring, start, leaves),
+                frame_at(self.wiring, end, enters),
+            )
+            if before is not None and behind is not None:
+                angle = self.read.move(_angle_between(before, behind), 2)
+            else:
+                angle = self.read.angle(azimuth_of(self.wiring, link), 2)
+            self._known[link] = turn(angle)
+        return self._known[link]  # type: ignore[no-any-return]
 
     def _emitted(self, coupling: Coupling) -> Jones:
         intensity, *state = map(self.read.real, coupling.operations[0].arguments)
         return _coherency([intensity * part for part in state or (1, 0, 0, 0)])
 
-    def _through(self, coupling: Coupling, element: Element, light: Jones) -> Jones:
-        matrix = jones(element, coupling.leaves, self.read)
+    def _through(self, name: str, coupling: Coupling) -> Jones:
+        """Return the light behind a way through an element."""
+        assert coupling.enters is not None  # noqa: S101 - sources are asked for what they emit
+        element, light = self.wiring.elements[name], self.at[name, coupling.enters]
+        if self._absent(element):
+            return light
+        key = name, coupling.enters, coupling.leaves
+        if key not in self._known:
+            matrix: Any = jones(element, coupling, self.read)
+            rows = mueller(element, coupling, self.read) if matrix is None else None
+            self._known[key] = matrix, rows
+        matrix, rows = self._known[key]
         if matrix is not None:
             return _passed(matrix, light)
-        stokes = _stokes(light)
-        rows = mueller(coupling, self.read)
+        stokes = _all_of(light)
         return _coherency([sum(m * s for m, s in zip(row, stokes, strict=True)) for row in rows])
 
     def _absent(self, element: Element) -> bool:
@@ -196,10 +241,14 @@ def _coherency(stokes: Any) -> Jones:
     return ((s0 + s1) / 2, mpmath.mpc(s2, -s3) / 2), (mpmath.mpc(s2, s3) / 2, (s0 - s1) / 2)
 
 
-def _stokes(light: Jones) -> tuple[Any, ...]:
+def _all_of(light: Jones) -> tuple[Any, ...]:
     (xx, _), (yx, yy) = light
     xx, yy, yx = (mpmath.mpmathify(part) for part in (xx, yy, yx))
-    values = (xx.real + yy.real, xx.real - yy.real, 2 * yx.real, 2 * yx.imag)
+    return xx.real + yy.real, xx.real - yy.real, 2 * yx.real, 2 * yx.imag
+
+
+def _stokes(light: Jones) -> tuple[Any, ...]:
+    values = _all_of(light)
     # What cancels exactly leaves the rounding of the last digit.
-    least = (xx.real + yy.real) * mpmath.mpf(10) ** -(mpmath.mp.dps - 10)
+    least = values[0] * mpmath.mpf(10) ** -(mpmath.mp.dps - 10)
     return tuple(value if abs(value) > least else mpmath.mpf(0) for value in values)

@@ -51,6 +51,16 @@ def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.Mul
 
 
 def interfaces(path: PathGraph) -> list[str]:
-    """Return the names of the interfaces of a path."""
-    elements = path.graph.nodes(data="element")
-    return [name for name, element in elements if isinstance(element, Interface)]
+    """Return the names of the interfaces of a path whose values nothing ties to those of others.
+
+    Those of stacks are left alone: light from behind needs a medium that does not absorb, and
+    one angle fixes all others.
+    """
+    lit_behind = {end for _, end, (_, enters) in path.graph.edges(keys=True) if enters == "back"}
+    return [
+        name
+        for name, element in path.graph.nodes(data="element")
+        if isinstance(element, Interface)
+        and name not in lit_behind
+        and element.incidence_in is None
+    ]

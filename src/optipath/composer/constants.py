@@ -97,11 +97,8 @@ class Constant(NamedTuple):
 def multiplied(first: Constant, second: Constant) -> Constant | None:
     """Return two constants in the order of travel as one matrix; None if it is too faint."""
     one, other = first.as_full().numbers, second.as_full().numbers
-    product = tuple(
-        sum(other[4 * row + i] * one[4 * i + column] for i in range(4))
-        for row in range(4)
-        for column in range(4)
-    )
+    rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
+    product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)
     found = _kept(Constant(FULL, product))
     return found if found and found.lets_through else None
 

@@ -29,6 +29,9 @@ _UNKNOWN: Entries = ((None,) * 4,) * 4
 
 def number_of(view: View) -> float | None:
     """Return the one real number that a view is known to be; None for all else."""
+    quickly = view.known_float
+    if quickly is not None:
+        return quickly
     if not view.known or view.traced or view.part == "present":
         return None
     numbers = view.numbers({})

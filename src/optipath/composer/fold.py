@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from optipath.composer.builder import Builder
@@ -39,11 +40,7 @@ class Item:
         numbers = tuple(map(number_of, self.views))
         if self.presence is not None or None in numbers or self.kernel.structure is None:
             return None
-        try:
-            found = self.kernel.made_for(FLOAT)(*numbers)
-            return Constant(self.kernel.structure, tuple(map(float, found)))
-        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            return None
+        return _constant(self.kernel, numbers)
 
 
 def fold(program: Program, *, constants: bool, matrices: bool) -> tuple[Program, list[str]]:
@@ -196,6 +193,16 @@ class _Folding:
         names = " and ".join(f"{item.kernel.name} at '{item.label}'" for item in items)
         self.notes.append(f"constant, and multiplied: {names}")
         return Item(label, constant.kernel, tuple(map(View, constant.numbers)), None)
+
+
+@lru_cache(1024)
+def _constant(kernel: Kernel, numbers: tuple[float, ...]) -> Constant | None:
+    assert kernel.structure is not None  # noqa: S101 - only sources have none
+    try:
+        found = kernel.made_for(FLOAT)(*numbers)
+        return Constant(kernel.structure, tuple(map(float, found)))
+    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+        return None
 
 
 def _label(items: Sequence[Item]) -> str:

@@ -17,7 +17,8 @@ from optipath.program import Reading
 from optipath.views import View, view_of
 
 if TYPE_CHECKING:
-    from optipath.composer.wiring import Link, Port, Stretch, Wiring
+    from optipath.composer.travel import Port, Stretch
+    from optipath.composer.wiring import Link, Wiring
     from optipath.elements import Coupling, Operation
     from optipath.program import Program
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import networkx as nx
 
 from optipath.composer.placement import placement_faults
+from optipath.composer.travel import among, rounds
 from optipath.composer.values import Values
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements import Detector, Source
@@ -14,6 +15,8 @@ from optipath.errors import PathError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+
+    from optipath.composer.travel import Ways
 
 
 def validate(graph: nx.MultiDiGraph) -> None:
@@ -125,16 +128,15 @@ def _reach_faults(wiring: Wiring, unsure: set[str]) -> Iterator[str]:
             yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
 
 
-def _loop_faults(ports: nx.DiGraph) -> Iterator[str]:
-    for component in nx.strongly_connected_components(ports):
-        if len(component) > 1:
-            start = min(component)
-            inside = ports.subgraph(component)
-            back = min(inside.predecessors(start))
-            route = [name for name, _ in nx.shortest_path(inside, start, back)]
-            names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
-            closed = names if len(names) > 1 and names[0] == names[-1] else [*names, names[0]]
-            yield (
-                f"light goes round in a cycle: {' -> '.join(closed)}; open it by removing a link, "
-                f"or sum over all rounds with loops='sum'"
-            )
+def _loop_faults(ports: Ways) -> Iterator[str]:
+    for together in rounds(ports):
+        start = min(together)
+        inside = nx.DiGraph(among(ports, together))
+        back = min(inside.predecessors(start))
+        route = [name for name, _ in nx.shortest_path(inside, start, back)]
+        names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
+        closed = names if len(names) > 1 and names[0] == names[-1] else [*names, names[0]]
+        yield (
+            f"light goes round in a cycle: {' -> '.join(closed)}; open it by removing a link, "
+            f"or sum over all rounds with loops='sum'"
+        )

@@ -46,6 +46,10 @@ class Kernel:
     denser: tuple[int, int, Kernel] | None = None
     powers: Kernel | None = None
 
+    def __hash__(self) -> int:
+        # Asked for once a step; what else belongs to a name is compared where names are equal.
+        return hash(self.name)
+
     def made_for(self, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
         """Return the function in terms of these primitives, made once and kept."""
         function: Callable[..., tuple[Any, ...]] = made(self.factory, primitives)
