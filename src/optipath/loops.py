@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from optipath.program import Loop, Program
 
 
-_LITTLE = 1e-4
+LITTLE = 1e-4
 """What leaves a loop each time round where its sum takes a look, as a share."""
 
 
@@ -68,8 +68,8 @@ class Meeting:
         What becomes of a unit of each.
     pivots : list
         As those of `Elimination`.
-    arriving : list
-        The parts of all light that has arrived from outside.
+    found : list
+        What the unknowns have last been found to be.
     """
 
     def __init__(
@@ -89,7 +89,7 @@ class Meeting:
             [part < 2 for _, part in self.unknowns],
         )
         self.pivots = self._system.pivots
-        self.arriving: list[Any] = []
+        self.found: list[Any] = []
 
     def count(self, knot: int) -> int:
         """Return by how many components the light at a knot is carried."""
@@ -97,9 +97,9 @@ class Meeting:
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
         """Return the parts of the light at each knot, for those of what arrives at some."""
-        self.arriving += [part for parts in arriving.values() for part in parts]
         given = self.scattered(arriving)
         found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
+        self.found = found
         lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())
         for (knot, _), number in zip(self.unknowns, found, strict=True):
             lights[knot] = (*lights[knot], number)
@@ -108,7 +108,7 @@ class Meeting:
     @property
     def conditions(self) -> list[Any]:
         """Whether so much of each unknown leaves that nobody needs to look at it."""
-        return [pivot > _LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+        return [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
 
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
         """Return the parts of the lights at some knots by their place among the unknowns."""

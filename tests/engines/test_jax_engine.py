@@ -168,3 +168,16 @@ def test_a_stream_is_refused():
     plan = op.Composer(engine="jax").compose(op.load_preset("malus"))
     with pytest.raises(op.ParameterError, match="keeps a batch whole"):
         next(plan.stream(10, angle=np.zeros(20)))
+
+
+def test_gradients_go_through_a_loop():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(1.0)) >> path.add("front", op.Interface(op.Parameter("n"), 0.0))
+    path.add("back", op.Interface(1.0, 0.0, outside=op.Parameter("n"), incidence_in=1.0))
+    path.add("eye", op.Detector())
+    path.connect("front.transmitted", "back.in")
+    path.connect("back.reflected", "front.back")
+    path.connect("back.transmitted", "eye.in")
+    # A slab lets 2 n / (n^2 + 1) through, so dT/dn = 2 (1 - n^2) / (n^2 + 1)^2.
+    slope = jax.grad(lambda n: path.trace(n=n).intensity)(1.5)
+    assert float(slope) == pytest.approx(2 * (1 - 1.5**2) / (1.5**2 + 1) ** 2, rel=1e-12)

@@ -138,8 +138,7 @@ class _Walk:
             back = self._once_round(loop, unit)
             for row in range(size):
                 system[row, column] -= back[row]
-        found = mpmath.lu_solve(system, given) if any(given) else given
-        self._once_round(loop, list(found))
+        self._once_round(loop, _solved(system, list(given)))
 
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
         """Return what the light at the knots brings back to them."""
@@ -213,6 +212,20 @@ class _Walk:
         optional = [p for p in element.parameters() if p.optional]
         resolved = (p.resolve(p.default) if p.bound else self.read.given[p.name] for p in optional)
         return not all(self.read.pick(value.present) for value in resolved)
+
+
+def _solved(system: Any, given: list[Any]) -> list[Any]:
+    """Return the unknowns of a system; those that nothing reaches are 0."""
+    lit = [place for place, number in enumerate(given) if number]
+    for column in lit:
+        lit += [row for row in range(len(given)) if row not in lit and system[row, column]]
+    found = [mpmath.mpf(0)] * len(given)
+    if lit:
+        part = mpmath.matrix([[system[row, column] for column in lit] for row in lit])
+        numbers = mpmath.lu_solve(part, mpmath.matrix([given[row] for row in lit]))
+        for place, number in zip(lit, numbers, strict=True):
+            found[place] = number
+    return found
 
 
 def _angle_between(frame: Frame, other: Frame) -> Any:

@@ -58,7 +58,8 @@ def lights_formula(
         program, carried = program.for_powers, Powers(xp, tiny * _SPARE)
     meetings: list[Meeting] = []
     symbols = leaves.of(program)
-    found = walk(program, symbols, carried, number=known or itself, meetings=meetings)
+    with np.errstate(all="ignore"):
+        found = walk(program, symbols, carried, number=known or itself, meetings=meetings)
     outputs: list[Any] = []
     exponents: list[Any] = []
     holds = [condition for meeting in meetings for condition in meeting.conditions]
@@ -125,7 +126,8 @@ def matrix_formula(
         emitted = {step: (none,) * 4 for step, _ in program.sources.values()}
         begin, _ = program.sources[source]
         emitted[begin] = tuple(one if row == place else none for row in range(4))
-        components, _ = walk(program, symbols, way, emitted, meetings=meetings)[reading.light]
+        with np.errstate(all="ignore"):
+            components, _ = walk(program, symbols, way, emitted, meetings=meetings)[reading.light]
         columns.append(components)
     rows = range(reading.components)
     outputs = [column[row] for row in rows for column in columns]

@@ -72,7 +72,7 @@ class Elimination:
         found = list(arriving)
         for unknown, pivot in enumerate(self.pivots):
             if not is_zero(found[unknown]):
-                found[unknown] = self._quotient(found[unknown], pivot)
+                found[unknown] = self._quotient(found[unknown], pivot, of_light=True)
                 for to, gain in self._later(unknown):
                     found[to] = found[to] + gain * found[unknown]
         for unknown in reversed(range(len(found))):
@@ -107,12 +107,13 @@ class Elimination:
         return pivot
 
 
-def _quotient(xp: Primitives) -> Callable[[Any, Any], Any]:
-    def quotient(number: Any, pivot: Any) -> Any:
+def _quotient(xp: Primitives) -> Callable[..., Any]:
+    def quotient(number: Any, pivot: Any, *, of_light: bool = False) -> Any:
         if isinstance(pivot, (float, np.floating)) and pivot != 0.0:
             return number / pivot
-        # Where nothing arrives, nothing comes of it, though what would might stay for good.
-        return number / xp.where((number == 0.0) & (pivot == 0.0), 1.0, pivot)
+        # What would keep all light that gets there is no matter as long as none does.
+        closed = pivot == 0.0
+        return number / xp.where(closed & (number == 0.0) if of_light else closed, 1.0, pivot)
 
     return quotient
 
