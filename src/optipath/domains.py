@@ -218,9 +218,8 @@ REAL = Domain("number")
 
 ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
-Incidence: TypeAlias = Annotated[
-    Quantity, Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
-]
+INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
+Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
 Fraction: TypeAlias = Annotated[Quantity, Domain("fraction", minimum=0.0, maximum=1.0)]
 NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
 Real: TypeAlias = Annotated[Quantity, REAL]

@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
+from optipath.composer.vertex_placement import vertex_frame
 from optipath.composer.wiring import link_text
 from optipath.elements import Detector
 from optipath.errors import ComposerError
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from optipath.composer.wiring import Port, Wiring
     from optipath.elements import Coupling, Operation
     from optipath.program import Program
+    from optipath.vertices import VertexFrame
 
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
@@ -66,7 +68,7 @@ class _Lowering:
         self.method = method
         self.builder = Builder()
         self.lights: dict[Port, int] = {}
-        self.sources: dict[str, tuple[int, Frame]] = {}
+        self.sources: dict[str, tuple[int, Frame | VertexFrame]] = {}
 
     def program(self) -> Program:
         """Return the steps that have been added, and where their light ends."""
@@ -114,7 +116,8 @@ class _Lowering:
         label = f"{name}.{coupling.leaves}"
         if coupling.enters is None:
             light = self._step(label, (), coupling.operations[0], None)
-            self.sources[name] = (light, frame_at(self.wiring, name, coupling.leaves) or Frame())
+            port = self.wiring, name, coupling.leaves
+            self.sources[name] = (light, frame_at(*port) or vertex_frame(*port) or Frame())
             return light
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
@@ -131,7 +134,7 @@ class _Lowering:
         kernel = operation.kernel.by_method(self.method)
         return self.builder.step(label, inputs, kernel, views, presence)
 
-    def _reading_frame(self, name: str, port: str) -> Frame:
+    def _reading_frame(self, name: str, port: str) -> Frame | VertexFrame:
         own = frame_at(self.wiring, name, port)
         if own is not None:
             return own
@@ -139,7 +142,8 @@ class _Lowering:
             frame_at(self.wiring, start, leaves)
             for start, _, (leaves, _) in self.wiring.links_to[name, port]
         ]
-        return next((frame for frame in arriving if frame is not None), Frame())
+        placed = next((frame for frame in arriving if frame is not None), None)
+        return placed or vertex_frame(self.wiring, name, port) or Frame()
 
 
 def _presence(operations: tuple[Operation, ...]) -> View | None:

@@ -6,7 +6,7 @@ to the structure of what they return.
 
 from typing import TypeAlias
 
-from optipath.kernels import emission, filters, rotation
+from optipath.kernels import emission, filters, rotation, vertices
 from optipath.kernels.amplitude import amplitude_reflection, amplitude_transmission
 from optipath.kernels.bounds import Boosts, Bounds, boosted, largest_error, ratio_bounds
 from optipath.kernels.carried import Carried, Components, add, carry, stokes_of
@@ -17,11 +17,13 @@ from optipath.kernels.compensated import (
     compensated_reflection,
     compensated_transmission,
 )
+from optipath.kernels.composed import Composed, composed
 from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
 from optipath.kernels.linear import Linear
 from optipath.kernels.plain import Plain
+from optipath.kernels.points_by_angles import PointsByAngles
 from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
 from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
@@ -105,6 +107,11 @@ TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
+TURN_BETWEEN_PLANES = Kernel(
+    "turn between planes of incidence", ROTATION, vertices.turn_between_planes
+)
+INCIDENCE, ARRIVING, REFLECTED = vertices.incidence, vertices.arriving, vertices.reflected
+"""What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)
@@ -119,6 +126,7 @@ POLARIZED = Kernel("polarized light", None, emission.polarized)
 
 __all__ = [
     "ALIGN",
+    "ARRIVING",
     "ATTENUATOR",
     "BLOCK",
     "COMPLEMENT",
@@ -126,6 +134,7 @@ __all__ = [
     "FLOAT",
     "FULL",
     "GIVEN_TURN",
+    "INCIDENCE",
     "MATRIX",
     "METHODS",
     "MIRROR",
@@ -133,6 +142,7 @@ __all__ = [
     "POLARIZED",
     "POLARIZER",
     "POWERS",
+    "REFLECTED",
     "REFLECTION",
     "RETARDER",
     "ROTATION",
@@ -140,17 +150,20 @@ __all__ = [
     "TRANSMISSION",
     "TURN",
     "TURN_BACK",
+    "TURN_BETWEEN_PLANES",
     "UNPOLARIZED",
     "Boosts",
     "Bounds",
     "Carried",
     "Components",
+    "Composed",
     "DoubleDouble",
     "Jones",
     "Kernel",
     "KernelFamily",
     "Linear",
     "Plain",
+    "PointsByAngles",
     "Powers",
     "Primitives",
     "Scaled",
@@ -159,6 +172,7 @@ __all__ = [
     "add",
     "boosted",
     "carry",
+    "composed",
     "cosine",
     "largest_error",
     "ratio_bounds",
