@@ -12,6 +12,7 @@ from optipath.composer import Wiring
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.units import USUAL_UNITS, format_quantity
+from optipath.vertices import VerticesByAngles
 
 if TYPE_CHECKING:
     from optipath.elements import Element
@@ -74,6 +75,10 @@ def _text(value: Any, unit: str) -> str:
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
         return f"{_text(value.n, '')} + {_text(value.k, '')} i"
+    if isinstance(value, VerticesByAngles):
+        each = ((name, getattr(value, name)) for name in ("incidences", "turns"))
+        texts = (f"{name} ({', '.join(_text(a, 'deg') for a in angles)})" for name, angles in each)
+        return ", ".join(texts)
     if isinstance(value, np.ndarray):
         return f"array{value.shape}"
     if isinstance(value, (int, float)):

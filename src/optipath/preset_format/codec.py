@@ -6,16 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import REAL, Choice, Domain, IndexDomain, OutsideDomain
+from optipath.domains import ANGLE, REAL, Choice, Domain, IndexDomain, OutsideDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.units import USUAL_UNITS, dimension_of, format_quantity, parse_quantity
+from optipath.vertices import VerticesByAngles, VerticesDomain
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 _INDEX = ("n", "k")
+_ANGLES = ("incidences", "turns")
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -47,6 +49,8 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return _reference(raw, parameters)
     if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
         return _material(raw, domain, parameters)
+    if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
+        return _by_angles(raw, parameters)
     return _number(raw, domain.dimension)
 
 
@@ -82,6 +86,8 @@ def encode(value: Any, dimension: str) -> Any:
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
         return {"n": encode(value.n, dimension), "k": encode(value.k, dimension)}
+    if isinstance(value, VerticesByAngles):
+        return {key: [encode(a, "angle") for a in getattr(value, key)] for key in _ANGLES}
     if isinstance(value, str):
         return value
     if isinstance(value, np.ndarray) and value.dtype.kind != "c":
@@ -94,7 +100,7 @@ def encode(value: Any, dimension: str) -> Any:
         return {"n": value.real, "k": value.imag}
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         if not dimension or np.isinf(value):
-            return float(value)
+            return value
         return format_quantity(value, USUAL_UNITS[dimension])
     raise PresetError(f"{value!r} has no form in a preset file; use numbers or parameters")
 
@@ -122,6 +128,26 @@ def _material(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> 
     if faults:
         raise PresetError(*faults)
     return Material(**parts)
+
+
+def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:
+    faults = [
+        f"key '{key}' is unknown{did_you_mean(key, _ANGLES)}" for key in raw if key not in _ANGLES
+    ]
+    angles: dict[str, list[Any]] = {}
+    for key in _ANGLES:
+        several = raw.get(key, [])
+        if not isinstance(several, list):
+            faults.append(f"{key} must be a list of angles, not {several!r}")
+            continue
+        for place, angle in enumerate(several):
+            try:
+                angles.setdefault(key, []).append(decode(angle, ANGLE, parameters))
+            except OptipathError as fault:
+                faults += [f"{key}[{place}]: {sentence}" for sentence in fault.faults]
+    if faults:
+        raise PresetError(*faults)
+    return VerticesByAngles(tuple(angles.get("incidences", ())), tuple(angles.get("turns", ())))
 
 
 def _number(raw: Any, dimension: str) -> Any:
