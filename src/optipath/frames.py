@@ -245,4 +245,4 @@ def _unit(name: str, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64
 
 
 def _text(vector: npt.NDArray[np.float64]) -> str:
-    return "(" + ", ".join(f"{float(component):.6g}" for component in vector) + ")"
+    return "(" + ", ".join(f"{float(component) + 0.0:.6g}" for component in vector) + ")"

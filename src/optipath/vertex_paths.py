@@ -84,9 +84,8 @@ def path_from_vertices(
     node >> path.add("eye", Detector())
     faults = [] if normals is None else normal_faults(chain, normals, len(several))
     try:
-        path.check()
+        path.compose()
     except PathError as error:
-        # Each vertex has the whole chain, and its faults.
         faults += error.faults
     if faults:
         raise PathError(*faults)

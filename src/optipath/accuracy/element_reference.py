@@ -18,8 +18,9 @@ from optipath.elements import (
     Polarizer,
     Retarder,
     Rotator,
+    SpecularVertex,
 )
-from optipath.kernels import REFLECTION
+from optipath.kernels import INCIDENCE, REFLECTION
 from optipath.materials import Material
 from optipath.views import View, view_of
 
@@ -93,6 +94,13 @@ class Reader:
         """Return an angle; its tangent, or that of `turns` times it, is what may be moved."""
         return self.move(exact_angle(float(self.pick(view_of(value).numbers(self.given)))), turns)
 
+    def exact(self, view: View) -> Any:
+        """Return a number, or the cosine or sine of an angle in many digits."""
+        if view.part not in ("cos", "sin"):
+            return self.real(view)
+        angle = float(self.pick(View(view.value).numbers(self.given)))
+        return cos_sin(exact_angle(angle))[view.part == "sin"]
+
     def move(self, angle: Any, turns: int) -> Any:
         """Return an angle, moved if it is the one."""
         self.count += 1
@@ -119,6 +127,16 @@ def _(element: Interface, leaves: str, read: Reader) -> Jones:
     del leaves
     m = read.index(element.index) / read.index(element.outside).real
     rs, rp, _ = amplitudes(m, *cos_sin(read.angle(element.incidence)))
+    return _diagonal(rs, rp)
+
+
+@jones.register
+def _(element: SpecularVertex, leaves: str, read: Reader) -> Jones:
+    del leaves
+    points = element.points_around()
+    cos, sin = points.factory(INCIDENCE)(MANY_DIGITS)(*map(read.exact, points.arguments))
+    m = read.index(element.index) / read.index(element.outside).real
+    rs, rp, _ = amplitudes(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1)))
     return _diagonal(rs, rp)
 
 

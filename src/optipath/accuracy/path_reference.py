@@ -8,16 +8,25 @@ import networkx as nx
 import numpy as np
 
 from optipath.accuracy.element_reference import Jones, Reader, jones, mueller, times, turn
-from optipath.accuracy.many_digits import DIGITS, WORKING_DIGITS, exactly, mpmath
+from optipath.accuracy.many_digits import (
+    DIGITS,
+    MANY_DIGITS,
+    WORKING_DIGITS,
+    exactly,
+    mpmath,
+)
 from optipath.composer import Wiring
-from optipath.composer.placement import azimuth_of, frame_at
+from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.values import Values
+from optipath.composer.vertex_placement import is_vertex
 from optipath.errors import ParameterError, PathError
+from optipath.kernels import REFLECTION
 from optipath.path_graph import PathGraph
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from optipath.composer.wiring import Link
     from optipath.elements import Coupling, Element
     from optipath.frames import Frame
     from optipath.parameters import Resolved
@@ -128,6 +137,10 @@ class _Walk:
             start, _, (leaves, _) = link
             if (start, leaves) not in self.at:
                 continue
+            if is_vertex(self.wiring, start) and is_vertex(self.wiring, name):
+                angle = self._between_vertices(link)
+                found.append(_passed(turn(angle), self.at[start, leaves]))
+                continue
             before, behind = (
                 frame_at(self.wiring, *port) for port in ((start, leaves), (name, way))
             )
@@ -137,6 +150,13 @@ class _Walk:
                 angle = self.read.angle(azimuth_of(self.wiring, link), 2)
             found.append(_passed(turn(angle), self.at[start, leaves]))
         return found
+
+    def _between_vertices(self, link: Link) -> Any:
+        turning = alignment(self.wiring, link)
+        assert turning is not None  # noqa: S101 - vertices always turn
+        kernel = turning.kernel.by_method(next(iter(REFLECTION.methods)))
+        c, s = kernel.made_for(MANY_DIGITS)(*map(self.read.exact, turning.arguments))
+        return self.read.move(mpmath.atan2(s, c) / 2, 2)
 
     def _passing(self, name: str, way: str, element: Element) -> list[Jones]:
         found = []

@@ -101,7 +101,7 @@ class SpecularVertex(Element, kind="specular-vertex"):
         """Return the reflection from ``in`` to ``reflected``."""
         outside = self.outside.n if isinstance(self.outside, Material) else self.outside
         index = numbers_of(self.index, self.domains()["index"])
-        points = self._points(self._place - 1)
+        points = self.points_around()
         kernels = points.family(REFLECTION, INCIDENCE)
         operation = Operation(kernels, (outside, *index, *points.arguments))
         return (Coupling("in", "reflected", (operation,)),)
@@ -109,6 +109,10 @@ class SpecularVertex(Element, kind="specular-vertex"):
     def own_frame(self, port: str) -> VertexFrame:
         """Return the frame of a port, made when somebody looks at it."""
         return VertexFrame(self._points(0), leaves=port == "reflected")
+
+    def points_around(self) -> Coordinates:
+        """Return the three points that say at which angle light meets the surface."""
+        return self._points(self._place - 1)
 
     def turn_from_before(self) -> Operation:
         """Return the turn from the frame in which light leaves the vertex before."""

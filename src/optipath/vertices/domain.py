@@ -32,18 +32,24 @@ class VerticesDomain(Domain):
         """Say in words which values are allowed."""
         return "the points of a chain, without a unit"
 
+    @property
+    def shows_in_light(self) -> bool:
+        """Two vertices in one point have no direction, and light along none is not finite."""
+        return True
+
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
         super()._check_numbers(owner, array)
         chains = array.reshape(-1, *self.tail)
         for start in range(0, len(chains), _AT_ONCE):
             some = chains[start : start + _AT_ONCE]
-            meet = np.all(some[:, 1:] == some[:, :-1], axis=-1)
+            alike = some[:, 1:] == some[:, :-1]
+            meet = alike[..., 0] & alike[..., 1] & alike[..., 2]
             if meet.any():
                 chain, place = (int(found[0]) for found in np.nonzero(meet))
                 where = f" of chain {start + chain}" if len(chains) > 1 else ""
                 raise ValueFault(
-                    f"{owner}: vertices {place} and {place + 1}{where} are one point, "
-                    f"{some[chain, place].tolist()}; move one, or leave it out"
+                    f"{owner}: vertices {place} and {place + 1}{where}, counted from the light as "
+                    f"0, are one point, {some[chain, place].tolist()}; move one, or leave it out"
                 )
 
 
