@@ -3,7 +3,10 @@
 import numpy as np
 
 import optipath as op
+from optipath.engines import is_installed
 
+ENGINES = [engine for engine in ("numpy", "numba", "jax") if is_installed(engine)]
+COMPILED = [engine for engine in ENGINES if engine != "jax"]
 MATERIALS = (1.5, 1.12 + 2.16j, 0.608 + 2.12j, 0.66, 0.2 + 3.4j)
 
 
