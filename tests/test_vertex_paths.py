@@ -166,10 +166,10 @@ def jax():
 
 
 def test_gradients_with_respect_to_vertices_are_those_of_differences(jax):
-    points = random_chains(11, 3)
-    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:3]).compose()
+    points = random_chains(11, 2)
+    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()
     slopes = jax.grad(lambda p: plan.run(points=p).stokes[0])(jax.numpy.asarray(points))
-    for at in [(0, 1), (2, 0), (4, 2)]:
+    for at in [(0, 1), (2, 0), (3, 2)]:
         step = np.zeros_like(points)
         step[at] = 1e-6
         ends = [float(plan.run(points=points + sign * step).intensity) for sign in (1, -1)]
@@ -177,8 +177,8 @@ def test_gradients_with_respect_to_vertices_are_those_of_differences(jax):
 
 
 def test_gradients_are_finite_where_vertices_have_no_plane(jax):
-    points = [[0.0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 1, 2], [0, 0, 2]]
-    path = op.path_from_vertices(op.Parameter("points"), MATERIALS[:3])
+    points = [[0.0, 0, 0], [0, 0, 1], [0, 0, 2], [0, 0, 0]]
+    path = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2])
     slopes = jax.grad(lambda p: path.trace(points=p).stokes.sum())(jax.numpy.asarray(points))
     assert np.all(np.isfinite(slopes))
 
