@@ -144,7 +144,8 @@ class SpecularVertex(Element, kind="specular-vertex"):
         most = self.count or np.inf
         if not _is_count(self.place) or self.place > most:
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
-            found.append(f"{owner}.place must be a whole number{up_to}, not {self.place!r}")
+            given = "a parameter" if isinstance(self.place, Parameter) else repr(self.place)
+            found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
         return found
 
     @property
