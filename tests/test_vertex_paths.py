@@ -197,6 +197,26 @@ def test_materials_may_be_arrays_and_parameters():
     np.testing.assert_allclose(light.stokes, expected.stokes, atol=1e-16)
 
 
+def test_vertices_may_be_bound_for_good_or_have_a_default():
+    points = random_chains(16, 2, (4,))
+    expected = op.path_from_vertices(points, MATERIALS[:2]).trace()
+    path = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2])
+    assert path.bind(points=points).trace() == expected
+    by_default = op.path_from_vertices(op.Parameter("points", default=points), MATERIALS[:2])
+    assert by_default.trace() == expected
+    one = by_default.trace(points=points[1])
+    np.testing.assert_allclose(one.stokes, expected.stokes[1], atol=1e-15)
+
+
+def test_a_chain_too_long_to_be_compiled_is_run_all_the_same():
+    points = random_chains(17, 40, (5,))
+    found = op.path_from_vertices(points, [0.2 + 3.4j] * 40).trace()
+    expected = interfaces_in_space(points, [0.2 + 3.4j] * 40).trace()
+    turned = found.in_frame(expected.frame)
+    np.testing.assert_allclose(turned.normalized, expected.normalized, atol=1e-12)
+    np.testing.assert_allclose(found.intensity, expected.intensity, rtol=1e-11)
+
+
 def test_normals_along_the_bisectors_are_taken_whatever_their_length_and_side():
     normals = [[0.0, -7.0, -7.0]]
     path = op.path_from_vertices(CORNER, [1.5], normals)

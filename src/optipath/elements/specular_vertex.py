@@ -121,11 +121,9 @@ class SpecularVertex(Element, kind="specular-vertex"):
 
     def follows(self, before: Element) -> bool:
         """Tell whether another element is the vertex before this one, in the same chain."""
-        return (
-            isinstance(before, SpecularVertex)
-            and before.place == self.place - 1
-            and same(self.vertices, before.vertices)
-        )
+        if not isinstance(before, SpecularVertex) or not _is_count(self.place):
+            return False
+        return before.place == self.place - 1 and same(self.vertices, before.vertices)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that the chain has this vertex, and that no other frames are given."""
