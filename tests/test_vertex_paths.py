@@ -239,7 +239,7 @@ def test_a_normal_off_the_bisector_is_named_with_its_angle():
         ((CORNER, []), ["materials must be a sequence"]),
         ((CORNER, 1.5), ["materials must be a sequence", "not 1.5"]),
         ((CORNER, [1.5, 1.5]), ["(..., m + 2, 3), m = 2 for 2 materials, not (3, 3)"]),
-        ((CORNER[:2], [1.5]), ["m = 1 for 1 material, not (2, 3)"]),
+        ((CORNER[:2], [-1.5]), ["m = 1 for 1 material, not (2, 3)", "-1.5"]),
         (([[0, 0], [1, 1], [2, 0]], [1.5]), ["not (3, 2)"]),
         (([[0, 0, 0], [1, 1]], [1.5]), ["rows of unequal lengths"]),
         (([[0, 0, np.inf], *CORNER[1:]], [-1.5]), ["finite", "-1.5"]),

@@ -71,18 +71,12 @@ def path_from_vertices(
     several = _several(materials)
     chain, faults = _chain(vertices, len(several))
     if not several:
-        faults.append(
-            f"materials must be a sequence with one for each reflection, not {materials!r}"
-        )
-    if faults:
-        raise PathError(*faults)
-    path = PathGraph()
-    node = path.add("light", Source(intensity))
-    for place, material in enumerate(several, 1):
-        vertex = SpecularVertex(material, chain, place, reflections=len(several))
-        node = node >> path.add(f"vertex{place}", vertex)
-    node >> path.add("eye", Detector())
-    faults = [] if normals is None else normal_faults(chain, normals, len(several))
+        wanted = "a sequence with one for each reflection"
+        raise PathError(*faults, f"materials must be {wanted}, not {materials!r}")
+    if normals is not None and not faults:
+        faults += normal_faults(chain, normals, len(several))
+    # With others in place of faulty vertices, so that the rest is checked too.
+    path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
     try:
         path.compose()
     except PathError as error:
@@ -90,6 +84,20 @@ def path_from_vertices(
     if faults:
         raise PathError(*faults)
     return path
+
+
+def _path(chain: Any, materials: Sequence[Any], intensity: Any) -> PathGraph:
+    path = PathGraph()
+    node = path.add("light", Source(intensity))
+    for place, material in enumerate(materials, 1):
+        vertex = SpecularVertex(material, chain, place, reflections=len(materials))
+        node = node >> path.add(f"vertex{place}", vertex)
+    node >> path.add("eye", Detector())
+    return path
+
+
+def _any_chain(count: int) -> VerticesByAngles:
+    return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
 
 
 def _several(materials: Any) -> list[Any]:
@@ -100,17 +108,15 @@ def _several(materials: Any) -> list[Any]:
 
 def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
     """Return vertices that nobody can change, and what is wrong with their shape."""
-    if isinstance(vertices, Parameter) or is_traced(vertices):
+    if isinstance(vertices, Parameter):
         return vertices, []
     if isinstance(vertices, VerticesByAngles):
         found = len(vertices.incidences)
         return vertices, [f"vertices have {found} incidences{_for(count)}"] * (found != count)
     try:
-        chain = frozen(np.asarray(vertices))
+        chain = vertices if is_traced(vertices) else frozen(np.asarray(vertices))
     except ValueError:
-        return vertices, [
-            "vertices have rows of unequal lengths; make them one shape (..., m+2, 3)"
-        ]
+        return None, ["vertices have rows of unequal lengths; make them (..., m + 2, 3)"]
     shape = np.shape(chain)
     if shape[-2:] == (count + 2, 3) or (not count and len(shape) > 1 and shape[-1] == 3):
         return chain, []
