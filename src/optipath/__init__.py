@@ -43,6 +43,7 @@ from optipath.elements import (
     Retarder,
     Rotator,
     Source,
+    SpecularVertex,
 )
 from optipath.errors import (
     ComposerError,
@@ -68,6 +69,8 @@ from optipath.path_graph import PathGraph
 from optipath.plan import Plan
 from optipath.polarization_matters import Polarization, polarization
 from optipath.presets import load_preset, preset_names
+from optipath.vertex_paths import path_from_vertices
+from optipath.vertices import VerticesByAngles, vertices_from_angles
 
 __all__ = [
     "Absorption",
@@ -123,15 +126,19 @@ __all__ = [
     "Rotator",
     "ShapeError",
     "Source",
+    "SpecularVertex",
     "StokesState",
     "UnitError",
     "ValueFault",
+    "VerticesByAngles",
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
     "load_preset",
+    "path_from_vertices",
     "plane_of_incidence",
     "polarization",
     "preset_names",
     "refraction_angle",
+    "vertices_from_angles",
 ]

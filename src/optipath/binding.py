@@ -9,6 +9,7 @@ from optipath.composer import parameters_of, value_faults
 from optipath.errors import OptipathError, ParameterError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
+from optipath.vertices import VerticesByAngles
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -62,6 +63,9 @@ def _with_bound(element: Element, bound: Mapping[str, Parameter]) -> Element:
 def _bound_value(value: Any, bound: Mapping[str, Parameter]) -> Any:
     if isinstance(value, Material):
         return Material(_bound_value(value.n, bound), _bound_value(value.k, bound))
+    if isinstance(value, VerticesByAngles):
+        angles = (value.incidences, value.turns)
+        return VerticesByAngles(*(tuple(_bound_value(a, bound) for a in each) for each in angles))
     if isinstance(value, tuple):
         return tuple(_bound_value(one, bound) for one in value)
     if isinstance(value, Parameter) and value.name in bound:

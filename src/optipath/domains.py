@@ -97,6 +97,14 @@ class Domain:
             Naming the owner and the parameter.
         """
 
+    @property
+    def shows_in_light(self) -> bool:
+        """Whether no light is finite where an array of the right shape is not allowed.
+
+        Formulas look at their light anyway, so that nobody needs to look at the array first.
+        """
+        return False
+
     def quickly_allows(self, value: Any) -> bool:
         """Tell, for the plain floats that long paths are made of, whether all is well."""
         inside = type(value) is float and self.minimum <= value <= self.maximum
@@ -130,6 +138,8 @@ class Domain:
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
         if array.dtype.kind == "c":
             raise ValueFault(f"{owner} is complex; give {self.described()}")
+        if np.isinf(self.minimum) and np.isinf(self.maximum):
+            return
         bad = (array < self.minimum) | (array > self.maximum)
         if np.any(bad):
             value = self._text(float(array[bad].ravel()[0]))

@@ -11,6 +11,7 @@ from optipath.composer import Wiring
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.units import format_quantity
+from optipath.vertices import VerticesByAngles
 
 if TYPE_CHECKING:
     from optipath.elements import Element
@@ -70,6 +71,10 @@ def _text(value: Any, unit: str) -> str:
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
         return f"{_text(value.n, '')} + {_text(value.k, '')} i"
+    if isinstance(value, VerticesByAngles):
+        each = ((name, getattr(value, name)) for name in ("incidences", "turns"))
+        texts = (f"{name} ({', '.join(_text(a, 'deg') for a in angles)})" for name, angles in each)
+        return ", ".join(texts)
     if isinstance(value, tuple):
         return "[" + ", ".join(_text(one, unit) for one in value) + "]"
     if isinstance(value, np.ndarray):

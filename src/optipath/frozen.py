@@ -27,6 +27,8 @@ def array_of(value: Any) -> np.ndarray[Any, Any]:
 def frozen(value: Any) -> Any:
     """Return a value that nobody can change: arrays and lists become read-only copies.
 
+    What is a read-only array of its own already stays what it is.
+
     Examples
     --------
     >>> frozen([1.0, 2.0]).flags.writeable
@@ -34,10 +36,13 @@ def frozen(value: Any) -> Any:
     """
     if isinstance(value, (list, tuple, np.ndarray)):
         try:
-            array = array_of(value).copy()
+            array = array_of(value)
         except ValueError:
             # Rows of unequal lengths: kept as given, for validation to name.
             return tuple(value)
+        if array is value and array.ndim and array.flags.owndata and not array.flags.writeable:
+            return array
+        array = array.copy()
         if array.ndim == 0:
             return array.item()
         array.flags.writeable = False

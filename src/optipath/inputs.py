@@ -132,10 +132,12 @@ class Inputs:
             except OptipathError as fault:
                 faults += fault.faults
         shapes = dict(self.shapes)
+        looked_at = set()
         for use in self.uses:
             name = use.value.name
-            if name not in resolved:
+            if name not in resolved or (use.value, use.domain) in looked_at:
                 continue
+            looked_at.add((use.value, use.domain))
             numbers = resolved[name].value
             try:
                 use.check_given(numbers)

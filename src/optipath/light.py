@@ -24,6 +24,8 @@ from optipath.polarization_state import (
 from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy.typing as npt
 
 _LARGEST = 2.0**40
@@ -83,20 +85,28 @@ class Light:
         self.__dict__.update(stokes=plain, frame=frame, exponent=exponent, mantissa=mantissa)
 
     @classmethod
-    def of(cls, stokes: Any, frame: Frame, exponent: Any = 0) -> Light:
+    def of(cls, stokes: Any, frame: Frame | Callable[[], Frame], exponent: Any = 0) -> Light:
         """Return light out of what a plan has computed, which needs no check.
 
-        A tuple of four, floats or arrays, becomes one array when somebody asks for it.
+        A tuple of four, floats or arrays, becomes one array when somebody asks for it, and a
+        function that returns the frame is called then.
         """
         if not isinstance(exponent, int) or exponent:
-            return cls(_stacked(stokes) if type(stokes) is tuple else stokes, frame, exponent)
-        light = cls.__new__(cls)
-        own = light.__dict__
-        own["_stokes"], own["frame"] = stokes, frame
+            light = cls(_stacked(stokes) if type(stokes) is tuple else stokes, None, exponent)
+            own = light.__dict__
+            del own["frame"]
+        else:
+            light = cls.__new__(cls)
+            own = light.__dict__
+            own["_stokes"] = stokes
+        own["frame" if type(frame) is Frame else "_frame"] = frame
         return light
 
     def __getattr__(self, name: str) -> Any:
         own = self.__dict__
+        if name == "frame" and "_frame" in own:
+            own["frame"] = own["_frame"]()
+            return own["frame"]
         if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
             raise AttributeError(f"a Light has no attribute '{name}'")
         if name == "exponent":

@@ -15,7 +15,7 @@ from optipath.light import Light
 from optipath.walk import evaluated
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping
 
     from optipath.kernels import Carried
     from optipath.program import Program
@@ -62,7 +62,11 @@ class _Branch:
 
 
 def light_paths(
-    whole: WholePath, limit: int | None, bounces: int | None, parameters: Mapping[str, Any]
+    whole: WholePath,
+    limit: int | None,
+    bounces: int | None,
+    parameters: Mapping[str, Any],
+    framed: Callable[[Any], Any],
 ) -> list[LightPath]:
     """Return the ways of light through a path, the brightest first.
 
@@ -76,6 +80,8 @@ def light_paths(
         How many reflections each may have.
     parameters : mapping of str to Any
         As a plan takes them.
+    framed : callable
+        Gives the frame of a reading for these values, or what makes it.
 
     Raises
     ------
@@ -90,7 +96,7 @@ def light_paths(
     whole.refuse_traced(parameters, "light paths are listed")
     whole.inputs.resolve(parameters)
     found: list[LightPath] = []
-    for path in _Search(whole, parameters).paths(bounces):
+    for path in _Search(whole, parameters, framed).paths(bounces):
         if len(found) == limit:
             break
         found.append(path)
@@ -100,7 +106,10 @@ def light_paths(
 class _Search:
     """Goes along all ways at once, always on from where light is brightest."""
 
-    def __init__(self, whole: WholePath, parameters: Mapping[str, Any]) -> None:
+    def __init__(
+        self, whole: WholePath, parameters: Mapping[str, Any], framed: Callable[[Any], Any]
+    ) -> None:
+        self.framed = framed
         self.program = whole.program
         self.way = Plain(NUMPY)
         given = whole.sorter.sort(parameters)
@@ -161,7 +170,8 @@ class _Search:
         parts = [np.broadcast_to(part, self.batch) for part in components]
         stokes = np.stack(parts, axis=-1)
         stokes[..., reading.components :] = np.nan
-        return LightPath(branch.route, branch.end, branch.bounces, Light(stokes, reading.frame))
+        light = Light.of(stokes, self.framed(reading.frame))
+        return LightPath(branch.route, branch.end, branch.bounces, light)
 
 
 def _check(what: str, number: Any, least: int) -> None:

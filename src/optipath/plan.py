@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.engines import LARGE
 from optipath.errors import ParameterError, did_you_mean
+from optipath.frames import Frame
 from optipath.light import Light
 from optipath.mueller import Mueller
 
@@ -18,13 +19,13 @@ if TYPE_CHECKING:
     from optipath.certificate import Certificate
     from optipath.execution import Execution
     from optipath.explanation import Explanation
-    from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.light_paths import LightPath
     from optipath.program import Program
     from optipath.reduction import Reduction, Tolerance
     from optipath.running.found import Found
     from optipath.running.runner import Manner
+    from optipath.vertices import VertexFrame
     from optipath.whole_path import WholePath
 
 
@@ -134,6 +135,8 @@ class Plan:
             return self.run_all(**parameters)[name]
         execution = self.execution
         usual = execution.single.usual(parameters)
+        if type(frame) is not Frame:
+            frame = self._made(frame, parameters)
         if usual is not None:
             return Light.of(usual[place][:4], frame, usual[place][4])
         light = execution.lights(parameters)[name]
@@ -150,7 +153,7 @@ class Plan:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        return self._in_frames(self._runner.lights(parameters))
+        return self._in_frames(self._runner.lights(parameters), parameters)
 
     def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
         """Yield the light of a batch part by part, in memory that the parts need.
@@ -184,13 +187,26 @@ class Plan:
         if isinstance(size, bool) or not isinstance(size, int) or size < 1:
             raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
         for where, lights in self._runner.stream(size, parameters):
-            yield Part(where, self._in_frames(lights)[name])
+            yield Part(where, self._in_frames(lights, parameters, where)[name])
 
-    def _in_frames(self, lights: Mapping[str, Found]) -> dict[str, Light]:
-        return {
-            name: Light.of(lights[name].stokes, reading.frame, lights[name].exponent)
-            for name, reading in self.program.readings.items()
-        }
+    def _in_frames(
+        self, lights: Mapping[str, Found], parameters: Mapping[str, Any], where: Any = ()
+    ) -> dict[str, Light]:
+        found = {}
+        for name, reading in self.program.readings.items():
+            frame = self._made(reading.frame, parameters, where)
+            found[name] = Light.of(lights[name].stokes, frame, lights[name].exponent)
+        return found
+
+    def _made(
+        self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
+    ) -> Any:
+        """Return a frame, or what makes it of the values that a run was given."""
+        if isinstance(frame, Frame):
+            return frame
+        from optipath.running.frames import LaterFrame  # noqa: PLC0415 - not for every import
+
+        return LaterFrame(frame, self.inputs, parameters, where)
 
     def mueller(
         self, source: str | None = None, detector: str | None = None, /, **parameters: Any
@@ -217,7 +233,8 @@ class Plan:
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
         matrix = self.whole_path.matrix(begin, reading, parameters)
-        return Mueller(matrix, program.sources[begin][1], reading.frame)
+        frames = (self._made(f, parameters) for f in (program.sources[begin][1], reading.frame))
+        return Mueller(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
 
     def certificate(self, detector: str | None = None, /, **parameters: Any) -> Certificate:
         """Return how far the intensity at a detector can be from that without polarisation.
@@ -273,12 +290,18 @@ class Plan:
         Examples
         --------
         >>> import optipath as op
-        >>> for path in op.load_preset("two-panes").compose().paths():
+        >>> for path in op.load_preset("glass-slab").compose().paths(limit=3):
         ...     print(path)
+        0.911612  lamp.out -> front.transmitted -> back.transmitted -> transmitted
+        0.0457336  lamp.out -> front.reflected -> reflected
+        0.0398067  lamp.out -> front.transmitted -> back.reflected -> front.reflected -> reflected
         """
         from optipath.light_paths import light_paths  # noqa: PLC0415 - not for every import
 
-        return light_paths(self.whole_path, limit, bounces, parameters)
+        def framed(frame: Any) -> Any:
+            return self._made(frame, parameters)
+
+        return light_paths(self.whole_path, limit, bounces, parameters, framed)
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.
@@ -326,7 +349,7 @@ class Plan:
         return evaluations(self.execution, parameters)
 
     @cached_property
-    def _detector(self) -> tuple[str, int, Frame]:
+    def _detector(self) -> tuple[str, int, Any]:
         """The name of the only detector, its place among the ends, and its frame."""
         name = self._only("detector", tuple(self.program.detectors), "run_all()")
         place = list(self.program.readings).index(name)

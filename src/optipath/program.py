@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from optipath.frames import Frame
     from optipath.kernels import Kernel
+    from optipath.vertices import VertexFrame
     from optipath.views import View
 
 
@@ -71,14 +72,14 @@ class Reading:
     ----------
     light : int
         The step that makes it.
-    frame : Frame
+    frame : Frame or VertexFrame
         The frame of the port where it arrives.
     components : int
         How many of the four Stokes components are read.
     """
 
     light: int
-    frame: Frame
+    frame: Frame | VertexFrame
     components: int = 4
 
 
@@ -119,7 +120,7 @@ class Program:
         What is computed from the leaves.
     steps : tuple of Step
         In the order of travel.
-    sources : mapping of str to (int, Frame)
+    sources : mapping of str to (int, frame)
         The emitting step and the frame of each source.
     detectors, dumps : mapping of str to Reading
         Where light ends.
@@ -136,7 +137,7 @@ class Program:
     leaves: tuple[View, ...]
     evaluations: tuple[Evaluation, ...]
     steps: tuple[Step, ...]
-    sources: Mapping[str, tuple[int, Frame]]
+    sources: Mapping[str, tuple[int, Frame | VertexFrame]]
     detectors: Mapping[str, Reading]
     dumps: Mapping[str, Reading]
     counts: tuple[int, ...] = ()

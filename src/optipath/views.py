@@ -162,7 +162,7 @@ class View:
         return View(-self.value, self.part, self.tail)
 
     def key(self) -> Hashable:
-        """Return what equal views share; None for large arrays, which are not compared."""
+        """Return what equal views share; a large array is equal to itself alone."""
         if type(self.value) is float and self.value:
             return self.value, self.part
         if isinstance(self.value, Parameter):
@@ -172,7 +172,9 @@ class View:
         if isinstance(self.value, np.ndarray) and self.value.nbytes <= _COMPARED:
             value = self.value
             return value.tobytes(), value.dtype.str, value.shape, self.part, self.tail
-        return None
+        # Whoever keeps the key keeps the view as well, so that no other array gets this number.
+        is_array = isinstance(self.value, np.ndarray)
+        return (id(self.value), self.part, self.tail) if is_array else None
 
     def _resolved(self, given: Mapping[str, Resolved]) -> Resolved:
         parameter: Parameter = self.value

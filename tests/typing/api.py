@@ -45,3 +45,6 @@ engines: tuple[str, str] = plan.engine, plan.engine_for(1_000)
 text: str = plan.explain() + path.to_toml()
 preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
+chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
+in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(delta=0.1).frame
+corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)

@@ -23,8 +23,9 @@ from optipath.elements import (
     Polarizer,
     Retarder,
     Rotator,
+    SpecularVertex,
 )
-from optipath.kernels import REFLECTION
+from optipath.kernels import INCIDENCE, REFLECTION
 from optipath.materials import Material
 from optipath.views import View, view_of
 
@@ -106,6 +107,13 @@ class Reader:
         # A multiple of 45 degrees is one, however its factors are rounded.
         return self.move(nearest if nearest != float(angle) else angle, turns)
 
+    def exact(self, view: View) -> Any:
+        """Return a number, or the cosine or sine of an angle in many digits."""
+        if view.part not in ("cos", "sin"):
+            return self.real(view)
+        angle = float(self.pick(View(view.value).numbers(self.given)))
+        return cos_sin(exact_angle(angle))[view.part == "sin"]
+
     def move(self, angle: Any, turns: int) -> Any:
         """Return an angle, moved if it is the one."""
         self.count += 1
@@ -135,6 +143,15 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
         c, s = refracted(read.index(element.incidence_in).real / outside, s)
     found = boundary(read.index(element.index) / outside, c, s)
     return found.reflected if way.reflects else found.transmitted
+
+
+@jones.register
+def _(element: SpecularVertex, way: Coupling, read: Reader) -> Jones:
+    del way
+    points = element.points_around()
+    cos, sin = points.factory(INCIDENCE)(MANY_DIGITS)(*map(read.exact, points.arguments))
+    m = read.index(element.index) / read.index(element.outside).real
+    return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
 
 
 @jones.register

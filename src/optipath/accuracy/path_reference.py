@@ -7,11 +7,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.accuracy.element_reference import Reader, jones, mueller, times, turn
-from optipath.accuracy.many_digits import DIGITS, WORKING_DIGITS, exactly, mpmath
+from optipath.accuracy.many_digits import (
+    DIGITS,
+    MANY_DIGITS,
+    WORKING_DIGITS,
+    exactly,
+    mpmath,
+)
 from optipath.composer import Wiring
-from optipath.composer.placement import azimuth_of, frame_at
+from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.values import Values
+from optipath.composer.vertex_placement import is_vertex
 from optipath.errors import ParameterError, PathError
+from optipath.kernels import REFLECTION
 from optipath.path_graph import PathGraph
 
 if TYPE_CHECKING:
@@ -176,16 +184,23 @@ class _Walk:
     def _turn(self, link: Link) -> Jones:
         if link not in self._known:
             start, end, (leaves, enters) = link
-            before, behind = (
-                frame_at(self.wiring, start, leaves),
-                frame_at(self.wiring, end, enters),
-            )
-            if before is not None and behind is not None:
+            ends = (start, leaves), (end, enters)
+            before, behind = (frame_at(self.wiring, *port) for port in ends)
+            if is_vertex(self.wiring, start) and is_vertex(self.wiring, end):
+                angle = self._between_vertices(link)
+            elif before is not None and behind is not None:
                 angle = self.read.move(_angle_between(before, behind), 2)
             else:
                 angle = self.read.angle(azimuth_of(self.wiring, link), 2)
             self._known[link] = turn(angle)
         return self._known[link]  # type: ignore[no-any-return]
+
+    def _between_vertices(self, link: Link) -> Any:
+        turning = alignment(self.wiring, link)
+        assert turning is not None  # noqa: S101 - vertices always turn
+        kernel = turning.kernel.by_method(next(iter(REFLECTION.methods)))
+        c, s = kernel.made_for(MANY_DIGITS)(*map(self.read.exact, turning.arguments))
+        return self.read.move(mpmath.atan2(s, c) / 2, 2)
 
     def _emitted(self, coupling: Coupling) -> Jones:
         intensity, *state = map(self.read.real, coupling.operations[0].arguments)

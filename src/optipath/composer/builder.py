@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 
     from optipath.frames import Frame
     from optipath.kernels import Kernel
+    from optipath.vertices import VertexFrame
     from optipath.views import View
 
 
@@ -29,7 +30,7 @@ class Builder:
 
     def program(
         self,
-        sources: Mapping[str, tuple[int, Frame]],
+        sources: Mapping[str, tuple[int, Frame | VertexFrame]],
         detectors: Mapping[str, Reading],
         dumps: Mapping[str, Reading],
         links: Mapping[str, Reading],

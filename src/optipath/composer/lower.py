@@ -8,8 +8,9 @@ import numpy as np
 
 from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
+from optipath.composer.vertex_placement import vertex_frame
 from optipath.composer.wiring import link_text
-from optipath.elements import Detector
+from optipath.elements import Detector, SpecularVertex
 from optipath.errors import ComposerError, listed
 from optipath.frames import Frame
 from optipath.parameters import Parameter
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements import Coupling, Operation
     from optipath.program import Program
+    from optipath.vertices import VertexFrame
 
 _FEW = 8
 
@@ -84,7 +86,7 @@ class _Lowering:
         self.method = method
         self.builder = Builder()
         self.lights: dict[Port, int] = {}
-        self.sources: dict[str, tuple[int, Frame]] = {}
+        self.sources: dict[str, tuple[int, Frame | VertexFrame]] = {}
 
     def program(self) -> Program:
         """Return the steps that have been added, and where their light ends."""
@@ -108,7 +110,7 @@ class _Lowering:
             name, _, leaves = outlet.partition(".")
             ports[outlet] = name, leaves
         return {
-            text: Reading(self.lights[port], frame_at(self.wiring, *port) or Frame())
+            text: Reading(self.lights[port], self._frame_behind(*port))
             for text, port in ports.items()
             if port in self.lights
         }
@@ -162,7 +164,7 @@ class _Lowering:
         label = f"{name}.{coupling.leaves}"
         if coupling.enters is None:
             light = self._step(label, (), coupling.operations[0], None, port=True)
-            self.sources[name] = (light, frame_at(self.wiring, name, coupling.leaves) or Frame())
+            self.sources[name] = (light, self._frame_behind(name, coupling.leaves))
             return light
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
@@ -186,7 +188,15 @@ class _Lowering:
         kernel = operation.kernel.by_method(self.method)
         return self.builder.step(label, inputs, kernel, views, presence, **about)
 
-    def _reading_frame(self, name: str, port: str) -> Frame:
+    def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
+        """Return the frame in which light leaves an element."""
+        element = self.wiring.elements[name]
+        if isinstance(element, SpecularVertex):
+            return element.own_frame(port)
+        found = frame_at(self.wiring, name, port)
+        return found or vertex_frame(self.wiring, name, port) or Frame()
+
+    def _reading_frame(self, name: str, port: str) -> Frame | VertexFrame:
         own = frame_at(self.wiring, name, port)
         if own is not None:
             return own
@@ -194,7 +204,8 @@ class _Lowering:
             frame_at(self.wiring, start, leaves)
             for start, _, (leaves, _) in self.wiring.links_to[name, port]
         ]
-        return next((frame for frame in arriving if frame is not None), Frame())
+        placed = next((frame for frame in arriving if frame is not None), None)
+        return placed or vertex_frame(self.wiring, name, port) or Frame()
 
 
 def _presence(operations: tuple[Operation, ...]) -> View | None:

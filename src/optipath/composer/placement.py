@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.composer.vertex_placement import is_vertex, vertex_faults, vertex_link_faults
 from optipath.composer.wiring import link_text
-from optipath.elements import Operation, Terminal
+from optipath.elements import Operation, SpecularVertex, Terminal
 from optipath.errors import OptipathError
 from optipath.kernels import GIVEN_TURN, TURN
 from optipath.shapes import broadcast_fault
@@ -40,6 +41,9 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
     It comes from the link's own two port frames alone and is never accumulated.
     """
     start, end, (leaves, enters) = link
+    element = wiring.elements[end]
+    if isinstance(element, SpecularVertex) and is_vertex(wiring, start):
+        return element.turn_from_before()
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     if arriving is not None and expected is not None:
         c, s = arriving.turn_to(expected)
@@ -58,10 +62,10 @@ def placement_faults(wiring: Wiring) -> list[str]:
         if not broadcast_fault({port: frame.z.shape[:-1] for port, frame in frames.items()}):
             found += element.frame_faults(name, frames)
     for link in wiring.graph.edges(keys=True):
-        found += _link_faults(wiring, link)
+        found += vertex_link_faults(wiring, link) or _link_faults(wiring, link)
     for name, element in wiring.elements.items():
         found += _meeting_faults(wiring, name, element)
-    return found
+    return [*found, *vertex_faults(wiring)]
 
 
 def _link_faults(wiring: Wiring, link: Link) -> list[str]:
@@ -94,7 +98,21 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
     if not element.merges or frame_at(wiring, name, "in") is not None:
         return []
     links = wiring.links_to.get((name, "in"), [])
+    if len(links) > 1 and any(is_vertex(wiring, link[0]) for link in links):
+        return [
+            f"several lights meet at '{name}' in frames of vertices; give each an end of its own"
+        ]
     placed = [link for link in links if frame_at(wiring, link[0], link[2][0]) is not None]
+    frames = [frame_at(wiring, link[0], link[2][0]) for link in placed]
+    for link, frame in zip(placed[1:], frames[1:], strict=True):
+        try:
+            frames[0].turn_to(frame)  # type: ignore[union-attr,arg-type]
+        except OptipathError as fault:
+            both = f"'{link_text(placed[0])}' and '{link_text(link)}'"
+            return [
+                f"light from directions that differ cannot meet at '{name}': {both}: {fault}; "
+                f"give each its own detector"
+            ]
     if len(links) > 1 and placed:
         return [
             f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from optipath.composer.wiring import link_text
 from optipath.domains import ANGLE
 from optipath.errors import ValueFault
@@ -85,7 +87,13 @@ class Values:
         """Return what is wrong with the values that are known, a sentence each."""
         found: list[str] = []
         faulty = set()
+        looked_at = set()
         for use in self.uses:
+            if isinstance(use.value, np.ndarray):
+                # The vertices of a chain share one large array.
+                if (id(use.value), use.domain) in looked_at:
+                    continue
+                looked_at.add((id(use.value), use.domain))
             try:
                 use.check()
             except ValueFault as fault:

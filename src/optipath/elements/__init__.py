@@ -17,6 +17,7 @@ from optipath.elements.registry import element_class
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.source import Source
+from optipath.elements.specular_vertex import SpecularVertex
 from optipath.elements.terminal import Detector, Dump, Terminal
 
 __all__ = [
@@ -39,6 +40,7 @@ __all__ = [
     "Retarder",
     "Rotator",
     "Source",
+    "SpecularVertex",
     "Terminal",
     "element_class",
 ]

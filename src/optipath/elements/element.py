@@ -26,6 +26,8 @@ from optipath.shapes import broadcast_fault
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from optipath.vertices import VertexFrame
+
 
 @dataclass_transform(frozen_default=True, eq_default=False)
 class Element:
@@ -140,6 +142,11 @@ class Element:
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
 
+    def own_frame(self, port: str) -> VertexFrame | None:
+        """Return the world frame that a port has by the values of the element, if it has one."""
+        del port
+        return None
+
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the ways light goes through; by default from ``in`` to ``out`` by `mueller_rows`.
 
@@ -218,9 +225,14 @@ class Element:
         for coupling in self.couplings():
             if (coupling.enters, coupling.leaves) == (enters, leaves):
                 matrix = coupling.matrix(method)
-                return Mueller(matrix, frame_in or Frame(), frame_out or Frame())
+                frame_in = frame_in or self._known_frame(enters)
+                return Mueller(matrix, frame_in, frame_out or self._known_frame(leaves))
         ways = [f"{c.enters} -> {c.leaves}" for c in self.couplings() if c.enters]
         raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
+
+    def _known_frame(self, port: str) -> Frame:
+        own = self.own_frame(port)
+        return Frame() if own is None else own.frame({})
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):

@@ -6,7 +6,7 @@ to the structure of what they return.
 
 from typing import TypeAlias
 
-from optipath.kernels import emission, filters, medium, rotation
+from optipath.kernels import emission, filters, medium, rotation, vertices
 from optipath.kernels.amplitude import (
     amplitude_reflection,
     amplitude_transmission,
@@ -28,6 +28,7 @@ from optipath.kernels.compensated import (
     compensated_reflection,
     compensated_transmission,
 )
+from optipath.kernels.composed import Composed, composed
 from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.elimination import Elimination, is_zero
 from optipath.kernels.jones import Jones
@@ -36,6 +37,7 @@ from optipath.kernels.layers import Stack
 from optipath.kernels.linear import Linear
 from optipath.kernels.parted import Parts, energy, light_of, parts_of, unit_light
 from optipath.kernels.plain import Plain
+from optipath.kernels.points_by_angles import PointsByAngles
 from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
 from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
@@ -144,6 +146,11 @@ TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
+TURN_BETWEEN_PLANES = Kernel(
+    "turn between planes of incidence", ROTATION, vertices.turn_between_planes
+)
+INCIDENCE, ARRIVING, REFLECTED = vertices.incidence, vertices.arriving, vertices.reflected
+"""What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)
@@ -165,6 +172,7 @@ POLARIZED = Kernel("polarized light", None, emission.polarized)
 __all__ = [
     "ABSORPTION_ALONG",
     "ALIGN",
+    "ARRIVING",
     "ATTENUATOR",
     "BLOCK",
     "COMPLEMENT",
@@ -176,6 +184,7 @@ __all__ = [
     "FULL",
     "GIVEN_AMPLITUDES",
     "GIVEN_TURN",
+    "INCIDENCE",
     "MATRIX",
     "METHODS",
     "MIRROR",
@@ -183,6 +192,7 @@ __all__ = [
     "POLARIZED",
     "POLARIZER",
     "POWERS",
+    "REFLECTED",
     "REFLECTION",
     "RETARDANCE_ALONG",
     "RETARDER",
@@ -196,11 +206,13 @@ __all__ = [
     "TRANSMISSION",
     "TURN",
     "TURN_BACK",
+    "TURN_BETWEEN_PLANES",
     "UNPOLARIZED",
     "Boosts",
     "Bounds",
     "Carried",
     "Components",
+    "Composed",
     "DoubleDouble",
     "Elimination",
     "Jones",
@@ -209,6 +221,7 @@ __all__ = [
     "Linear",
     "Parts",
     "Plain",
+    "PointsByAngles",
     "Powers",
     "Primitives",
     "Scaled",
@@ -217,6 +230,7 @@ __all__ = [
     "add",
     "boosted",
     "carry",
+    "composed",
     "cosine",
     "energy",
     "is_zero",

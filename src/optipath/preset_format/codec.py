@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.domains import (
     AMPLITUDE,
+    ANGLE,
     INDEX,
     Choice,
     Domain,
@@ -19,9 +20,12 @@ from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.units import dimension_of, format_quantity, parse_quantity, with_article
+from optipath.vertices import VerticesByAngles, VerticesDomain
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+_ANGLES = ("incidences", "turns")
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -61,6 +65,8 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return Material(**_parts(raw, domain, parameters))
     if isinstance(raw, dict) and domain.complex_parts:
         return _complex(_parts(raw, domain, {}))
+    if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
+        return _by_angles(raw, parameters)
     return _number(raw, domain.unit)
 
 
@@ -105,6 +111,8 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
         return f"{'-' * value.negative}${value.name}"
     if isinstance(value, Material):
         return {"n": encode(value.n, unit), "k": encode(value.k, unit)}
+    if isinstance(value, VerticesByAngles):
+        return {key: [encode(a, ANGLE.unit) for a in getattr(value, key)] for key in _ANGLES}
     if isinstance(value, str):
         return value
     if isinstance(value, np.ndarray) and value.dtype.kind != "c":
@@ -117,7 +125,7 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     if isinstance(value, complex):
         return dict(zip(complex_parts, (value.real, value.imag), strict=True))
     if isinstance(value, (int, float)) and not isinstance(value, bool):
-        return format_quantity(value, unit) if unit and np.isfinite(value) else float(value)
+        return format_quantity(value, unit) if unit and np.isfinite(value) else value
     raise PresetError(f"{value!r} has no form in a preset file; use numbers or parameters")
 
 
@@ -151,6 +159,26 @@ def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dic
 def _complex(parts: Mapping[str, Any]) -> Any:
     real, *imaginary = map(np.asarray, parts.values())
     return (real + 1j * sum(imaginary))[()]
+
+
+def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:
+    faults = [
+        f"key '{key}' is unknown{did_you_mean(key, _ANGLES)}" for key in raw if key not in _ANGLES
+    ]
+    angles: dict[str, list[Any]] = {}
+    for key in _ANGLES:
+        several = raw.get(key, [])
+        if not isinstance(several, list):
+            faults.append(f"{key} must be a list of angles, not {several!r}")
+            continue
+        for place, angle in enumerate(several):
+            try:
+                angles.setdefault(key, []).append(decode(angle, ANGLE, parameters))
+            except OptipathError as fault:
+                faults += [f"{key}[{place}]: {sentence}" for sentence in fault.faults]
+    if faults:
+        raise PresetError(*faults)
+    return VerticesByAngles(tuple(angles.get("incidences", ())), tuple(angles.get("turns", ())))
 
 
 def _number(raw: Any, unit: str) -> Any:

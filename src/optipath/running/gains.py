@@ -95,7 +95,7 @@ def _worst(meeting: Meeting, doubtful: Array) -> tuple[float, float]:
 
 def _lit(number: Any, axes: int) -> Array:
     """Return where an unknown is not 0, in any of the columns that may be found together."""
-    lit = np.asarray(number) != 0.0
+    lit = np.asarray(np.asarray(number) != 0.0)
     while lit.ndim > axes:
-        lit = lit.any(axis=0)
+        lit = np.asarray(lit.any(axis=0))
     return lit

@@ -106,6 +106,8 @@ class Sorter:
             for name, raws in self.raws.items()
             if not inputs.tails[name] and any(raw.part in ("value", "real") for raw in raws)
         }
+        shown = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
+        self._plain |= {name for name, raws in self.raws.items() if raws and shown[name]}
         self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
         self._angles -= {name for name, p in inputs.open.items() if p.optional}
         self._known = np.broadcast_shapes(*inputs.shapes.values())
@@ -136,7 +138,7 @@ class Sorter:
                             Raw(name, part): self._number(getattr(value, part)) for part in _PAIR
                         }
                         continue
-                    if name in self._plain and _is_plain(value):
+                    if name in self._plain and _is_plain(value, self.inputs.tails[name]):
                         real = value
                     else:
                         real, present = self._resolved(name, value)
@@ -175,10 +177,11 @@ class Sorter:
         return resolved
 
 
-def _is_plain(value: Any) -> bool:
+def _is_plain(value: Any, tail: tuple[int, ...]) -> bool:
     if type(value) is float:
-        return True
-    return type(value) is np.ndarray and value.dtype.char in "fd" and value.dtype.isnative
+        return not tail
+    plain = type(value) is np.ndarray and value.dtype.char in "fd" and value.dtype.isnative
+    return plain and value.shape[value.ndim - len(tail) :] == tail
 
 
 def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:

@@ -220,7 +220,7 @@ def known_arrays(program: Program, dtype: np.dtype[Any]) -> dict[str, Array]:
     return {
         f".{place}": view.present()
         if view.part == "present"
-        else view.numbers({}, wide(dtype)).astype(dtype)
+        else view.numbers({}, wide(dtype)).astype(dtype, copy=False)
         for place, view in enumerate(program.leaves)
         if view.known and view.numbers({}).ndim
     }

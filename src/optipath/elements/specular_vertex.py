@@ -1,0 +1,161 @@
+"""SpecularVertex: a reflecting surface that stands where a chain of points asks for it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from optipath.domains import Index, OutsideIndex
+from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.element import Element
+from optipath.frozen import same
+from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
+from optipath.materials import Material
+from optipath.parameters import Parameter
+from optipath.vertices import (
+    Coordinates,
+    VertexFrame,
+    Vertices,
+    VerticesByAngles,
+    VerticesDomain,
+    coordinates,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.domains import Domain
+    from optipath.frames import Frame
+
+
+class SpecularVertex(Element, kind="specular-vertex"):
+    """A smooth opaque surface at one vertex of a chain, perpendicular to the bisector there.
+
+    Its frames come from the points: z along the legs, x = k_out cross k_in across the plane
+    of incidence, as `Interface` has it; a link between neighbours of one chain turns the
+    light by them. What stands relatively beside it, stands in the frame of its port.
+
+    Parameters
+    ----------
+    index : float, complex, array_like, Material or Parameter
+        The index of refraction n + ik of the reflecting medium.
+    vertices : array_like, shape (..., m + 2, 3), Parameter or VerticesByAngles
+        The points from the light, over m reflections, to the eye; in the unit of any length.
+    place : int
+        Which of the m reflections this is, 1 being the first that light meets.
+    outside : float, array_like, Material or Parameter, optional
+        The index of the medium that light comes from, without absorption.
+    reflections : int, optional
+        How many there are, m; needed only where `vertices` is a parameter without default.
+
+    Examples
+    --------
+    >>> corner = SpecularVertex(1.5, [[0, 0, 0], [0, 0, 3], [0, 2, 3]], place=1)
+    >>> print(corner.mueller().frame_out.z)
+    [0. 1. 0.]
+    """
+
+    outputs: ClassVar[tuple[str, ...]] = ("reflected",)
+    natural: ClassVar[str] = "reflected"
+    straight: ClassVar[bool] = False
+
+    index: Index
+    vertices: Vertices
+    place: int
+    outside: OutsideIndex = 1.0
+    reflections: int | None = None
+
+    def __post_init__(self) -> None:
+        """Take whole numbers as such; preset files write them as floats."""
+        super().__post_init__()
+        for name in ("place", "reflections"):
+            value = getattr(self, name)
+            if isinstance(value, float) and value.is_integer():
+                object.__setattr__(self, name, int(value))
+
+    @property
+    def count(self) -> int:
+        """How many reflections there are; 0 where nothing says so."""
+        if isinstance(self.vertices, VerticesByAngles):
+            return len(self.vertices.incidences)
+        if _is_count(self.reflections):
+            return self.reflections  # type: ignore[return-value]
+        value = self.vertices
+        value = value.default if isinstance(value, Parameter) else value
+        shape = () if value is None else np.shape(value)
+        return max(shape[-2] - 2, 0) if len(shape) > 1 else 0
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every value that is a number; which vertex this is, is none."""
+        for name, domain in self.domains().items():
+            value = getattr(self, name)
+            if isinstance(domain, VerticesDomain):
+                whole = replace(domain, tail=(max(self.count, 1) + 2, 3))
+                yield from whole.parts(name, value)
+            elif name not in ("place", "reflections"):
+                yield from domain.parts(name, value)
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the reflection from ``in`` to ``reflected``."""
+        outside = self.outside.n if isinstance(self.outside, Material) else self.outside
+        index = numbers_of(self.index, self.domains()["index"])
+        points = self.points_around()
+        kernels = points.family(REFLECTION, INCIDENCE)
+        operation = Operation(kernels, (outside, *index, *points.arguments))
+        return (Coupling("in", "reflected", (operation,), reflects=True),)
+
+    def own_frame(self, port: str) -> VertexFrame:
+        """Return the frame of a port, made when somebody looks at it."""
+        return VertexFrame(self._points(0), leaves=port == "reflected")
+
+    def points_around(self) -> Coordinates:
+        """Return the three points that say at which angle light meets the surface."""
+        return self._points(self._place - 1)
+
+    def turn_from_before(self) -> Operation:
+        """Return the turn from the frame in which light leaves the vertex before."""
+        points = self._points(0)
+        return Operation(points.kernel(TURN_BETWEEN_PLANES), points.arguments)
+
+    def follows(self, before: Element) -> bool:
+        """Tell whether another element is the vertex before this one, in the same chain."""
+        if not isinstance(before, SpecularVertex) or not _is_count(self.place):
+            return False
+        return before.place == self.place - 1 and same(self.vertices, before.vertices)
+
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        """Check that the chain has this vertex, and that no other frames are given."""
+        found = []
+        if frames:
+            found.append(f"'{owner}' has its frames from its vertices; give it no other frames")
+        if self.reflections is not None and not _is_count(self.reflections):
+            found.append(
+                f"{owner}.reflections must be a whole number above 0, not {self.reflections!r}"
+            )
+        elif not self.count and isinstance(self.vertices, Parameter):
+            found.append(
+                f"{owner}.vertices is a parameter without a default; tell the number of "
+                f"reflections of the chain, reflections=..."
+            )
+        most = self.count or np.inf
+        if not _is_count(self.place) or self.place > most:
+            up_to = f" of 1 .. {self.count}" if self.count else " above 0"
+            given = "a parameter" if isinstance(self.place, Parameter) else repr(self.place)
+            found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
+        return found
+
+    @property
+    def _place(self) -> int:
+        # What is no place is told as a fault, and must not be in the way until then.
+        place = self.place if _is_count(self.place) else 1
+        return min(place, max(self.count, 1))
+
+    def _points(self, first: int) -> Coordinates:
+        count = max(self.count, 1) + 2
+        return coordinates(self.vertices, count, first, self._place + 1)
+
+
+def _is_count(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and value > 0

@@ -1,0 +1,65 @@
+"""The frame of light by the values of a run, made when somebody looks at it."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.frames import Frame
+from optipath.running.layout import sliced
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.inputs import Inputs
+    from optipath.vertices import VertexFrame
+
+
+class LaterFrame:
+    """Makes a frame out of what a run was given.
+
+    Parameters
+    ----------
+    frame : VertexFrame
+        What makes it.
+    inputs : Inputs
+        What could be given.
+    parameters : mapping of str to Any
+        What was; arrays that somebody may change are copied.
+    where : tuple, optional
+        Which part of the batch the light is.
+    """
+
+    def __init__(
+        self, frame: VertexFrame, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()
+    ) -> None:
+        self.frame = frame
+        self.inputs = inputs
+        self.where = where
+        # The batch, of which the light is a part, depends on all of them.
+        kept = parameters if where else frame.names & parameters.keys()
+        self.parameters = {name: _kept(parameters[name]) for name in kept}
+
+    def __call__(self) -> Frame:
+        """Return the frame."""
+        opened = self.inputs.open
+        found = self.frame.frame(
+            {
+                name: opened[name].resolve(self.parameters.get(name, opened[name].default))
+                for name in self.frame.names
+            }
+        )
+        if not self.where:
+            return found
+        _, batch = self.inputs.resolve(self.parameters)
+        axes = (np.moveaxis(axis, -1, 0) for axis in (found.x, found.y, found.z))
+        parts = (np.stack([sliced(c, batch, self.where) for c in axis], axis=-1) for axis in axes)
+        return Frame.trusted(*parts)
+
+
+def _kept(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.copy() if value.flags.writeable else value
+    return deepcopy(value) if isinstance(value, list) else value

@@ -1,0 +1,127 @@
+"""Paths out of the points that light passes: a specular reflection at each but the ends."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements import Detector, Source, SpecularVertex
+from optipath.errors import PathError
+from optipath.frozen import frozen
+from optipath.jax_values import is_traced
+from optipath.materials import Material
+from optipath.parameters import Parameter
+from optipath.path_graph import PathGraph
+from optipath.vertices import VerticesByAngles, normal_faults
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+
+def path_from_vertices(
+    vertices: Any,
+    materials: Sequence[Any],
+    normals: npt.ArrayLike | None = None,
+    intensity: Any = 1.0,
+) -> PathGraph:
+    """Return the path of light from point to point, reflected specularly at each but the ends.
+
+    The surfaces tilt themselves: each is perpendicular to the bisector of its two legs. Angles
+    of incidence and all frames come from the points; ``path.trace().frame`` is the world frame
+    of the last leg, with x = k_out cross k_in at the last vertex. A vertex at which light comes
+    back along its way, or goes straight on, has no plane of incidence of its own, and keeps the
+    x that the light came with.
+
+    Parameters
+    ----------
+    vertices : array_like, shape (..., m + 2, 3), Parameter or VerticesByAngles
+        The points from the light to the eye, in the unit of any length; legs within 1e-70 and
+        1e70. A parameter is given arrays of this shape when the path runs.
+    materials : sequence of m float, complex, array_like, Material or Parameter
+        The index of refraction behind each surface, in order from the light.
+    normals : array_like, shape (..., m, 3), optional
+        The normals of the surfaces, of any length and to either side, to be checked: each is to
+        be along the bisector to within 1e-6 rad.
+    intensity : float, array_like or Parameter, optional
+        Of the unpolarised light.
+
+    Returns
+    -------
+    PathGraph
+        ``light``, ``vertex1`` .. ``vertexm`` and ``eye``, one behind the other.
+
+    Raises
+    ------
+    PathError
+        With every fault of what is given.
+
+    Examples
+    --------
+    Light falls straight down, is reflected to the side by glass, and is fully polarised across
+    the plane of incidence at Brewster's angle; here it arrives at 45 degrees.
+
+    >>> path = path_from_vertices([[0, 0, 3], [0, 0, 0], [0, 4, 0]], materials=[1.5])
+    >>> light = path.trace()
+    >>> print(light.stokes.round(4), light.frame.z)
+    [0.0502 0.0418 0.     0.    ] [0. 1. 0.]
+    """
+    several = _several(materials)
+    chain, faults = _chain(vertices, len(several))
+    if not several:
+        wanted = "a sequence with one for each reflection"
+        raise PathError(*faults, f"materials must be {wanted}, not {materials!r}")
+    if normals is not None and not faults:
+        faults += normal_faults(chain, normals, len(several))
+    # With others in place of faulty vertices, so that the rest is checked too.
+    path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
+    try:
+        path.compose()
+    except PathError as error:
+        faults += error.faults
+    if faults:
+        raise PathError(*faults)
+    return path
+
+
+def _path(chain: Any, materials: Sequence[Any], intensity: Any) -> PathGraph:
+    path = PathGraph()
+    node = path.add("light", Source(intensity))
+    for place, material in enumerate(materials, 1):
+        vertex = SpecularVertex(material, chain, place, reflections=len(materials))
+        node = node >> path.add(f"vertex{place}", vertex)
+    node >> path.add("eye", Detector())
+    return path
+
+
+def _any_chain(count: int) -> VerticesByAngles:
+    return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
+
+
+def _several(materials: Any) -> list[Any]:
+    if isinstance(materials, (Material, Parameter, str)) or not np.iterable(materials):
+        return []
+    return list(materials)
+
+
+def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
+    """Return vertices that nobody can change, and what is wrong with their shape."""
+    if isinstance(vertices, Parameter):
+        return vertices, []
+    if isinstance(vertices, VerticesByAngles):
+        found = len(vertices.incidences)
+        return vertices, [f"vertices have {found} incidences{_for(count)}"] * (found != count)
+    try:
+        chain = vertices if is_traced(vertices) else frozen(np.asarray(vertices))
+    except ValueError:
+        return None, ["vertices have rows of unequal lengths; make them (..., m + 2, 3)"]
+    shape = np.shape(chain)
+    if shape[-2:] == (count + 2, 3) or (not count and len(shape) > 1 and shape[-1] == 3):
+        return chain, []
+    return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {shape}"]
+
+
+def _for(count: int) -> str:
+    return f", m = {count} for {count} material{'s' * (count != 1)}" if count else ""

@@ -1,0 +1,149 @@
+import numpy as np
+import pytest
+
+import optipath as op
+
+CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
+TWICE = [*CORNER, [2.0, 4.0, 0.0]]
+
+
+def path_of(*nodes, links=True):
+    path, before = op.PathGraph(), None
+    for name, element in nodes:
+        node = path.add(name, element)
+        if before is not None and links:
+            before >> node
+        before = node
+    return path
+
+
+def test_a_vertex_reflects_as_an_interface_at_its_angle_does():
+    vertex = op.SpecularVertex(0.608 + 2.12j, CORNER, place=1)
+    matrix = vertex.mueller()
+    expected = op.Interface(0.608 + 2.12j, np.pi / 4).mueller()
+    np.testing.assert_allclose(matrix.matrix, expected.matrix, atol=1e-15)
+    np.testing.assert_array_equal(matrix.frame_in.z, [0, 0, -1])
+    np.testing.assert_array_equal(matrix.frame_out.z, [0, 1, 0])
+
+
+def test_the_medium_that_light_comes_from_may_be_another():
+    vertex = op.SpecularVertex(1.0, CORNER, place=1, outside=1.5)
+    expected = op.Interface(1.0, np.pi / 4, outside=1.5).mueller()
+    np.testing.assert_allclose(vertex.mueller().matrix, expected.matrix, atol=1e-15)
+
+
+@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+def test_every_method_is_there_for_vertices(method):
+    vertex = op.SpecularVertex(0.608 + 2.12j, CORNER, place=1)
+    expected = op.Interface(0.608 + 2.12j, np.pi / 4).mueller(method=method)
+    np.testing.assert_allclose(vertex.mueller(method=method).matrix, expected.matrix, atol=1e-14)
+
+
+def test_a_polarizer_before_a_vertex_stands_in_its_frame_of_incidence():
+    path = path_of(
+        ("lamp", op.Source()),
+        ("filter", op.Polarizer(angle=0.3)),
+        ("vertex", op.SpecularVertex(1.5, CORNER, place=1)),
+        ("eye", op.Detector()),
+    )
+    expected = path_of(
+        ("lamp", op.Source()),
+        ("filter", op.Polarizer(angle=0.3)),
+        ("glass", op.Interface(1.5, np.pi / 4)),
+        ("eye", op.Detector()),
+    )
+    np.testing.assert_allclose(path.trace().stokes, expected.trace().stokes, atol=1e-16)
+    np.testing.assert_array_equal(path.mueller().frame_in.x, [-1, 0, 0])
+
+
+def test_light_behind_an_analyzer_is_told_in_the_frame_of_the_vertex_before_it():
+    vertex = op.SpecularVertex(1.5, CORNER, place=1)
+    nodes = [("lamp", op.Source()), ("vertex", vertex)]
+    straight = path_of(*nodes, ("analyzer", op.Polarizer(0.2)), ("eye", op.Detector()))
+    np.testing.assert_array_equal(straight.trace().frame.z, [0, 1, 0])
+    turned = path_of(*nodes, ("analyzer", op.Polarizer(azimuth=0.2)), ("eye", op.Detector()))
+    assert turned.trace().frame == op.Frame(), "its own frame is nowhere in the world"
+
+
+def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
+    first, second = (op.SpecularVertex(1.5, TWICE, place) for place in (1, 2))
+    path = op.PathGraph()
+    for name, element in (("b", second), ("a", first), ("lamp", op.Source()), ("e", op.Detector())):
+        path.add(name, element)
+    path["lamp"] >> path["a"] >> path["b"] >> path["e"]
+    expected = op.path_from_vertices(TWICE, [1.5, 1.5]).trace()
+    assert path.trace() == expected
+
+
+@pytest.mark.parametrize(
+    ("vertex", "message"),
+    [
+        (op.SpecularVertex(1.5, CORNER, place=2), r"vertex.place must be .* of 1 .. 1, not 2"),
+        (op.SpecularVertex(1.5, CORNER, place=0), r"vertex.place must be .* not 0"),
+        (op.SpecularVertex(1.5, CORNER, place=1.5), r"vertex.place must be .* not 1.5"),
+        (op.SpecularVertex(1.5, CORNER, 1, reflections=-1), r"reflections must be .* not -1"),
+        (op.SpecularVertex(1.5, CORNER, 1, reflections=2), r"shape \(..., 4, 3\), not \(3, 3\)"),
+        (op.SpecularVertex(1.5, op.Parameter("v"), 1), r"tell the number of reflections"),
+        (op.SpecularVertex(1.5, [1.0, 2.0], 1), r"shape \(..., 3, 3\), not \(2,\)"),
+        (op.SpecularVertex(1.5, [[1j, 0, 0], [0, 1, 0], [0, 0, 1]], 1), "is complex"),
+    ],
+)
+def test_a_vertex_that_is_not_in_its_chain_is_refused(vertex, message):
+    path = path_of(("lamp", op.Source()), ("vertex", vertex), ("eye", op.Detector()))
+    with pytest.raises(op.PathError, match=message):
+        path.check()
+
+
+def test_a_vertex_takes_no_frames_but_its_own():
+    path = op.PathGraph()
+    vertex = op.SpecularVertex(1.5, CORNER, place=1)
+    lamp, eye = path.add("lamp", op.Source()), path.add("eye", op.Detector())
+    lamp >> path.add("vertex", vertex, {"in": op.Frame()}) >> eye
+    with pytest.raises(op.PathError, match="'vertex' has its frames from its vertices"):
+        path.check()
+
+
+def test_vertices_that_do_not_follow_each_other_are_refused():
+    first, other = op.SpecularVertex(1.5, TWICE, 1), op.SpecularVertex(1.5, TWICE[::-1], 2)
+    for second in (first, other):
+        path = path_of(("lamp", op.Source()), ("a", first), ("b", second), ("eye", op.Detector()))
+        with pytest.raises(op.PathError, match="must lead from a vertex to the next of one chain"):
+            path.check()
+
+
+def test_what_stands_relatively_between_two_vertices_is_refused():
+    path = path_of(
+        ("lamp", op.Source()),
+        ("a", op.SpecularVertex(1.5, TWICE, 1)),
+        ("filter", op.Polarizer()),
+        ("b", op.SpecularVertex(1.5, TWICE, 2)),
+        ("eye", op.Detector()),
+    )
+    with pytest.raises(op.PathError, match=r"'filter' stands relatively between .* 'a' and 'b'"):
+        path.check()
+
+
+def test_world_frames_beside_a_vertex_are_refused():
+    path = path_of(("vertex", op.SpecularVertex(1.5, CORNER, 1)), ("eye", op.Detector()))
+    path.add("lamp", op.Source(), {"out": op.Frame()}) >> path["vertex"]
+    with pytest.raises(op.PathError, match="'lamp' has world frames of its own"):
+        path.check()
+
+
+def test_an_azimuth_between_vertices_is_refused():
+    path = path_of(("lamp", op.Source()), ("a", op.SpecularVertex(1.5, TWICE, 1)), links=False)
+    path.add("b", op.SpecularVertex(1.5, TWICE, 2)) >> path.add("eye", op.Detector())
+    path["lamp"] >> path["a"]
+    path.connect("a.reflected", "b.in", azimuth=0.1)
+    with pytest.raises(op.PathError, match="by its vertices and by an azimuth"):
+        path.check()
+
+
+def test_lights_of_several_vertices_do_not_meet():
+    path = path_of(("lamp", op.Source()), ("a", op.SpecularVertex(1.5, CORNER, 1)))
+    path["lamp"] >> path.add("b", op.SpecularVertex(1.5, CORNER, 1))
+    eye = path.add("eye", op.Detector())
+    path["a"] >> eye
+    path["b"] >> eye
+    with pytest.raises(op.PathError, match="several lights meet at 'eye' in frames of vertices"):
+        path.check()

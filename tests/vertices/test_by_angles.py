@@ -1,0 +1,104 @@
+import numpy as np
+import pytest
+
+import optipath as op
+from chains import ENGINES
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5])
+def test_points_have_the_angles_that_they_were_made_of(count):
+    rng = np.random.default_rng(count)
+    incidences = rng.uniform(0.1, 1.5, (count, 20))
+    turns = rng.uniform(-3.0, 3.0, (count - 1, 20))
+    points = op.vertices_from_angles(list(incidences), list(turns))
+    assert points.shape == (20, count + 2, 3)
+    legs, frame = np.diff(points, axis=-2), None
+    np.testing.assert_allclose(np.linalg.norm(legs, axis=-1), 1.0, rtol=1e-15)
+    for vertex in range(count):
+        before, behind = legs[:, vertex], legs[:, vertex + 1]
+        meets = op.plane_of_incidence(before, behind - before)
+        np.testing.assert_allclose(meets.incidence, incidences[vertex], rtol=1e-13)
+        if frame is not None:
+            expected = frame.turned(turns[vertex - 1])
+            np.testing.assert_allclose(meets.arriving.x, expected.x, atol=1e-13)
+        frame = meets.reflected
+
+
+def test_the_middle_leg_lies_along_the_worlds_z():
+    points = op.vertices_from_angles([0.3, 0.4, 0.5], [1.0, 2.0])
+    np.testing.assert_array_equal(points[1:3], [[0, 0, 0], [0, 0, 1]])
+
+
+def test_angles_given_as_arrays_broadcast():
+    points = op.vertices_from_angles([np.zeros((4, 1)), np.ones(3)], [0.5])
+    assert points.shape == (4, 3, 4, 3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_chain_by_angles_is_the_chain_of_its_points(engine):
+    rng = np.random.default_rng(1)
+    phi, delta, rho = rng.uniform(0.05, 1.5, (3, 2000))
+    names = [op.Parameter(name) for name in ("phi", "delta", "rho")]
+    chain = op.VerticesByAngles((names[0], names[1]), (-names[2],))
+    composer = op.Composer(engine=engine)
+    plan = composer.compose(op.path_from_vertices(chain, [1.5, 1.12 + 2.16j]))
+    light = plan.run(phi=phi, delta=delta, rho=rho)
+    points = op.vertices_from_angles([phi, delta], [-rho])
+    expected = op.path_from_vertices(points, [1.5, 1.12 + 2.16j]).trace()
+    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-11, atol=1e-15)
+    np.testing.assert_allclose(light.frame.x, expected.frame.x, atol=1e-13)
+
+
+def test_angles_can_be_bound_for_good():
+    chain = op.VerticesByAngles((op.Parameter("phi"), 0.4), (op.Parameter("turn"),))
+    path = op.path_from_vertices(chain, [1.5, 1.5])
+    assert path.parameters["phi"].unit == "deg"
+    light, expected = path.bind(phi=0.3, turn=1.0).trace(), path.trace(phi=0.3, turn=1.0)
+    np.testing.assert_allclose(light.stokes, expected.stokes, atol=1e-16)
+    assert light.frame == expected.frame
+
+
+def test_angles_go_to_toml_and_back(tmp_path):
+    chain = op.VerticesByAngles((op.Parameter("phi", 0.5), 0.25), (-op.Parameter("rho", 0.125),))
+    path = op.path_from_vertices(chain, [1.5, 1.12 + 2.16j])
+    file = tmp_path / "chain.toml"
+    file.write_text(path.to_toml(), "utf-8")
+    assert op.load_preset(file) == path
+    assert 'turns = ["-$rho"]' in path.to_toml()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (((),), "need an incidence for each reflection"),
+        (((0.1, 0.2),), "2 incidences take 1 turns, .* not 0"),
+        (((0.1,), (0.2,)), "1 incidences take 0 turns, .* not 1"),
+        ((0.1,), "incidences must be a sequence of angles, not 0.1"),
+        (("0.1",), "incidences must be a sequence of angles"),
+    ],
+)
+def test_angles_that_make_no_chain_are_refused(arguments, message):
+    for make in (op.VerticesByAngles, op.vertices_from_angles):
+        with pytest.raises(op.PathError, match=message):
+            make(*arguments)
+
+
+def test_an_incidence_out_of_its_range_is_refused():
+    with pytest.raises(op.ValueFault, match=r"vertices.incidences\[0\] is 114"):
+        op.vertices_from_angles([2.0])
+
+
+def test_tables_of_angles_with_faults_are_told_by_key(tmp_path):
+    text = op.path_from_vertices(op.VerticesByAngles((0.25,)), [1.5]).to_toml()
+    file = tmp_path / "chain.toml"
+    for table, messages in (
+        ('{ incidence = ["1 deg"] }', ["key 'incidence' is unknown", "did you mean 'incidences'"]),
+        ("{ incidences = [0.5], turns = 3 }", ["incidences[0]: 0.5 has no unit", "turns must be"]),
+        ("{ turns = [] }", ["need an incidence"]),
+    ):
+        start = text.index("vertices = ") + len("vertices = ")
+        file.write_text(text[:start] + table + text[text.index("\n", start) :], "utf-8")
+        with pytest.raises(op.PathError) as error:
+            op.load_preset(file)
+        for message in messages:
+            assert message in str(error.value)
