@@ -290,11 +290,10 @@ class Plan:
         Examples
         --------
         >>> import optipath as op
-        >>> for path in op.load_preset("glass-slab").compose().paths(limit=3):
+        >>> for path in op.load_preset("coated-metal").compose().paths(limit=2):
         ...     print(path)
-        0.911612  lamp.out -> front.transmitted -> back.transmitted -> transmitted
-        0.0457336  lamp.out -> front.reflected -> reflected
-        0.0398067  lamp.out -> front.transmitted -> back.reflected -> front.reflected -> reflected
+        0.539067  lamp.out -> surface.transmitted -> metal.reflected -> surface.reflected -> eye
+        0.388729  lamp.out -> surface.transmitted -> metal.transmitted -> heat
         """
         from optipath.light_paths import light_paths  # noqa: PLC0415 - not for every import
 

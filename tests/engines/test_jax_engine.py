@@ -12,6 +12,10 @@ jnp = jax.numpy
 METAL = {"k1": 2.16, "n2": 0.608, "k2": 2.12, "delta": 0.8, "rho": 0.5, "phi": 0.4}
 
 
+# Light that goes round, or through a stack, has no one Jones vector.
+WITHOUT_JONES = {"glass-slab", "coated-metal", "pile-of-plates", "sky-and-window"}
+
+
 @pytest.fixture(autouse=True)
 def _double():
     jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
@@ -23,6 +27,8 @@ def _double():
 @pytest.mark.parametrize("composing", ["stokes", "jones"])
 def test_every_preset_gives_what_numpy_gives(name, composing):
     path = op.load_preset(name)
+    if composing == "jones" and name in WITHOUT_JONES:
+        return
     plans = [
         op.Composer(engine=engine, composing=composing).compose(path) for engine in ("numpy", "jax")
     ]
