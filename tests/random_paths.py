@@ -47,7 +47,7 @@ class Draw:
         return op.Polarizer(0.0, 0.0, float(self.rng.uniform(0.3, 1)), 0.2).mueller().matrix
 
     def element(self):
-        match self.rng.integers(13):
+        match self.rng.integers(14):
             case 0 | 1 | 2:
                 incidence, outside = self.number(0, np.pi / 2), float(self.rng.choice([1.0, 1.5]))
                 return op.Interface(self.index(), incidence, outside, self.turn())
@@ -72,6 +72,9 @@ class Draw:
                 return op.Depolarizer(self.number(0, 1))
             case 11:
                 return self.medium()
+            case 12:
+                layers = [self.number(1, 2.5) for _ in range(self.rng.integers(1, 4))]
+                return op.LayerStack([1.0, *layers, self.index()], self.number(0, 1.5), self.turn())
         return op.BeamSplitter(float(self.rng.uniform(0, 1)), self.turn())
 
     def amplitude(self):
@@ -101,9 +104,12 @@ class Draw:
         state[2] *= self.chance(0.5)
         return op.Source(intensity, [1.0, *state])
 
-    def path(self):
-        """A path that parts and meets; every light ends in a detector or a dump."""
-        path, lights = op.PathGraph(), []
+    def path(self, *, loops=False):
+        """A path that parts and meets; every light ends in a detector or a dump.
+
+        With loops, some light goes back into beam splitters that it may come from.
+        """
+        path, lights, splitters = op.PathGraph(loops="sum"), [], []
         for number in range(self.rng.integers(1, 3)):
             path.add(f"s{number}", self.source())
             lights.append(f"s{number}.out")
@@ -115,7 +121,14 @@ class Draw:
                     path.connect(light, f"c{number}.in", azimuth=azimuth)
                 lights.append(f"c{number}.out")
                 continue
+            if loops and splitters and len(lights) > 1 and self.chance(0.5):
+                light = lights.pop(self.rng.integers(len(lights)))
+                path.connect(light, f"{splitters.pop()}.back", azimuth=self.turn())
+                continue
             element = self.element()
+            if loops and self.chance(0.4):
+                element = op.BeamSplitter(self.number(0.1, 0.9), self.turn())
+                splitters.append(f"e{number}")
             path.add(f"e{number}", element)
             path.connect(lights.pop(self.rng.integers(len(lights))), f"e{number}.in")
             ways = {coupling.leaves for coupling in element.couplings()}

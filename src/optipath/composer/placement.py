@@ -32,7 +32,18 @@ def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
     """Return the turn of a relatively placed link: its own, or else its element's."""
     own = wiring.graph.edges[link]["azimuth"]
-    return getattr(wiring.elements[link[1]], "azimuth", 0.0) if own is None else own
+    return _element_turn(wiring, link) if own is None else own
+
+
+def _element_turn(wiring: Wiring, link: Link) -> Any:
+    """Return the azimuth of the element that a link leads to, which is that of its ``in``.
+
+    Light that comes from behind is in the plane of the element already, or its link says how
+    it stands to it.
+    """
+    element, enters = wiring.elements[link[1]], link[2][1]
+    is_other = enters != "in" and "in" in element.inputs
+    return 0.0 if is_other else getattr(element, "azimuth", 0.0)
 
 
 def alignment(wiring: Wiring, link: Link) -> Operation | None:
@@ -72,7 +83,7 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     start, end, (leaves, enters) = link
     element = wiring.elements[end]
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
-    own, element_turn = wiring.graph.edges[link]["azimuth"], getattr(element, "azimuth", 0.0)
+    own, element_turn = wiring.graph.edges[link]["azimuth"], _element_turn(wiring, link)
     text = f"link '{link_text(link)}'"
     if own is not None and not _is_zero(element_turn):
         return [f"{text} and '{end}' both give an azimuth; give it in one place"]

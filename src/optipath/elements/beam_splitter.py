@@ -28,7 +28,8 @@ class BeamSplitter(Element, kind="beam-splitter"):
     reflectance : float, array_like or Parameter, optional
         The fraction reflected, 0 to 1; the rest is transmitted.
     azimuth : float, array_like or Parameter, optional
-        The turn of its frame, x = s, against the frame of the port before it.
+        The turn of the frame of ``in``, x = s, against the frame of the port before it; for
+        ``back``, a link may say it.
 
     Examples
     --------

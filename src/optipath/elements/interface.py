@@ -37,8 +37,9 @@ class Interface(Element, kind="interface"):
     outside : float, array_like, Material or Parameter, optional
         The index of the medium in front, without absorption.
     azimuth : float, array_like or Parameter, optional
-        The angle by which the frame of ``in``, or ``back``, is turned about the direction
-        of travel against the frame of the port before it.
+        The angle by which the frame of ``in`` is turned about the direction of travel
+        against the frame of the port before it. For ``back``, which light from the next
+        boundary of a stack enters without a turn, a link may say it.
     incidence_in : float, array_like, Material or Parameter, optional
         The index of the medium in which the incidence is measured; ``outside`` by default.
         With it, one angle serves all parallel interfaces of a stack, refracted from the medium

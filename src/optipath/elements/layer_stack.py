@@ -38,7 +38,8 @@ class LayerStack(Element, kind="layer-stack"):
     incidence : float, array_like or Parameter
         The angle of incidence in radians, 0 to pi/2, in the medium in front.
     azimuth : float, array_like or Parameter, optional
-        The turn of its frame, x = s, against the frame of the port before it.
+        The turn of the frame of ``in``, x = s, against the frame of the port before it; for
+        ``back``, a link may say it.
 
     Examples
     --------
