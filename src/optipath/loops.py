@@ -59,6 +59,8 @@ class Meeting:
         ``numbers(evaluation)`` gives the numbers of an evaluation.
     xp : Primitives
         What is computed with.
+    number : callable
+        What is done to each number that comes of unit lights, which have no precision.
 
     Attributes
     ----------
@@ -73,8 +75,14 @@ class Meeting:
     """
 
     def __init__(
-        self, program: Program, loop: Loop, numbers: Callable[[int], Numbers], xp: Primitives
+        self,
+        program: Program,
+        loop: Loop,
+        numbers: Callable[[int], Numbers],
+        xp: Primitives,
+        number: Callable[[Any], Any],
     ) -> None:
+        self.number = number
         self.program = program
         self.loop = loop
         self.numbers = numbers
@@ -85,7 +93,7 @@ class Meeting:
         self._system = Elimination(
             xp,
             [self.scattered(column.back) for column in self.columns],
-            [column.leaves for column in self.columns],
+            [self._settled(column.leaves) for column in self.columns],
             [part < 2 for _, part in self.unknowns],
         )
         self.pivots = self._system.pivots
@@ -102,7 +110,7 @@ class Meeting:
         self.found = found
         lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())
         for (knot, _), number in zip(self.unknowns, found, strict=True):
-            lights[knot] = (*lights[knot], number)
+            lights[knot] = (*lights[knot], self.number(number))
         return lights
 
     @property
@@ -113,10 +121,13 @@ class Meeting:
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
         """Return the parts of the lights at some knots by their place among the unknowns."""
         return {
-            self._place[knot, part]: number
+            self._place[knot, part]: self._settled(number)
             for knot, parts in lights.items()
             for part, number in enumerate(parts)
         }
+
+    def _settled(self, number: Any) -> Any:
+        return 0.0 if is_zero(number) else self.number(number)
 
     def _column(self, knot: int, part: int) -> Column:
         """Follow a unit of light at a knot to the next ones."""

@@ -72,7 +72,7 @@ def walk(
 
     for light, step in enumerate(program.steps):
         if light in loops:
-            meeting = Meeting(program, loops[light], numbers_of, way.xp)
+            meeting = Meeting(program, loops[light], numbers_of, way.xp, number)
             states |= _met(meeting, states, way)
             if meetings is not None:
                 meetings.append(meeting)

@@ -108,10 +108,14 @@ def test_no_number_changes_its_precision_on_the_way(dtype, way):
     paths += [branches(), op.load_preset("npgr026", filter=["none", "horizontal"])]
     for path in paths:
         plan = op.Composer(dtype=dtype).compose(path)
+        structures = (evaluation.kernel.structure for evaluation in plan.whole.evaluations)
+        has_jones = all(s is None or s.jones is not None for s in structures)
+        if way is Jones and (plan.whole.loops or not has_jones):
+            continue
         given_, _ = plan.inputs.resolve({"theta": 0.3} if "theta" in plan.inputs.open else {})
         leaves = [view.numbers(given_) for view in plan.whole.leaves]
         leaves = [n if n.dtype == bool else n.astype(dtype) for n in leaves]
-        for stokes, _ in walk(
-            plan.whole, leaves, way(NUMPY), None, lambda number: np.asarray(number, dtype)
-        ).values():
-            assert {np.asarray(component).dtype for component in stokes} == {np.dtype(dtype)}
+        found = walk(plan.whole, leaves, way(NUMPY), None, lambda number: np.asarray(number, dtype))
+        for reading in plan.whole.readings.values():
+            read = found[reading.light][0][: reading.components]
+            assert {np.asarray(component).dtype for component in read} == {np.dtype(dtype)}

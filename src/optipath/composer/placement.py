@@ -120,10 +120,8 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
             frames[0].turn_to(frame)  # type: ignore[union-attr,arg-type]
         except OptipathError as fault:
             both = f"'{link_text(placed[0])}' and '{link_text(link)}'"
-            return [
-                f"light from directions that differ cannot meet at '{name}': {both}: {fault}; "
-                f"give each its own detector"
-            ]
+            problem = f"light from directions that differ cannot meet at '{name}': {both}: {fault}"
+            return [f"{problem}; give each its own detector"]
     if len(links) > 1 and placed:
         return [
             f"several lights meet at '{name}' in world frames; give '{name}' a frame of its own"

@@ -48,7 +48,7 @@ def reduced(whole: Program, *, constants: bool) -> Reduction:
         live = Live(program)
         program, left_out = trim(live)
         folded += [f"left out, since it changes nothing alive: {name}" for name in left_out]
-        if len(program.steps) == before:
+        if len(program.steps) == before or not left_out:
             break
     else:
         live = Live(program)

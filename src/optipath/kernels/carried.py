@@ -149,7 +149,7 @@ def stokes_of(xp: Primitives, carried: Carried) -> Components:
     (1.0, -0.5, 0.0, 0.0)
     """
     weak, s1, s2, s3 = all_four(carried)
-    return 2.0 * weak + xp.absolute(s1), s1, s2, s3
+    return (2.0 * weak if len(carried) == 1 else 2.0 * weak + xp.absolute(s1)), s1, s2, s3
 
 
 def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:

@@ -76,4 +76,4 @@ def light_of(xp: Primitives, parts: Parts) -> Carried:
 
 def energy(xp: Primitives, carried: Carried) -> Any:
     """Return the intensity S0 of carried light."""
-    return 2.0 * carried[0] if len(carried) == 1 else stokes_of(xp, carried)[0]
+    return stokes_of(xp, carried)[0]
