@@ -5,18 +5,19 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from optipath.domains import Angle, Fraction
-from optipath.elements.coupling import Coupling, Operation
-from optipath.elements.element import Element
+from optipath.elements.coupling import Operation
+from optipath.elements.four_port import FourPort
 from optipath.elements.frame_checks import same_frame, share_x
 from optipath.kernels import COMPLEMENT, MIRROR
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.elements.coupling import Coupling
     from optipath.frames import Frame
 
 
-class BeamSplitter(Element, kind="beam-splitter"):
+class BeamSplitter(FourPort, kind="beam-splitter"):
     """A lossless beam splitter that does not polarise.
 
     Light that enters at ``in`` leaves in part at ``reflected``, as from an ideal
@@ -37,25 +38,16 @@ class BeamSplitter(Element, kind="beam-splitter"):
     BeamSplitter(reflectance=0.3, azimuth=0.0)
     """
 
-    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
-    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
-    entry: ClassVar[str] = "in"
     natural: ClassVar[str] = ""
-    straight: ClassVar[bool] = False
-
     reflectance: Fraction = 0.5
     azimuth: Angle = 0.0
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the mirror and what passes it, from either side."""
-        mirror = (Operation(MIRROR, (self.reflectance,)),)
-        passing = (Operation(COMPLEMENT, (self.reflectance,)),)
-        return (
-            Coupling("in", "reflected", mirror, reflects=True),
-            Coupling("in", "transmitted", passing),
-            Coupling("back", "transmitted", mirror, reflects=True),
-            Coupling("back", "reflected", passing),
-        )
+        mirror = Operation(MIRROR, (self.reflectance,))
+        passing = Operation(COMPLEMENT, (self.reflectance,))
+        both = mirror, passing
+        return self._ways(both, both)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that transmitted light keeps its frame and reflected light its x."""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from optipath.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
 from optipath.elements.boundary_frames import boundary_faults
-from optipath.elements.coupling import Coupling, Operation, numbers_of
-from optipath.elements.element import Element
+from optipath.elements.coupling import Operation, numbers_of
+from optipath.elements.four_port import FourPort
 from optipath.kernels import REFLECTION, TRANSMISSION
 from optipath.materials import Material
 from optipath.views import View
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.domains import Domain
+    from optipath.elements.coupling import Coupling
     from optipath.frames import Frame
 
 
-class Interface(Element, kind="interface"):
+class Interface(FourPort, kind="interface"):
     """A smooth boundary; its frames have x = s, perpendicular to the plane of incidence.
 
     Light from the front enters at ``in``; what is reflected leaves at ``reflected``, and what
     is refracted at ``transmitted``, as the power carried into the medium behind. Light from
-    behind enters at ``back``, against the way in which ``transmitted`` leaves: what is
-    reflected leaves at ``transmitted``, and what is refracted at ``reflected``. It needs a
-    medium behind that does not absorb.
+    behind enters at ``back``: what is reflected leaves at ``transmitted``, and what is
+    refracted at ``reflected``. It needs a medium behind that does not absorb.
 
     Parameters
     ----------
@@ -54,12 +54,6 @@ class Interface(Element, kind="interface"):
     0.96
     """
 
-    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
-    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
-    natural: ClassVar[str] = "reflected"
-    entry: ClassVar[str] = "in"
-    straight: ClassVar[bool] = False
-
     index: Index
     incidence: Incidence
     outside: OutsideIndex = 1.0
@@ -76,14 +70,10 @@ class Interface(Element, kind="interface"):
         media = (_real(self.outside), n, k)
         angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
         before = () if self.incidence_in is None else (_real(self.incidence_in),)
-        reflect = (Operation(REFLECTION, (*media, *before, *angle)),)
-        transmit = (Operation(TRANSMISSION, (*media, *before, *angle)),)
-        return (
-            Coupling("in", "reflected", reflect, reflects=True),
-            Coupling("in", "transmitted", transmit),
-            Coupling("back", "transmitted", reflect, reflects=True),
-            Coupling("back", "reflected", transmit),
-        )
+        reflect = Operation(REFLECTION, (*media, *before, *angle))
+        transmit = Operation(TRANSMISSION, (*media, *before, *angle))
+        both = reflect, transmit
+        return self._ways(both, both)
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
         """Return that the medium behind must not absorb where light comes from there."""

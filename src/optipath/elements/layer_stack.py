@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 from optipath.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
 from optipath.elements.boundary_frames import boundary_faults
-from optipath.elements.coupling import Coupling, Operation, numbers_of
-from optipath.elements.element import Element
+from optipath.elements.coupling import Operation, numbers_of
+from optipath.elements.four_port import FourPort
 from optipath.kernels import (
     STACK_REFLECTION,
     STACK_REFLECTION_BACK,
@@ -20,10 +20,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.domains import Domain
+    from optipath.elements.coupling import Coupling
     from optipath.frames import Frame
 
 
-class LayerStack(Element, kind="layer-stack"):
+class LayerStack(FourPort, kind="layer-stack"):
     """Smooth parallel layers on a substrate, with the ports of an `Interface`.
 
     Light goes to and fro between the boundaries; intensities add up, as they do in layers much
@@ -48,12 +49,6 @@ class LayerStack(Element, kind="layer-stack"):
     0.923077 0.923077
     """
 
-    inputs: ClassVar[tuple[str, ...]] = ("in", "back")
-    outputs: ClassVar[tuple[str, ...]] = ("reflected", "transmitted")
-    natural: ClassVar[str] = "reflected"
-    entry: ClassVar[str] = "in"
-    straight: ClassVar[bool] = False
-
     indices: Indices
     incidence: Incidence
     azimuth: Angle = 0.0
@@ -64,13 +59,9 @@ class LayerStack(Element, kind="layer-stack"):
         media = [n for n, _ in pairs]
         angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
         front, back = (*media, pairs[-1][1], *angle), (*media[::-1], 0.0, *angle)
-        return (
-            Coupling("in", "reflected", (Operation(STACK_REFLECTION, front),), reflects=True),
-            Coupling("in", "transmitted", (Operation(STACK_TRANSMISSION, front),)),
-            Coupling(
-                "back", "transmitted", (Operation(STACK_REFLECTION_BACK, back),), reflects=True
-            ),
-            Coupling("back", "reflected", (Operation(STACK_TRANSMISSION_BACK, back),)),
+        return self._ways(
+            (Operation(STACK_REFLECTION, front), Operation(STACK_TRANSMISSION, front)),
+            (Operation(STACK_REFLECTION_BACK, back), Operation(STACK_TRANSMISSION_BACK, back)),
         )
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
