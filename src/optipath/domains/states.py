@@ -1,0 +1,64 @@
+"""Domains of Stokes vectors, and of the amplitudes of reflection."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.domains.domain import Domain
+from optipath.errors import ValueFault
+
+_ROUNDING = 1e-12
+
+
+class AmplitudeDomain(Domain):
+    """Complex numbers of a size of 1 or less."""
+
+    complex_parts = ("re", "im")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of both parts."""
+        return -1.0 - _ROUNDING, 1.0 + _ROUNDING
+
+    def quickly_allows(self, value: Any) -> bool:
+        """Tell, for plain floats, whether all is well."""
+        return type(value) is float and -1.0 <= value <= 1.0
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return f"a real or complex {self.name} of a size of 1 or less"
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        # Cut off, so that squares of what is far too much do not overflow.
+        parts = (np.minimum(np.abs(part), 2.0) for part in (array.real, array.imag))
+        bad = np.hypot(*parts) > 1.0 + _ROUNDING
+        if np.any(bad):
+            raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
+
+
+class StokesDomain(Domain):
+    """Stokes vectors that light can have; none at all is unpolarised light."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the vector, if there is one."""
+        return [] if value is None else super().parts(name, value)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+        super()._check_numbers(owner, array)
+        negative = array[..., 0] < 0.0
+        if np.any(negative):
+            value = array[..., 0][negative].ravel()[0]
+            raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
+        dark = array[..., :1] == 0.0
+        shares = np.abs(array[..., 1:]) / np.where(dark, 1.0, array[..., :1])
+        # Cut off, so that squares of what is far too much do not overflow.
+        polarised = np.linalg.norm(np.minimum(shares, 2.0), axis=-1)
+        bad = polarised > np.where(dark[..., 0], 0.0, 1.0 + _ROUNDING)
+        if np.any(bad):
+            state = array[bad].reshape(-1, 4)[0].tolist()
+            raise ValueFault(
+                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
+            )
