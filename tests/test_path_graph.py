@@ -310,3 +310,32 @@ def test_steps_grow_with_the_elements():
         return len(path.compose().program.steps)
 
     assert steps(200) - steps(100) == 200
+
+
+def test_the_light_on_every_link_and_outlet_is_kept_when_asked():
+    path = op.load_preset("npgr026", case="8")
+    kept = path.trace(keep="all")
+    assert set(kept) == {
+        "E",
+        "L.out -> P.in",
+        "P.out -> X2.in",
+        "X2.reflected -> X1.in",
+        "X1.reflected -> E.in",
+        "X1.transmitted",
+        "X2.transmitted",
+    }
+    np.testing.assert_array_equal(kept["E"].stokes, kept["X1.reflected -> E.in"].stokes)
+    # Both interfaces absorb what they do not reflect, and hand it on behind.
+    total = kept["X2.reflected -> X1.in"].intensity + kept["X2.transmitted"].intensity
+    assert total == pytest.approx(kept["P.out -> X2.in"].intensity, rel=1e-15)
+    with pytest.raises(op.ParameterError, match="keep 'some' is unknown"):
+        path.trace(keep="some")
+
+
+def test_a_parameter_called_keep_is_given_by_that_name():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(op.Parameter("keep", default=2.0)))
+    lamp >> path.add("eye", op.Detector())
+    assert path.trace(keep=3.0).intensity == 3.0
+    assert path.trace().intensity == 2.0
+    assert set(path.bind(keep=5.0).trace(keep="all")) == {"eye", "lamp.out -> eye.in"}

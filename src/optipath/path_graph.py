@@ -10,7 +10,7 @@ import networkx as nx
 
 from optipath.binding import bind
 from optipath.cases import Case
-from optipath.composer import LOOPS, Composer, parameters_of, validate
+from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Detector, Element
 from optipath.errors import ParameterError, PathError, did_you_mean
@@ -254,7 +254,8 @@ class PathGraph:
         keep : {"ends", "all"}, optional
             With ``"all"``, the light at every end, on every link, such as
             ``"lamp.out -> eye.in"``, and at every outlet, such as ``"glass.transmitted"``, by
-            name, each in the frame in which it leaves its element.
+            name, each in the frame in which it leaves its element. A path with an open
+            parameter called ``keep`` takes it for that; compose it by ``Composer(keep="all")``.
         **parameters : float or array_like
             The values of open parameters.
 
@@ -263,15 +264,15 @@ class PathGraph:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        if "keep" in self.parameters:
-            raise ParameterError(
-                "a parameter of this path is called 'keep', as the option of trace is; use "
-                "plan.run, or rename it"
-            )
-        if keep == "ends":
-            return self.compose().run(**parameters)
+        plan = self.compose()
+        if "keep" in plan.inputs.open and not _is(keep, KEPT[0]):
+            return plan.run(keep=keep, **parameters)
+        if _is(keep, KEPT[0]):
+            return plan.run(**parameters)
+        if not _is(keep, KEPT[1]):
+            raise ParameterError(f"keep {keep!r} is unknown{did_you_mean(str(keep), KEPT)}")
         if self._plan_of_all is None:
-            self._plan_of_all = Composer(keep=keep).compose(self._graph)
+            self._plan_of_all = Composer(keep="all").compose(self._graph)
         return self._plan_of_all.run_all(**parameters)
 
     def paths(
@@ -360,6 +361,10 @@ class PathGraph:
     def __repr__(self) -> str:
         nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
         return f"<PathGraph with {nodes} nodes and {links} links>"
+
+
+def _is(given: Any, word: str) -> bool:
+    return isinstance(given, str) and given == word
 
 
 def _links(graph: nx.MultiDiGraph) -> dict[Any, Any]:

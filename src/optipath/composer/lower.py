@@ -189,7 +189,7 @@ class _Lowering:
         return self.builder.step(label, inputs, kernel, views, presence, **about)
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
-        """Return the frame in which light leaves an element."""
+        """Return the frame in which light leaves an element; the unit frame if none is known."""
         element = self.wiring.elements[name]
         if isinstance(element, SpecularVertex):
             return element.own_frame(port)
@@ -200,12 +200,14 @@ class _Lowering:
         own = frame_at(self.wiring, name, port)
         if own is not None:
             return own
-        arriving = [
-            frame_at(self.wiring, start, leaves)
-            for start, _, (leaves, _) in self.wiring.links_to[name, port]
-        ]
+        links = self.wiring.links_to[name, port]
+        arriving = [frame_at(self.wiring, start, leaves) for start, _, (leaves, _) in links]
         placed = next((frame for frame in arriving if frame is not None), None)
-        return placed or vertex_frame(self.wiring, name, port) or Frame()
+        found = placed or vertex_frame(self.wiring, name, port)
+        if found or len(links) > 1 or alignment(self.wiring, links[0]) is not None:
+            return found or Frame()
+        start, _, (leaves, _) = links[0]
+        return self._frame_behind(start, leaves)
 
 
 def _presence(operations: tuple[Operation, ...]) -> View | None:

@@ -22,11 +22,7 @@ if TYPE_CHECKING:
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
     """Return the world frame of a port; None for a port placed relatively."""
     frames = wiring.graph.nodes[name]["frames"]
-    if not frames:
-        return None
-    if port not in frames and wiring.elements[name].straight:
-        return next(iter(frames.values()))  # type: ignore[no-any-return]
-    return frames.get(port)  # type: ignore[no-any-return]
+    return wiring.elements[name].frame_of(port, frames) if frames else None
 
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
@@ -87,6 +83,12 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     text = f"link '{link_text(link)}'"
     if own is not None and not _is_zero(element_turn):
         return [f"{text} and '{end}' both give an azimuth; give it in one place"]
+    ends = ((start, leaves, arriving), (end, enters, expected))
+    for name, port, frame in ends:
+        if frame is None and wiring.graph.nodes[name]["frames"]:
+            other = f"{name}.{next(iter(wiring.graph.nodes[name]['frames']))}"
+            problem = f"'{name}.{port}' has no world frame, though '{other}' has"
+            return [f"{text}: {problem}; give it one"]
     if (arriving is None) != (expected is None):
         if expected is None and isinstance(element, Terminal) and own is None:
             return []

@@ -49,6 +49,11 @@ class BeamSplitter(FourPort, kind="beam-splitter"):
         both = mirror, passing
         return self._ways(both, both)
 
+    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+        """Return the world frame of a port: its own, or that of light which passes straight."""
+        through = {"transmitted": "in", "in": "transmitted", "reflected": "back"}
+        return frames.get(port) or frames.get(through.get(port, "reflected"))
+
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that transmitted light keeps its frame and reflected light its x."""
         found = []

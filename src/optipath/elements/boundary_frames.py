@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from optipath.elements.frame_checks import angle_between, incidence_between, share_x
+from optipath.frames import Frame
 from optipath.fresnel import refraction_angle
 from optipath.materials import Material
 from optipath.shapes import broadcast_fault
@@ -15,7 +16,6 @@ from optipath.views import View
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.frames import Frame
 
 _TOLERANCE = 1e-7
 
@@ -48,6 +48,25 @@ def boundary_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) 
         problem = f"the frames of {ports} must share one x"
         return [f"{problem}, perpendicular to the plane of incidence"]
     return [*_meeting_faults(owner, element, frames), *_passing_faults(owner, element, frames)]
+
+
+def refracted_frame(element: Boundary, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+    """Return the frame of refracted light, of that of the other; None where it is not known."""
+    angles = _angles("", element)
+    if port != "transmitted" or not {"in", "reflected"} <= frames.keys() or not angles:
+        return None
+    arriving, reflected = frames["in"], frames["reflected"]
+    front, behind = (np.asarray(angle)[..., np.newaxis] for angle in angles)
+    # Along the surface, and out of it.
+    along, normal = arriving.z + reflected.z, reflected.z - arriving.z
+    along, normal = (_unit(vector) for vector in (along, normal))
+    z = np.where(front > 0.0, np.sin(behind) * along, 0.0) - np.cos(behind) * normal
+    return Frame.from_direction(z, arriving.x)
+
+
+def _unit(vector: Any) -> Any:
+    length = np.linalg.norm(vector, axis=-1, keepdims=True)
+    return vector / np.where(length > 0.0, length, 1.0)
 
 
 def _meeting_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> Iterator[str]:

@@ -136,6 +136,12 @@ class Element:
     def _uses(self, owner: str) -> list[Use]:
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
 
+    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+        """Return the world frame of a port: its own, or what follows from those of others."""
+        if port not in frames and self.straight:
+            return next(iter(frames.values()), None)
+        return frames.get(port)
+
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Return what is wrong with the world frames of the ports, a sentence each."""
         if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):

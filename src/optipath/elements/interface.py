@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
-from optipath.elements.boundary_frames import boundary_faults
+from optipath.elements.boundary_frames import boundary_faults, refracted_frame
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.four_port import FourPort
 from optipath.kernels import REFLECTION, TRANSMISSION
@@ -78,6 +78,10 @@ class Interface(FourPort, kind="interface"):
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
         """Return that the medium behind must not absorb where light comes from there."""
         return {"index": LIT_BEHIND} if port == "back" else {}
+
+    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+        """Return the world frame of a port: its own, or what Snell's law makes of others."""
+        return frames.get(port) or refracted_frame(self, port, frames)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that x = s at all ports and that the directions obey reflection and Snell."""

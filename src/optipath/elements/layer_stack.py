@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
-from optipath.elements.boundary_frames import boundary_faults
+from optipath.elements.boundary_frames import boundary_faults, refracted_frame
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.four_port import FourPort
 from optipath.kernels import (
@@ -77,6 +77,10 @@ class LayerStack(FourPort, kind="layer-stack"):
     def index(self) -> Any:
         """The index of the substrate."""
         return self.indices[-1]
+
+    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+        """Return the world frame of a port: its own, or what Snell's law makes of others."""
+        return frames.get(port) or refracted_frame(self, port, frames)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that x = s at all ports and that the directions obey reflection and Snell."""
