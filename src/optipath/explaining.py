@@ -122,6 +122,11 @@ def _notes(plan: Any) -> Iterator[str]:
             f"all batches are run step by step: paths of at most {plan.execution.longest} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
         )
+    elif plan.execution.is_too_long and plan.chosen != "jax":
+        yield (
+            f"large batches are run by numpy: formulas of more than "
+            f"{plan.execution.most_operations:,} operations take Numba too long to compile"
+        )
     elif plan.chosen != "jax":
         yield batches(plan.chosen)
     yield from _each(plan.copied, "feeds several links: each takes all its light")

@@ -373,3 +373,17 @@ def test_faint_light_is_told_beside_the_zeros(tmp_path, capsys):
     assert light["normalized"] == [1, 0, 0, 0]
     assert main(["run", str(file)]) == 0
     assert "log10 S0" in capsys.readouterr().out
+
+
+def test_a_warning_is_one_line_on_standard_error(capsys):
+    assert main(["run", "glass-slab", "--theta", "89.9999"]) == 0
+    (line,) = capsys.readouterr().err.strip().splitlines()
+    assert line.startswith("optipath: of the light that goes round at 'front.transmitted'")
+
+
+def test_run_tells_psi_and_delta_of_the_light(capsys):
+    assert main(["run", "ellipsometer-pcsa", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["detectors"]["state"]["polarization"]
+    # Silicon at 70 degrees, by r_p / r_s of the textbooks.
+    assert told["psi"] == pytest.approx(10.5726710654, abs=1e-9)
+    assert told["delta"] == pytest.approx(179.229814133, abs=1e-9)

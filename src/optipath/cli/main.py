@@ -5,8 +5,9 @@ from __future__ import annotations
 import io
 import os
 import sys
+import warnings
 from importlib.metadata import version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -18,7 +19,7 @@ from optipath.cli.polarization import polarization
 from optipath.cli.presets import presets
 from optipath.cli.run import run
 from optipath.cli.show import show
-from optipath.errors import OptipathError
+from optipath.errors import LoopWarning, OptipathError
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -61,7 +62,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
     try:
-        cli.main(args=arguments, prog_name="optipath", standalone_mode=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", LoopWarning)
+            warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
+            cli.main(args=arguments, prog_name="optipath", standalone_mode=False)
         if sys.stdout is not None:
             sys.stdout.flush()
     except click.ClickException as error:
@@ -76,6 +80,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _forget_output()
         return _refuse(f"the output cannot be written: {error.strerror}")
     return 0
+
+
+def _tell(message: Warning | str, *about: Any) -> None:
+    """Write a warning as one line, without the place in the code that nobody asked for."""
+    del about
+    click.echo(f"optipath: {message}", err=True)
 
 
 def _forget_output() -> None:

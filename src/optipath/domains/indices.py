@@ -116,7 +116,7 @@ class IndicesDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return the indices one by one, since each may be an array of its own."""
-        if not isinstance(value, (list, tuple, np.ndarray)):
+        if not isinstance(value, (list, tuple, np.ndarray)) or not np.iterable(value):
             return value
         return tuple(_plain_index(frozen(index)) for index in value)
 
@@ -142,6 +142,19 @@ class IndicesDomain(Domain):
         raise ValueFault(
             f"{owner} is {value!r}; give a list of two indices or more, the medium in front first "
             f"and the substrate last"
+        )
+
+    def check_parameter(self, owner: str, parameter: Any) -> None:
+        """Refuse one for the whole list.
+
+        Raises
+        ------
+        ValueFault
+            Always.
+        """
+        name = parameter.name
+        raise ValueFault(
+            f"{owner} cannot be the parameter '{name}'; give a list, of parameters too"
         )
 
 

@@ -55,7 +55,7 @@ class LayerStack(FourPort, kind="layer-stack"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side."""
-        pairs = [numbers_of(index, INDEX) for index in self.indices]
+        pairs = [numbers_of(index, INDEX) for index in self._media]
         media = [n for n, _ in pairs]
         angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
         front, back = (*media, pairs[-1][1], *angle), (*media[::-1], 0.0, *angle)
@@ -71,12 +71,18 @@ class LayerStack(FourPort, kind="layer-stack"):
     @property
     def outside(self) -> Any:
         """The index of the medium in front."""
-        return self.indices[0]
+        return self._media[0]
 
     @property
     def index(self) -> Any:
         """The index of the substrate."""
-        return self.indices[-1]
+        return self._media[-1]
+
+    @property
+    def _media(self) -> tuple[Any, ...]:
+        """The indices; two of air where they are no list, which is told as a fault."""
+        several: Any = self.indices
+        return several if isinstance(several, tuple) and len(several) > 1 else (1.0, 1.0)
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
         """Return the world frame of a port: its own, or what Snell's law makes of others."""

@@ -85,11 +85,16 @@ class Runner:
         kind = self.dtype.name
         if len(self.program.steps) > self.longest or kind not in ("float64", "float32"):
             return False
+        return self._length is not None
+
+    @cached_property
+    def _length(self) -> int | None:
+        """How many operations the formula of light has; None where it cannot be made."""
         try:
-            self.lights_formula(self.all_given_as(ONE), as_it_stands=self.as_it_stands)
+            made = self.lights_formula(self.all_given_as(ONE), as_it_stands=self.as_it_stands)
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            return False
-        return True
+            return None
+        return len(made.steps)
 
     def all_given_as(self, form: str) -> dict[Raw, str]:
         """Return one form for every number that is not known."""
@@ -105,7 +110,18 @@ class Runner:
 
     def engine_for(self, count: int) -> str:
         """Return the engine for a batch of so many paths."""
-        return engine_for(self.manner.engine, count, compilable=self.compilable)
+        found = engine_for(self.manner.engine, count, compilable=self.compilable)
+        return "numpy" if found == "numba" and self.is_too_long else found
+
+    @property
+    def most_operations(self) -> int:
+        """How many operations Numba is given in one piece; by name, as many as it can take."""
+        return 3000 if self.manner.engine == "numba" else 1500
+
+    @property
+    def is_too_long(self) -> bool:
+        """Whether the formula is so long that Numba takes too much time to compile it."""
+        return self._length is not None and self._length > self.most_operations
 
     def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
@@ -135,6 +151,8 @@ class Runner:
         key = engine, what, forms, layout.key
         if key not in self._many:
             made = formula(dict(forms), layout.axes)
+            if len(made.steps) > self.most_operations:
+                engine = "numpy"
             compiled = partial(compile_array_path, engine)
             self._many[key] = Many(
                 made,

@@ -1,0 +1,109 @@
+"""Stacks of layers against Stokes' pile, 50-digit adding, and their own boundaries."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.accuracy.path_reference import exact_lights
+
+RNG = np.random.default_rng(3)
+
+
+def path_of(stack, enters="in", leaves="reflected", state=(1.0, 0.3, 0.4, 0.5)):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(1.0, state))
+    path.add("stack", stack)
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", f"stack.{enters}")
+    path.connect(f"stack.{leaves}", "eye.in")
+    return path
+
+
+@pytest.mark.parametrize("faces", [2, 4, 10])
+def test_a_pile_of_plates_is_stokes_formula(faces):
+    theta = np.linspace(0, 1.5, 40)
+    pile = op.LayerStack([1.0, 1.5] * (faces // 2) + [1.0], theta)
+    A, B, _, _ = op.fresnel_reflection(1.5, np.cos(theta), np.sin(theta))
+    along, across = ((1 - F) / (1 + (faces - 1) * F) for F in (A + B, A - B))
+    matrix = pile.mueller("in", "transmitted").matrix
+    np.testing.assert_allclose(matrix[:, 0, 0], (along + across) / 2, rtol=2e-14)
+    np.testing.assert_allclose(matrix[:, 0, 1], (along - across) / 2, atol=2e-15)
+
+
+@pytest.mark.parametrize("ways", [("in", "reflected"), ("in", "transmitted")])
+@pytest.mark.parametrize("layers", [0, 1, 3])
+def test_a_stack_on_metal_is_right_to_the_last_digits(ways, layers):
+    for _ in range(5):
+        indices = [1.0, *RNG.uniform(0.7, 2.5, layers), complex(*RNG.uniform(0.2, 3, 2))]
+        path = path_of(op.LayerStack(indices, float(RNG.uniform(0, 1.5))), *ways)
+        exact = [float(part) for part in exact_lights(path)["eye"].stokes]
+        np.testing.assert_allclose(path.trace().stokes, exact, atol=4e-15)
+
+
+@pytest.mark.parametrize("ways", [("back", "reflected"), ("back", "transmitted")])
+def test_light_from_behind_is_right_too(ways):
+    for _ in range(5):
+        indices = RNG.uniform(1.0, 2.5, 4).tolist()
+        path = path_of(op.LayerStack(indices, float(RNG.uniform(0, 1.5))), *ways)
+        exact = [float(part) for part in exact_lights(path)["eye"].stokes]
+        np.testing.assert_allclose(path.trace().stokes, exact, atol=4e-15)
+
+
+def test_two_media_are_an_interface():
+    stack, interface = op.LayerStack([1.2, 0.6 + 2j], 0.8), op.Interface(0.6 + 2j, 0.8, 1.2)
+    for leaves in ("reflected", "transmitted"):
+        found, expected = (e.mueller("in", leaves).matrix for e in (stack, interface))
+        np.testing.assert_allclose(found, expected, atol=2e-16)
+
+
+def test_a_layer_like_its_neighbour_changes_nothing():
+    plain, twice = op.LayerStack([1.0, 1.5, 1.0], 0.8), op.LayerStack([1.0, 1.5, 1.5, 1.0], 0.8)
+    np.testing.assert_allclose(twice.mueller().matrix, plain.mueller().matrix, atol=2e-16)
+
+
+def test_beyond_the_critical_angle_nothing_passes_a_gap():
+    gap = op.LayerStack([1.5, 1.0, 1.5], incidence=1.0)
+    assert gap.mueller("in", "reflected").matrix[0, 0] == 1.0
+    assert not gap.mueller("in", "transmitted").matrix.any()
+
+
+def test_energy_is_kept_from_either_side():
+    stack = op.LayerStack(RNG.uniform(1.0, 2.5, 12).tolist(), np.linspace(0, 1.57, 50))
+    for enters in ("in", "back"):
+        first = sum(stack.mueller(enters, leaves).matrix[:, 0] for leaves in stack.outputs)
+        np.testing.assert_allclose(first, [[1, 0, 0, 0]] * 50, atol=1e-14)
+
+
+def test_a_stack_goes_into_a_file_and_back():
+    path = path_of(op.LayerStack([1.0, op.Parameter("n"), 0.6 + 2j], 0.5))
+    again = op.PathGraph()
+    assert 'indices = [1.0, "$n", { n = 0.6, k = 2.0 }]' in path.to_toml()
+    again = path.bind(n=1.5)
+    assert again.trace() == path.trace(n=1.5)
+
+
+@pytest.mark.parametrize(
+    ("indices", "message"),
+    [
+        (1.5, "give a list of two indices or more"),
+        ([1.5], "give a list of two indices or more"),
+        (None, "give a list of two indices or more"),
+        (op.Parameter("n"), "cannot be the parameter 'n'; give a list"),
+        ([1.0, 1.5 + 1j, 1.0], r"indices\[1\] is complex.*Interfaces with a Medium"),
+        ([1.0, op.Material(1.5, 0.1), 1.0], r"indices\[1\]\.k is 0\.1"),
+        ([0.0, 1.5], r"indices\[0\] is 0"),
+    ],
+)
+def test_media_that_make_no_stack_are_refused(indices, message):
+    with pytest.raises(op.PathError, match=message):
+        path_of(op.LayerStack(indices, 0.5)).check()
+
+
+def test_light_from_behind_refuses_a_substrate_that_absorbs():
+    with pytest.raises(op.PathError, match=r"stack\.index is complex.*by port 'back'"):
+        path_of(op.LayerStack([1.0, 0.6 + 2j], 0.5), "back", "reflected").check()
+
+
+def test_jones_columns_cannot_pass_a_stack():
+    with pytest.raises(op.ComposerError, match=r"stack\.reflected.*may depolarise"):
+        op.Composer(composing="jones").compose(path_of(op.LayerStack([1.0, 1.5, 1.0], 0.5)))

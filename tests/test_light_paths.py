@@ -1,0 +1,108 @@
+"""Light paths one by one: which there are, in which order, and what they add up to."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+
+def sum_to(path, end, **asked):
+    return sum(way.light.intensity for way in path.paths(**asked) if way.end == end)
+
+
+def test_the_ways_through_a_slab_come_the_brightest_first():
+    ways = op.load_preset("glass-slab", theta=0.0).paths(limit=5)
+    assert [(way.end, way.bounces) for way in ways] == [
+        ("transmitted", 0),
+        ("reflected", 1),
+        ("reflected", 1),
+        ("transmitted", 2),
+        ("reflected", 3),
+    ]
+    # F = 0.04 at each face: T^2, F, T^2 F, T^2 F^2, T^2 F^3.
+    expected = [0.96**2, 0.04, 0.96**2 * 0.04, 0.96**2 * 0.04**2, 0.96**2 * 0.04**3]
+    np.testing.assert_allclose([way.light.intensity for way in ways], expected, rtol=1e-13)
+    assert ways[0].route == ("lamp.out", "front.transmitted", "down.out", "back.transmitted")
+
+
+@pytest.mark.parametrize("name", ["glass-slab", "coated-metal"])
+def test_their_sum_comes_nearer_by_the_gain_of_a_round_trip(name):
+    path = op.load_preset(name, theta=0.0)
+    whole = path.trace_all()
+    if name == "glass-slab":
+        end, gain, first = "transmitted", 0.04**2, 0
+    else:
+        A, *_ = op.fresnel_reflection((0.608 + 2.12j) / 1.5, 1.0, 0.0)
+        end, gain, first = "eye", 0.04 * float(A), 1
+    left = [
+        whole[end].intensity - sum_to(path, end, bounces=first + 2 * rounds) for rounds in range(4)
+    ]
+    np.testing.assert_allclose(np.divide(left[1:], left[:-1]), gain, rtol=1e-4)
+
+
+def test_all_ways_of_a_path_without_loops_add_up_to_its_light():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(2.0, [1.0, 0.3, 0.4, 0.5]))
+    lamp >> path.add("wave", op.Retarder(0.4, 0.3))
+    path.add("split", op.BeamSplitter(0.3))
+    path.add("turn", op.Rotator(0.5))
+    path.add("eye", op.Detector())
+    path.connect("wave.out", "split.in")
+    path.connect("split.reflected", "turn.in")
+    path.connect("turn.out", "eye.in")
+    path.connect("split.transmitted", "eye.in")
+    ways = path.paths()
+    assert [way.bounces for way in ways] == [0, 1]
+    total = sum(way.light.stokes for way in ways)
+    np.testing.assert_allclose(total, path.trace().stokes, rtol=1e-14)
+
+
+def test_a_batch_has_its_ways_together():
+    path = op.load_preset("glass-slab")
+    theta = np.linspace(0, 1.2, 7)
+    ways = path.paths(bounces=14, theta=theta)
+    total = sum(way.light.intensity for way in ways if way.end == "transmitted")
+    assert total.shape == (7,)
+    np.testing.assert_allclose(
+        total, path.trace_all(theta=theta)["transmitted"].intensity, rtol=1e-6
+    )
+
+
+def test_what_is_dark_is_no_way():
+    assert op.load_preset("two-panes").paths() == []
+
+
+def test_a_way_carries_the_frame_of_its_end():
+    way = op.load_preset("npgr026-3d").paths()[0]
+    assert way.light.frame == op.load_preset("npgr026-3d").trace().frame
+
+
+@pytest.mark.parametrize(
+    ("asked", "message"),
+    [
+        ({}, "goes round at 'front.transmitted' for ever; give a limit, or a number of bounces"),
+        ({"limit": 0}, "limit must be a whole number of 1 or more, not 0"),
+        ({"limit": 2.5}, "limit must be"),
+        ({"bounces": -1}, "bounces must be a whole number of 0 or more, not -1"),
+        ({"limit": 3, "thete": 1.0}, "did you mean 'theta'"),
+    ],
+)
+def test_what_cannot_be_listed_is_told(asked, message):
+    with pytest.raises(op.ParameterError, match=message):
+        op.load_preset("glass-slab").paths(**asked)
+
+
+def test_a_ring_without_reflections_needs_a_limit():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source()) >> path.add("join", op.Combiner())
+    path.add("grey", op.Attenuator(0.5))
+    path.add("split", op.BeamSplitter(0.5))
+    path["join"] >> path["grey"]
+    path.connect("grey.out", "split.in")
+    path.connect("split.transmitted", "join.in")
+    path.add("eye", op.Detector())
+    path.connect("split.reflected", "eye.in")
+    with pytest.raises(op.ParameterError, match="for ever; give a limit"):
+        path.paths(bounces=3)
+    found = path.paths(limit=3)
+    np.testing.assert_allclose([way.light.intensity for way in found], [0.25, 0.0625, 0.015625])
