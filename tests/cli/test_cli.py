@@ -373,3 +373,15 @@ def test_faint_light_is_told_beside_the_zeros(tmp_path, capsys):
     assert light["normalized"] == [1, 0, 0, 0]
     assert main(["run", str(file)]) == 0
     assert "log10 S0" in capsys.readouterr().out
+
+
+def test_complex_numbers_are_read_and_told_as_what_they_are(capsys, tmp_path):
+    file = tmp_path / "mirror.toml"
+    path = op.PathGraph()
+    mirror = path.add("mirror", op.Mirror(-1.0, op.Parameter("r", 0.3 + 0.4j)))
+    gold = path.add("gold", op.Interface(op.Parameter("m", 0.2 + 3j), 0.5))
+    path.add("lamp", op.Source()) >> mirror >> gold >> path.add("eye", op.Detector())
+    file.write_text(path.to_toml())
+    _, out, _ = run(capsys, "run", str(file), "--r=-0.3+0.2j", "--json")
+    told = json.loads(out)["parameters"]
+    assert told == {"r": {"re": -0.3, "im": 0.2}, "m": {"n": 0.2, "k": 3.0}}
