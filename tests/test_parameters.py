@@ -52,3 +52,9 @@ def test_twice_negative_is_the_parameter_itself():
     negative = -parameter
     assert -negative == parameter
     assert -parameter != parameter
+
+
+def test_a_complex_default_is_shown_as_it_is_read():
+    parameter = op.Parameter("r", "-0.3+0.2j")
+    assert parameter.default_text() == "-0.3+0.2j"
+    assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optipath.errors import UnitError
-from optipath.units import UNITS, format_quantity, parse_quantity
+from optipath.units import UNITS, format_quantity, in_unit, parse_quantity
 
 
 @pytest.mark.parametrize(
@@ -54,3 +54,49 @@ def test_what_is_no_quantity_is_refused(text, dimension, message):
 def test_writing_and_reading_gives_the_very_same_number(value, unit):
     dimension = UNITS[unit][0] if unit else ""
     assert parse_quantity(format_quantity(value, unit), dimension) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "unit", "written"),
+    [
+        ("20 um", "length", "mm", "0.02 mm"),
+        ("30 cm", "length", "dm", "3 dm"),
+        ("-500 nm", "length", "nm", "-500 nm"),
+        ("4.5 deg/um", "angle per length", "deg/mm", "4500 deg/mm"),
+        ("0.7 1/um", "inverse length", "1/cm", "7000 1/cm"),
+        ("90 deg", "angle", "deg", "90 deg"),
+    ],
+)
+def test_units_are_changed_without_noise(text, dimension, unit, written):
+    value = parse_quantity(text, dimension)
+    assert format_quantity(value, unit) == written
+    assert in_unit(value, unit) == float(written.split()[0])
+
+
+@given(
+    places=st.integers(0, 6), number=st.integers(-(10**9), 10**9), unit=st.sampled_from([*UNITS])
+)
+def test_reading_and_writing_gives_the_very_same_text(places, number, unit):
+    text = f"{repr(number / 10**places).removesuffix('.0')} {unit}"
+    assert format_quantity(parse_quantity(text, UNITS[unit].dimension), unit) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0.3+0.4j", 0.3 + 0.4j),
+        ("0.4j", 0.4j),
+        ("(-0.9+0.1j)", -0.9 + 0.1j),
+        (" -0.3 - 2e-1j ", -0.3 - 0.2j),
+        ("1e-3j", 1e-3j),
+    ],
+)
+def test_numbers_without_dimension_may_be_complex(text, value):
+    assert parse_quantity(text, "") == value
+    assert parse_quantity(format_quantity(value, ""), "") == value
+
+
+@pytest.mark.parametrize("text", ["0.3+0.4", "0.30.4j", "(0.3+0.4j", "1_0+2j", "0.3+0.4j deg"])
+def test_what_is_no_complex_number_is_refused(text):
+    with pytest.raises(UnitError):
+        parse_quantity(text, "")

@@ -226,7 +226,8 @@ class Parameter:
         Parameters
         ----------
         text : str
-            A word of the parameter, or a number with its unit.
+            A word of the parameter, or a number with its unit; where it has none, the
+            number may be complex, such as ``"0.3+0.4j"``.
         default_unit : str, optional
             The unit of a number without one.
 
@@ -253,8 +254,6 @@ class Parameter:
             return value
         if isinstance(value, np.ndarray):
             return f"array of shape {value.shape}"
-        if isinstance(value, complex):
-            return str(value)
         return format_quantity(value, self.unit)
 
     @property

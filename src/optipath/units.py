@@ -8,28 +8,48 @@ from __future__ import annotations
 
 import math
 import re
+from decimal import Decimal
+from typing import NamedTuple
 
 from optipath.errors import UnitError, did_you_mean
 
-_ANGLES = {
-    "deg": math.pi / 180.0,
-    "rad": 1.0,
-    "mrad": 1e-3,
-    "arcmin": math.pi / 10800.0,
-    "arcsec": math.pi / 648000.0,
-}
-_LENGTHS = {"nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "dm": 1e-1, "m": 1.0}
-_PER_METRE = {"um": 1e6, "mm": 1e3, "cm": 1e2, "dm": 10.0, "m": 1.0}
-"""How many of a length a metre has; reciprocals of the sizes above would be rounded."""
 
-UNITS: dict[str, tuple[str, float]] = {
-    **{unit: ("angle", size) for unit, size in _ANGLES.items()},
-    **{unit: ("length", size) for unit, size in _LENGTHS.items()},
-    **{f"1/{length}": ("inverse length", count) for length, count in _PER_METRE.items()},
+class Unit(NamedTuple):
+    """A unit: so many base units, times ten to a power.
+
+    Attributes
+    ----------
+    dimension : str
+        What it measures.
+    power : int
+        By how many places the decimal point of a number moves, which rounds nothing.
+    size : float
+        What is left of its size then; 1 but for angles in degrees and parts of them.
+    """
+
+    dimension: str
+    power: int = 0
+    size: float = 1.0
+
+
+_ANGLES = {
+    "deg": Unit("angle", size=math.pi / 180.0),
+    "rad": Unit("angle"),
+    "mrad": Unit("angle", -3),
+    "arcmin": Unit("angle", size=math.pi / 10800.0),
+    "arcsec": Unit("angle", size=math.pi / 648000.0),
+}
+_LENGTHS = {"nm": -9, "um": -6, "mm": -3, "cm": -2, "dm": -1, "m": 0}
+_PER_LENGTH = ("um", "mm", "cm", "dm", "m")
+
+UNITS: dict[str, Unit] = {
+    **_ANGLES,
+    **{length: Unit("length", power) for length, power in _LENGTHS.items()},
+    **{f"1/{length}": Unit("inverse length", -_LENGTHS[length]) for length in _PER_LENGTH},
     **{
-        f"{angle}/{length}": ("angle per length", _ANGLES[angle] * count)
+        f"{angle}/{length}": Unit("angle per length", -_LENGTHS[length], _ANGLES[angle].size)
         for angle in ("deg", "rad")
-        for length, count in _PER_METRE.items()
+        for length in _PER_LENGTH
     },
 }
 
@@ -44,7 +64,14 @@ USUAL_UNITS = {
 
 _BASE_UNITS = {"angle": "rad", "length": "m", "inverse length": "1/m", "angle per length": "rad/m"}
 
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*", re.ASCII)
+_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,9})?"
+_QUANTITY = re.compile(rf"\s*([-+]?{_NUMBER})\s*(.*?)\s*", re.ASCII)
+_COMPLEX = re.compile(rf"(?:[-+]?{_NUMBER}(?=[-+]))?[-+]?{_NUMBER}j", re.ASCII)
+_SIGN_BETWEEN = re.compile(r"\s*([-+])\s*")
+_DIGITS = (15, 16, 17)
+"""How many digits a number is written with: the fewest that give it back."""
+
+_NOTHING = Unit("")
 
 
 def dimension_of(unit: str) -> str:
@@ -64,10 +91,10 @@ def dimension_of(unit: str) -> str:
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
         raise UnitError(f"unit '{unit}' is unknown{did_you_mean(unit, UNITS)}")
-    return UNITS[unit][0]
+    return UNITS[unit].dimension
 
 
-def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
+def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float | complex:
     """Return the number that a text such as ``"30 deg"`` stands for.
 
     Parameters
@@ -83,8 +110,9 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
 
     Returns
     -------
-    float
-        Radians, metres, what of them there is per metre, or a pure number.
+    float or complex
+        Radians, metres, what of them there is per metre, or a pure number, which may be
+        complex: ``"0.3+0.4j"``, with parentheses or without.
 
     Raises
     ------
@@ -95,16 +123,20 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float:
     --------
     >>> parse_quantity("180 deg", "angle")
     3.141592653589793
+    >>> parse_quantity("20 um", "length"), parse_quantity("(0.3 - 0.4j)", "")
+    (2e-05, (0.3-0.4j))
     """
+    if not dimension and (number := _complex(text)) is not None:
+        return number
     match = _QUANTITY.fullmatch(text)
     if match is None:
         example = f"30 {USUAL_UNITS[dimension]}".strip()
         raise UnitError(f"'{text}' is not a quantity; write a number such as '{example}'")
-    number, unit = float(match[1]), match[2] or default_unit
+    unit = match[2] or default_unit
     found = dimension_of(unit)
     if found != dimension:
         raise UnitError(_mismatch(text, unit, dimension))
-    return number * UNITS[unit][1] if unit else number
+    return _in_base_units(match[1], UNITS[unit] if unit else _NOTHING)
 
 
 def in_unit(value: float, unit: str) -> float:
@@ -114,30 +146,33 @@ def in_unit(value: float, unit: str) -> float:
     --------
     >>> in_unit(0.8377580409572782, "deg")
     48.0
+    >>> in_unit(2e-05, "mm")
+    0.02
     """
-    if unit == "":
-        return float(value)
-    size = UNITS[unit][1]
-    value = float(value)
-    rounded = float(f"{value / size:.13g}")
-    return rounded if rounded * size == value else value / size
+    return float(_candidates(float(value), UNITS[unit])[0]) if unit else float(value)
 
 
-def format_quantity(value: float, unit: str) -> str:
+def format_quantity(value: complex, unit: str) -> str:
     """Write a number with a unit so that reading it gives the very same number back.
 
     Examples
     --------
     >>> format_quantity(0.8377580409572782, "deg"), format_quantity(1.33, "")
     ('48 deg', '1.33')
+    >>> format_quantity(0.3 - 0.4j, "")
+    '0.3-0.4j'
     """
+    if isinstance(value, complex):
+        return str(value).strip("()")
     if unit == "":
         return repr(float(value)).removesuffix(".0")
-    dimension, size = UNITS[unit]
-    number = in_unit(value, unit)
-    if number * size == value:
-        return f"{repr(number).removesuffix('.0')} {unit}"
-    return f"{float(value)!r} {_BASE_UNITS[dimension]}"
+    value, of_unit = float(value), UNITS[unit]
+    if not math.isfinite(value):
+        return f"{value!r} {unit}"
+    for number in _candidates(value, of_unit):
+        if _in_base_units(number, of_unit) == value:
+            return f"{number} {unit}"
+    return f"{value!r} {_BASE_UNITS[of_unit.dimension]}"
 
 
 def with_article(dimension: str) -> str:
@@ -151,8 +186,39 @@ def with_article(dimension: str) -> str:
     return f"{'an' if dimension[:1] in 'aeiou' else 'a'} {dimension}"
 
 
+def _in_base_units(number: str, unit: Unit) -> float:
+    if not math.isfinite(float(number)):
+        return float(number)
+    mantissa, _, exponent = number.lower().partition("e")
+    return float(f"{mantissa}e{int(exponent or 0) + unit.power}") * unit.size
+
+
+def _candidates(value: float, unit: Unit) -> list[str]:
+    """Return numbers that a value may be in a unit, those that give it back first."""
+    if unit.size == 1.0:
+        numbers = [repr(value)]
+    else:
+        numbers = [f"{value / unit.size:.{digits}g}" for digits in _DIGITS]
+    moved = [Decimal(number).scaleb(-unit.power) for number in numbers]
+    found = [text for number in moved for text in (_plainly(number), str(number))]
+    return sorted(found, key=lambda number: _in_base_units(number, unit) != value)
+
+
+def _plainly(number: Decimal) -> str:
+    return repr(float(number)).removesuffix(".0")
+
+
+def _complex(text: str) -> complex | None:
+    """Return the complex number that a text stands for; None where it is none."""
+    number = text.strip()
+    if number.startswith("(") and number.endswith(")"):
+        number = number[1:-1]
+    number = _SIGN_BETWEEN.sub(r"\1", number.strip())
+    return complex(number) if _COMPLEX.fullmatch(number) else None
+
+
 def _mismatch(text: str, unit: str, dimension: str) -> str:
-    units = ", ".join(name for name, (found, _) in UNITS.items() if found == dimension)
+    units = ", ".join(name for name, known in UNITS.items() if known.dimension == dimension)
     if not dimension:
         return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
     if not unit:

@@ -387,3 +387,15 @@ def test_run_tells_psi_and_delta_of_the_light(capsys):
     # Silicon at 70 degrees, by r_p / r_s of the textbooks.
     assert told["psi"] == pytest.approx(10.5726710654, abs=1e-9)
     assert told["delta"] == pytest.approx(179.229814133, abs=1e-9)
+
+
+def test_complex_numbers_are_read_and_told_as_what_they_are(capsys, tmp_path):
+    file = tmp_path / "mirror.toml"
+    path = op.PathGraph()
+    mirror = path.add("mirror", op.Mirror(-1.0, op.Parameter("r", 0.3 + 0.4j)))
+    gold = path.add("gold", op.Interface(op.Parameter("m", 0.2 + 3j), 0.5))
+    path.add("lamp", op.Source()) >> mirror >> gold >> path.add("eye", op.Detector())
+    file.write_text(path.to_toml())
+    _, out, _ = run(capsys, "run", str(file), "--r=-0.3+0.2j", "--json")
+    told = json.loads(out)["parameters"]
+    assert told == {"r": {"re": -0.3, "im": 0.2}, "m": {"n": 0.2, "k": 3.0}}

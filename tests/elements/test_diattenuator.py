@@ -31,3 +31,10 @@ def test_a_diattenuator_is_an_ideal_polariser_by_default():
 def test_transmittances_that_give_light_are_refused():
     with pytest.raises(op.PathError, match=r"diattenuator\.maximum is 1\.2"):
         op.Diattenuator(1.2).mueller()
+
+
+def test_the_axis_is_that_of_the_first_transmittance_though_it_be_the_lesser():
+    swapped = op.Diattenuator(0.2, 0.7).mueller().matrix
+    turned = op.Diattenuator(0.7, 0.2, angle=np.pi / 2).mueller().matrix
+    np.testing.assert_allclose(swapped, turned, atol=1e-16)
+    assert swapped[0, 1] < -0.2

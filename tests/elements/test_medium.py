@@ -134,3 +134,84 @@ def test_a_parameter_in_a_unit_of_another_dimension_is_refused():
     path = chain([op.Medium(op.Parameter("l", unit="deg"))])
     with pytest.raises(op.PathError, match=r"is in deg, but e0\.length takes a real length"):
         path.compose()
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+@pytest.mark.parametrize("size", [3, 3000])
+def test_light_behind_a_dense_medium_is_right_however_faint(engine, size):
+    absorption = np.linspace(600.0, 2100.0, size)
+    names = op.Parameter("l"), op.Parameter("a")
+    found = op.Composer(engine=engine).compose(chain([op.Medium(*names)], STATE))
+    known = chain([op.Medium(1.0, absorption)], STATE).trace()
+    for light in (found.run(l=1.0, a=absorption), known):
+        np.testing.assert_allclose(light.log10_intensity, -absorption / np.log(10), rtol=1e-14)
+        np.testing.assert_allclose(light.dop, np.linalg.norm(STATE[1:]), rtol=1e-14)
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_light_too_faint_for_a_medium_is_dark_and_never_polarised_by_more_than_all(
+    dtype, composing
+):
+    absorption = np.linspace(0.0, 2500.0, 3000)
+    composer = op.Composer(dtype=dtype, composing=composing)
+    path = chain([op.Medium(1.0, op.Parameter("a"))], [1.0, 0.6, 0.0, 0.8])
+    light = composer.compose(path).run(a=absorption)
+    right = absorption <= (150.0 if dtype == "float32" else 2000.0)
+    rounding = 1e-6 if dtype == "float32" else 1e-14
+    np.testing.assert_allclose(light.dop[right], 1.0, rtol=rounding)
+    assert np.all(light.dop <= 1.0 + rounding)
+    dark = np.isinf(light.log10_intensity)
+    np.testing.assert_array_equal(light.dop[dark], 0.0)
+    wanted = -absorption / np.log(10)
+    np.testing.assert_allclose(
+        light.log10_intensity[~dark], wanted[~dark], rtol=rounding, atol=1e-6
+    )
+
+
+@pytest.mark.parametrize("depth", [720.0, 740.0, 744.0, 2000.0])
+def test_a_matrix_too_faint_for_floats_is_dark(depth):
+    light = op.Medium(1.0, depth).mueller() @ op.Light([1.0, 0.6, 0.0, 0.8])
+    assert light.dop == 0.0
+    assert light.log10_intensity == -np.inf
+
+
+@pytest.mark.parametrize(
+    ("length", "absorption", "steps"),
+    [
+        (0.1, 100.0, 1),
+        (0.1, 1e4, 3),
+        (0.1, op.Parameter("a", maximum=400.0), 1),
+        (0.1, op.Parameter("a"), 3),
+        (op.Parameter("l", 1.0, bound=True), np.array([1.0, 2.0]), 1),
+    ],
+)
+def test_a_medium_that_is_never_dense_takes_one_step(length, absorption, steps):
+    (coupling,) = op.Medium(length, absorption).couplings()
+    assert len(coupling.operations) == steps
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("rate", ["absorption", "rotation", "retardance"])
+def test_what_is_no_float_over_the_whole_length_is_refused(rate):
+    medium = op.Medium(1e200, **{rate: 1e200})
+    for used in (medium.mueller, chain([medium]).compose):
+        with pytest.raises(
+            op.PathError, match=rf"{rate} is .*, over a length of 1e\+200 m, within"
+        ):
+            used()
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"k": 1e300, "wavelength": 1e-12}, "k is up to 1e\\+300, .* give a smaller k"),
+        ({"wavelength": 500}, "wavelength is 500 m; give a real wavelength in metres within 1e-12"),
+        ({"absorption": 3.0}, "absorption is computed from k and wavelength; leave it out"),
+        ({"rotaton": 3.0}, "option 'rotaton' .* did you mean 'rotation'"),
+    ],
+)
+def test_what_gives_no_absorption_is_refused(options, message):
+    with pytest.raises(op.ValueFault, match=message):
+        op.Medium.from_extinction(1e-6, **({"k": 0.1, "wavelength": 5e-7} | options))

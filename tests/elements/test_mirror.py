@@ -101,3 +101,25 @@ def test_an_azimuth_turns_the_plane_of_incidence():
     arriving = op.Light(STATE).in_frame(op.Frame().turned(0.4))
     by_hand = op.Mirror(-0.9, 0.5j).mueller() @ op.Light(arriving.stokes)
     np.testing.assert_allclose(turned, by_hand.stokes, atol=1e-16)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_the_rounding_of_single_precision_is_no_fault(engine):
+    phases = np.exp(1j * np.linspace(0.0, 6.0, 3000)).astype(np.complex64)
+    assert np.any(np.abs(phases.astype(complex)) > 1.0 + 1e-9)
+    path = chain([op.Mirror(phases, op.Parameter("r"))], STATE)
+    found = op.Composer(engine=engine).compose(path).run(r=phases)
+    np.testing.assert_allclose(found.intensity, 1.0, rtol=1e-6)
+    with pytest.raises(op.ParameterError, match="size of 1 or less"):
+        path.trace(r=1.00001)
+
+
+def test_amplitudes_may_be_given_as_texts(tmp_path):
+    path = chain([op.Mirror(-0.5 + 0.1j, op.Parameter("r", "0.3+0.4j"))], STATE)
+    wanted = path.trace(r=-0.9 + 0.1j).stokes
+    np.testing.assert_array_equal(path.trace(r="(-0.9+0.1j)").stokes, wanted)
+    text = path.to_toml().replace("{ re = -0.5, im = 0.1 }", '"-0.5+0.1j"')
+    assert "0.1j" in text
+    file = tmp_path / "mirror.toml"
+    file.write_text(text)
+    assert op.load_preset(str(file)) == path

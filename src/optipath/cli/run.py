@@ -17,6 +17,8 @@ from rich.text import Text
 from optipath.cli.plain import plain
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer import Composer
+from optipath.domains import AMPLITUDE
+from optipath.preset_format import complex_parts_of
 from optipath.presets import load_preset
 
 if TYPE_CHECKING:
@@ -108,13 +110,15 @@ run = PresetGroup("run", action=_run, help="Trace the light of a preset, or of a
 
 
 def _as_json(result: Result) -> dict[str, Any]:
-    plan = result.plan
+    plan, parameters = result.plan, result.path.parameters
+    parts = complex_parts_of(result.path.graph)
     found: dict[str, Any] = {
         "preset": result.preset,
         "parameters": {
-            name: plain(p.default, p.unit) for name, p in result.path.parameters.items()
+            name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
+            for name, p in parameters.items()
         },
-        "units": {name: p.unit for name, p in result.path.parameters.items() if p.unit},
+        "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": result.model,
         "method": plan.method,
         "engine": plan.engine,

@@ -11,17 +11,19 @@ from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 
 _ROUNDING = 1e-12
+_SINGLE_ROUNDING = 1e-6
+"""How far the size of an amplitude may be above 1: numbers of single precision are rounded so."""
 
 
 class AmplitudeDomain(Domain):
-    """Complex numbers of a size of 1 or less."""
+    """Complex numbers of a size of 1 or less, but for the rounding of single precision."""
 
     complex_parts = ("re", "im")
 
     @property
     def interval(self) -> tuple[float, float]:
         """The limits of both parts."""
-        return -1.0 - _ROUNDING, 1.0 + _ROUNDING
+        return -1.0 - _SINGLE_ROUNDING, 1.0 + _SINGLE_ROUNDING
 
     def quickly_allows(self, value: Any) -> bool:
         """Tell, for plain floats, whether all is well."""
@@ -34,7 +36,7 @@ class AmplitudeDomain(Domain):
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
         # Cut off, so that squares of what is far too much do not overflow.
         parts = (np.minimum(np.abs(part), 2.0) for part in (array.real, array.imag))
-        bad = np.hypot(*parts) > 1.0 + _ROUNDING
+        bad = np.hypot(*parts) > 1.0 + _SINGLE_ROUNDING
         if np.any(bad):
             raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
 

@@ -39,7 +39,10 @@ class Coupling:
     reflects: bool = False
 
     def matrix(self, method: str) -> np.ndarray[Any, Any]:
-        """Return the Mueller matrix of shape (..., 4, 4); every value must be a number."""
+        """Return the Mueller matrix of shape (..., 4, 4); every value must be a number.
+
+        What is so faint that floats lose its digits is 0, as what is fainter still.
+        """
         matrix = np.eye(4)
         for operation in self.operations:
             kernel = operation.kernel.by_method(method)
@@ -47,7 +50,8 @@ class Coupling:
             numbers = kernel.made_for(NUMPY)(*(view.numbers({}) for view in values))
             assert kernel.structure is not None  # noqa: S101 - only sources have none
             matrix = stacked(kernel.structure.rows(NUMPY, numbers)) @ matrix
-        return matrix
+        faint = np.abs(matrix[..., :1, :1]) < np.finfo(np.float64).tiny
+        return np.where(faint, 0.0, matrix)
 
 
 def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:

@@ -17,7 +17,9 @@ class Diattenuator(Element, kind="diattenuator"):
     Parameters
     ----------
     maximum, minimum : float, array_like or Parameter, optional
-        The principal transmittances of the intensity along and across the axis, 0 to 1.
+        The principal transmittances of the intensity along and across the axis, 0 to 1. The
+        axis is that of `maximum`, even where that is the lesser of the two: the diattenuation is
+        negative there, and a parameter may run from one side to the other.
     angle : float, array_like or Parameter, optional
         The axis, in radians from x towards y of the diattenuator's frame.
     azimuth : float, array_like or Parameter, optional

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,9 +12,14 @@ from optipath.domains import Absorption, Angle, AnglePerLength, Domain, Length
 from optipath.elements.beside_rotation import BESIDE_ROTATION
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
-from optipath.errors import ValueFault
+from optipath.errors import ValueFault, did_you_mean
 from optipath.jax_values import is_traced
-from optipath.kernels import ABSORPTION_ALONG, RETARDANCE_ALONG, ROTATION_ALONG
+from optipath.kernels import (
+    ABSORPTION_ALONG,
+    RETARDANCE_ALONG,
+    ROTATION_ALONG,
+    THIRD_OF_ABSORPTION,
+)
 from optipath.parameters import Parameter
 from optipath.shapes import check_broadcast
 
@@ -24,7 +30,11 @@ if TYPE_CHECKING:
 
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
-_WAVELENGTH = Domain("wavelength", "length", minimum=1e-12)
+_WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
+_RATES = ("absorption", "rotation", "retardance")
+_OTHERS = ("rotation", "retardance", "angle", "azimuth")
+_FAR = 50.0
+"""From what absorption times length on it is done in three steps, each within any precision."""
 
 
 class Medium(Element, kind="medium"):
@@ -32,6 +42,10 @@ class Medium(Element, kind="medium"):
 
     The intensity goes as exp(-absorption length) (Beer and Lambert). A rotation and a
     retardance together are refused: they do not commute; put two Media one after the other.
+
+    However faint the light becomes, its polarisation and `Light.log10_intensity` are right up to
+    an absorption times length of 2000, or 150 in float32; soon beyond, the light is dark. Two
+    Media one after the other go twice as far.
 
     Parameters
     ----------
@@ -75,14 +89,15 @@ class Medium(Element, kind="medium"):
         k : float or array_like
             The imaginary part of the index of refraction, not negative; values, no Parameter.
         wavelength : float or array_like
-            The wavelength in vacuum, in metres, 1e-12 or more; values, no Parameter.
+            The wavelength in vacuum, in metres, 1e-12 to 1e-3; values, no Parameter.
         **others : float, array_like or Parameter
             The rotation, the retardance, the angle and the azimuth, as in `Medium`.
 
         Raises
         ------
         ValueFault
-            If `k` or `wavelength` is a Parameter or out of range.
+            If `k` or `wavelength` is a Parameter or out of range, the absorption is too large
+            for a float, or another option is unknown.
         ShapeError
             If their arrays do not broadcast together.
 
@@ -93,21 +108,40 @@ class Medium(Element, kind="medium"):
         """
         given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, _WAVELENGTH)}
         faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
+        faults += [cls._option_fault(name) for name in others if name not in _OTHERS]
         if faults:
             raise ValueFault(*faults)
         check_broadcast({name: np.shape(value) for name, (value, _) in given.items()})
-        k, wavelength = (v if is_traced(v) else np.asarray(v) for v, _ in given.values())
-        return cls(length, 4.0 * math.pi * k / wavelength, **others)
+        return cls(length, _absorption(k, wavelength), **others)
+
+    @classmethod
+    def _option_fault(cls, name: str) -> str:
+        if name == "absorption":
+            return (
+                "absorption is computed from k and wavelength; leave it out, or give it to Medium "
+                "without them"
+            )
+        return f"option '{name}' of Medium.from_extinction is unknown{did_you_mean(name, _OTHERS)}"
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
-        """Yield every value; beside a rotation, a retardance may be nothing but 0."""
+        """Yield every value; beside a rotation, a retardance may be nothing but 0.
+
+        What is given per metre may be no more than what floats hold over the whole length.
+        """
         for name, value, domain in super().quantities():
-            alone = name != "retardance" or _vanishes(self.rotation)
-            yield name, value, domain if alone else BESIDE_ROTATION
+            if name == "retardance" and not _vanishes(self.rotation):
+                yield name, value, BESIDE_ROTATION
+            elif name in _RATES and _overflow(value, self.length):
+                yield name, value, _over_a_length(domain, _largest(self.length))
+            else:
+                yield name, value, domain
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is done along the way, but for what is known to be 0."""
-        absorbing = self._along(ABSORPTION_ALONG, self.absorption)
+        if _largest(self.absorption) * _largest(self.length) <= _FAR:
+            absorbing = self._along(ABSORPTION_ALONG, self.absorption)
+        else:
+            absorbing = 3 * self._along(THIRD_OF_ABSORPTION, self.absorption)
         rotating = self._along(ROTATION_ALONG, self.rotation)
         retarding = self._along(RETARDANCE_ALONG, self.retardance)
         if retarding:
@@ -123,6 +157,45 @@ def _vanishes(value: Any) -> bool:
     if isinstance(value, Parameter):
         return value.bound and _vanishes(value.resolve(value.default).value)
     return isinstance(value, (int, float, np.ndarray)) and not np.any(value)
+
+
+def _largest(value: Any) -> float:
+    """Return the size of a known value, or the most of an open one; infinite without a range."""
+    if isinstance(value, Parameter):
+        if not value.bound:
+            return -value.minimum if value.negative else value.maximum
+        value = value.resolve(value.default).value
+    if type(value) is float:
+        return abs(value)
+    known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)
+    return float(np.max(np.abs(known), initial=0.0)) if known.dtype.kind in "iuf" else math.inf
+
+
+def _overflow(per_metre: Any, length: Any) -> bool:
+    """Tell whether two values are known, and their product is too large for a float."""
+    sizes = _largest(per_metre), _largest(length)
+    return max(sizes) < math.inf and math.prod(sizes) == math.inf
+
+
+def _over_a_length(domain: Domain, length: float) -> Domain:
+    """Return the domain of what floats hold times a length."""
+    most = np.finfo(np.float64).max / length
+    name = f"{domain.name}, over a length of {length:g} m,"
+    return replace(domain, name=name, minimum=max(domain.minimum, -most), maximum=most)
+
+
+def _absorption(k: Any, wavelength: Any) -> Any:
+    if is_traced(k) or is_traced(wavelength):
+        return 4.0 * math.pi * k / wavelength
+    k, wavelength = np.asarray(k), np.asarray(wavelength)
+    with np.errstate(over="ignore"):
+        absorption = 4.0 * math.pi * k / wavelength
+    if not np.all(np.isfinite(absorption)):
+        raise ValueFault(
+            f"k is up to {np.max(k):g}, and absorption = 4 pi k / wavelength is too large for a "
+            f"float; give a smaller k"
+        )
+    return absorption
 
 
 def _value_faults(name: str, value: Any, domain: Domain) -> tuple[str, ...]:

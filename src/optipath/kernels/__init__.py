@@ -160,6 +160,7 @@ DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
 GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, given_amplitudes)
 ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
+THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, medium.third_of_absorption)
 ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
 RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
@@ -203,6 +204,7 @@ __all__ = [
     "STACK_REFLECTION_BACK",
     "STACK_TRANSMISSION",
     "STACK_TRANSMISSION_BACK",
+    "THIRD_OF_ABSORPTION",
     "TRANSMISSION",
     "TURN",
     "TURN_BACK",

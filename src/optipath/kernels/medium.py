@@ -13,10 +13,31 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 
+_LEAST = 2.0**-53
+"""What a number times this underflows to 0 is close to where digits get lost."""
+
+
 def absorption_along(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(absorption, length) -> (t,)``: Beer-Lambert, t = exp(-absorption length)."""
-    exp = xp.exp
-    return lambda absorption, length: (exp(-absorption * length),)
+    """Make ``(absorption, length) -> (t,)``: Beer-Lambert, t = exp(-absorption length).
+
+    Where digits of t would be lost to underflow it is 0, lest what is wrong looks like light.
+    """
+    return _attenuation(xp, 1.0)
+
+
+def third_of_absorption(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(absorption, length) -> (t,)``, the cube root of the same."""
+    return _attenuation(xp, 1.0 / 3.0)
+
+
+def _attenuation(xp: Primitives, share: float) -> Callable[..., tuple[Any, ...]]:
+    exp, where = xp.exp, xp.where
+
+    def attenuate(absorption: Any, length: Any) -> tuple[Any]:
+        t = exp(-share * (absorption * length))
+        return (where(t * _LEAST > 0.0, t, 0.0),)
+
+    return attenuate
 
 
 def rotation_along(xp: Primitives) -> Callable[..., tuple[Any, ...]]:

@@ -41,7 +41,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     if loops != LOOPS[0]:
         top["loops"] = loops
     tables: list[str] = [_lines("", top)]
-    parts = _complex_parts(graph)
+    parts = complex_parts_of(graph)
     for name, parameter in parameters.items():
         row = _parameter(parameter, parts.get(name, INDEX.complex_parts))
         tables.append(_lines(f"[parameters.{_key(name)}]", row))
@@ -70,7 +70,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     return "\n".join(tables)
 
 
-def _complex_parts(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
+def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
     """Return what the parts of complex numbers are called, for each parameter of such."""
     quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
     return {
