@@ -35,7 +35,7 @@ def coherency(matrix: Array) -> Array:
     array([0., 1., 0., 0.])
     """
     parts, power = scaled(matrix)
-    found = _coherency(parts)
+    found = gathered(parts)
     real, imaginary = (unscaled(matrix, part, power) for part in (found.real, found.imag))
     return real + 1j * imaginary
 
@@ -43,7 +43,7 @@ def coherency(matrix: Array) -> Array:
 def eigenvalues(matrix: Array) -> Array:
     """Return the eigenvalues of the coherency matrices, shape (..., 4), the largest first."""
     parts, power = scaled(matrix)
-    found = np.linalg.eigvalsh(_coherency(parts))[..., ::-1]
+    found = np.linalg.eigvalsh(gathered(parts))[..., ::-1]
     return unscaled(matrix, found[..., np.newaxis], power)[..., 0]
 
 
@@ -70,13 +70,14 @@ def nearest_physical(matrix: Array) -> Array:
     array([ 1.5,  0.5,  0.5, -0.5])
     """
     parts, power = scaled(matrix)
-    values, vectors = np.linalg.eigh(_coherency(parts))
+    values, vectors = np.linalg.eigh(gathered(parts))
     kept = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
     positive = kept @ np.swapaxes(vectors.conj(), -1, -2)
     found = (positive.reshape(*parts.shape[:-2], 16) @ _TO_MUELLER).real
     return unscaled(matrix, found.reshape(parts.shape), power)
 
 
-def _coherency(parts: Array) -> Array:
+def gathered(parts: Array) -> Array:
+    """Return the coherency matrices of matrices whose entries are numbers near 1."""
     flat = parts.reshape(*parts.shape[:-2], 16) @ _FROM_MUELLER
     return np.asarray(flat.reshape(parts.shape))

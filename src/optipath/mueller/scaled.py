@@ -38,5 +38,17 @@ def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
     return np.where(_known(flat), found, np.nan).reshape(parts.shape)
 
 
+def precision(matrix: Any) -> float:
+    """Return the spacing of a matrix's numbers at 1, or that of double precision if it is less.
+
+    Examples
+    --------
+    >>> precision(np.eye(4, dtype=np.float32)) == 2.0**-23
+    True
+    """
+    dtype = matrix.dtype if matrix.dtype.kind == "f" else np.dtype(np.float64)
+    return max(float(np.finfo(dtype).eps), 2.0**-52)
+
+
 def _known(flat: Array) -> Array:
     return np.asarray(np.isfinite(flat).all(axis=-1, keepdims=True))
