@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.faint import near_one, times_two_to
+from optipath.jax_values import check_known
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -19,11 +20,17 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
 
     A matrix of which an entry is not known becomes 0, for `unscaled` to give back.
 
+    Raises
+    ------
+    ParameterError
+        If JAX traces the matrix.
+
     Examples
     --------
     >>> [part.tolist() for part in scaled(np.diag([6.0, 3.0, 3.0, 3.0]))][1]
     3
     """
+    check_known("what a Mueller matrix is made of (by its coherency, or Lu and Chipman)", matrix)
     with np.errstate(over="ignore"):
         flat = np.asarray(matrix, np.float64).reshape(*matrix.shape[:-2], 16)
     parts, power = near_one(np.where(_known(flat), flat, 0.0), 0)
