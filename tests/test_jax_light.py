@@ -98,6 +98,11 @@ def test_light_that_jax_traces_has_no_exponent():
             jax.jit(lambda s, make=make: make(s).stokes)(STOKES)
 
 
+def test_a_tolerance_that_jax_traces_is_refused():
+    with pytest.raises(op.ParameterError, match="tolerance"):
+        jax.jit(lambda t: op.Mueller(np.eye(4)).is_physical(t))(1e-9)
+
+
 @pytest.mark.parametrize(
     "done",
     [
