@@ -129,3 +129,49 @@ def test_a_light_shows_what_makes_it_again_and_cannot_change():
     assert "exponent=array(-10)" in repr(light)
     with pytest.raises(AttributeError, match="cannot change"):
         light.stokes = np.zeros(4)
+
+
+FIGURES = [
+    "intensity",
+    "log10_intensity",
+    "normalized",
+    "dop",
+    "dolp",
+    "docp",
+    "aop",
+    "ellipticity",
+    "ellipticity_angle",
+    "handedness",
+    "psi",
+    "delta",
+]
+
+
+@pytest.mark.parametrize("size", [1e-170, 1e-300, 1e300])
+def test_the_degree_of_polarisation_neither_fades_nor_runs_over(size):
+    assert op.Light([1.0, size, 0.0, 0.0]).dop == pytest.approx(size, rel=1e-15, abs=0.0)
+    light = op.Light([1.0, 2 * size, 3 * size, 6 * size])
+    assert light.dop == pytest.approx(7 * size, rel=1e-15, abs=0.0)
+
+
+@pytest.mark.parametrize("place", range(4))
+@pytest.mark.parametrize("infinite", [np.inf, -np.inf, 1.7e308])
+def test_what_is_infinite_makes_no_warning(place, infinite):
+    for rest in (0.0, 1.0, np.inf, 1.7e308):
+        stokes = np.full(4, rest)
+        stokes[place] = infinite
+        light = op.Light(stokes)
+        for name in FIGURES:
+            getattr(light, name)
+        assert light.in_frame(op.Frame().turned(0.3)).stokes.shape == (4,)
+        for other in (light, op.Light(-stokes), op.Light([1.0, 0, 0, 0])):
+            assert (light + other).stokes.shape == (4,)
+        assert (op.Rotator(0.3).mueller() @ light).stokes.shape == (4,)
+
+
+def test_light_without_bounds_has_no_known_polarisation():
+    light = op.Light([np.inf, 0.0, 0.0, 0.0])
+    for name in ("dop", "dolp", "docp", "aop", "ellipticity", "psi", "delta"):
+        assert np.isnan(getattr(light, name)), name
+    assert light.log10_intensity == np.inf
+    assert op.Light([1.0, np.inf, 0.0, 0.0]).dop == np.inf

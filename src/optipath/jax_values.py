@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from optipath.errors import ParameterError
+
 
 def is_jax(value: Any) -> bool:
     """Tell whether a value is JAX's, without importing it.
@@ -29,6 +31,37 @@ def is_traced(value: Any) -> bool:
     False
     """
     return is_jax(value) and isinstance(value, sys.modules["jax"].core.Tracer)
+
+
+def known(value: Any) -> Any:
+    """Return a value, as NumPy's array where it is JAX's and its numbers are known.
+
+    JAX itself would compute float64 in float32 where its x64 is off.
+
+    Examples
+    --------
+    >>> known(1.0)
+    1.0
+    """
+    return np.asarray(value) if is_jax(value) and not is_traced(value) else value
+
+
+def check_known(what: str, value: Any) -> None:
+    """Raise where a value is one that JAX does not know yet.
+
+    Raises
+    ------
+    ParameterError
+        Naming what is made of it.
+
+    Examples
+    --------
+    >>> check_known("an exponent", 1)
+    """
+    if is_traced(value):
+        raise ParameterError(
+            f"{what} takes numbers, not values that JAX traces; do it outside of jit and grad"
+        )
 
 
 def namespace(value: Any) -> Any:

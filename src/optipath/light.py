@@ -10,16 +10,18 @@ from optipath.errors import FrameError, ShapeError
 from optipath.faint import times_two_to
 from optipath.frames import Frame
 from optipath.frozen import same
-from optipath.jax_values import is_jax, namespace
+from optipath.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.kernels import turn_linear
 from optipath.polarization_state import (
     amplitude_angle,
+    degree,
     ellipticity,
     ellipticity_angle,
     handedness,
     linear_degree,
     major_axis,
     phase_difference,
+    ratio,
 )
 from optipath.shapes import check_broadcast, real_array
 
@@ -51,6 +53,8 @@ class Light:
     ------
     ShapeError
         If the last axis has not four elements, or the exponent is no integer.
+    ParameterError
+        If there is an exponent, and JAX traces it or the Stokes vector.
 
     Examples
     --------
@@ -72,6 +76,7 @@ class Light:
         if not isinstance(frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {frame!r}")
         mantissa = stokes if is_jax(stokes) else real_array("a Stokes vector", stokes, (4,))
+        check_known("the exponent of a light", exponent)
         given, exponent = exponent, np.asarray(exponent)
         if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
             raise ShapeError(
@@ -80,7 +85,10 @@ class Light:
         batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
         exponent = np.broadcast_to(exponent.astype(np.int64), batch)
         if mantissa.shape[:-1] != batch:
-            mantissa = np.broadcast_to(mantissa, (*batch, 4)).copy()
+            xp = namespace(mantissa)
+            mantissa = xp.broadcast_to(mantissa, (*batch, 4)).copy()
+        if exponent.any():
+            check_known("light with an exponent", mantissa)
         plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
         self.__dict__.update(stokes=plain, frame=frame, exponent=exponent, mantissa=mantissa)
 
@@ -124,36 +132,37 @@ class Light:
         return f"Light(stokes={self.mantissa!r}, frame={self.frame!r}{faint})"
 
     @property
+    def _numbers(self) -> npt.NDArray[Any]:
+        """The mantissa, for NumPy unless JAX traces it."""
+        return known(self.mantissa)  # type: ignore[no-any-return]
+
+    @property
     def intensity(self) -> npt.NDArray[Any]:
         """S0, of shape (...)."""
         parts = self.__dict__.get("_stokes")
         if type(parts) is tuple and "stokes" not in self.__dict__:
             return np.asarray(parts[0])
-        return namespace(self.stokes).asarray(self.stokes[..., 0])  # type: ignore[no-any-return]
+        stokes = known(self.stokes)
+        return namespace(stokes).asarray(stokes[..., 0])  # type: ignore[no-any-return]
 
     @property
     def log10_intensity(self) -> npt.NDArray[Any]:
         """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
+        s0 = self._numbers[..., 0]
+        xp = namespace(s0)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(np.log10(self.mantissa[..., 0]) + self.exponent * np.log10(2.0))
+            return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
 
     @property
     def normalized(self) -> npt.NDArray[Any]:
         """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
-        xp = namespace(self.mantissa)
-        dark = self.mantissa[..., 0] == 0.0
-        lit = xp.where(dark, 1.0, self.mantissa[..., 0])[..., np.newaxis]
-        return xp.where(dark[..., np.newaxis], 0.0, self.mantissa / lit)  # type: ignore[no-any-return]
+        stokes = self._numbers
+        return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
 
     @property
     def dop(self) -> npt.NDArray[Any]:
         """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
-        if not is_jax(self.mantissa):
-            return np.asarray(np.linalg.norm(self.normalized[..., 1:], axis=-1))
-        # Unpolarised light has a slope of 0, in place of none.
-        xp, square = namespace(self.mantissa), (self.normalized[..., 1:] ** 2).sum(axis=-1)
-        there = square > 0.0
-        return xp.where(there, xp.sqrt(xp.where(there, square, 1.0)), 0.0)  # type: ignore[no-any-return]
+        return degree(self.normalized)
 
     @property
     def dolp(self) -> npt.NDArray[Any]:
@@ -163,7 +172,8 @@ class Light:
     @property
     def docp(self) -> npt.NDArray[Any]:
         """The signed degree of circular polarisation, S3 / S0, of shape (...)."""
-        return namespace(self.mantissa).asarray(self.normalized[..., 3])  # type: ignore[no-any-return]
+        normalized = self.normalized
+        return namespace(normalized).asarray(normalized[..., 3])  # type: ignore[no-any-return]
 
     @property
     def aop(self) -> npt.NDArray[Any]:
@@ -239,9 +249,12 @@ class Light:
         """
         if isinstance(frame, Frame):
             check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
-        s0, s1, s2, s3 = np.moveaxis(self.mantissa, -1, 0)
-        parts = (s0, *turn_linear(self.frame.turn_to(frame), s1, s2), s3)
-        return Light(np.stack(np.broadcast_arrays(*parts), axis=-1), frame, self.exponent)
+        stokes = self._numbers
+        xp, (s0, s1, s2, s3) = namespace(stokes), (stokes[..., i] for i in range(4))
+        turn = self.frame.turn_to(frame)
+        with np.errstate(over="ignore", invalid="ignore"):
+            parts = (s0, *turn_linear(turn, s1, s2), s3)
+        return Light(xp.stack(xp.broadcast_arrays(*parts), axis=-1), frame, self.exponent)
 
     def __add__(self, other: object) -> Light:
         if not isinstance(other, Light):
@@ -249,12 +262,17 @@ class Light:
         shapes = {"light": self.stokes.shape[:-1], "other light": other.stokes.shape[:-1]}
         check_broadcast(shapes)
         aligned = other.in_frame(self.frame)
+        if is_traced(self.mantissa) or is_traced(aligned.mantissa):
+            return Light(self.stokes + aligned.stokes, self.frame)
+        one, two = self._numbers, aligned._numbers
         # Dark light has no exponent of its own.
-        mine = np.where(self.mantissa[..., 0] == 0.0, aligned.exponent, self.exponent)
-        theirs = np.where(aligned.mantissa[..., 0] == 0.0, self.exponent, aligned.exponent)
+        mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
+        theirs = np.where(two[..., 0] == 0.0, self.exponent, aligned.exponent)
         power = np.maximum(mine, theirs)
-        parts = (times_two_to(x.mantissa, x.exponent - power) for x in (self, aligned))
-        return Light(sum(parts), self.frame, power)
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = times_two_to(one, self.exponent - power)
+            total = total + times_two_to(two, aligned.exponent - power)
+        return Light(total, self.frame, power)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):

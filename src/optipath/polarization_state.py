@@ -19,6 +19,21 @@ if TYPE_CHECKING:
     Array = npt.NDArray[Any]
 
 
+def ratio(part: Any, whole: Any) -> Any:
+    """Return a part over the whole: 0 where that is 0, and NaN where it is infinite.
+
+    Examples
+    --------
+    >>> ratio(np.array([1.0, 1.0, 1.0]), np.array([4.0, 0.0, np.inf]))
+    array([0.25, 0.  ,  nan])
+    """
+    xp, dark = namespace(whole), whole == 0.0
+    # What is not physical may run over, into infinity.
+    with np.errstate(over="ignore", invalid="ignore"):
+        known = part / xp.where(dark, 1.0, xp.where(xp.isinf(whole), np.nan, whole))
+    return xp.where(dark, 0.0, known)
+
+
 def length(*components: Any) -> Any:
     """Return the length of a vector from its components, however small; at 0 its slope is 0.
 
@@ -51,6 +66,11 @@ def direction(y: Any, x: Any) -> Any:
     return xp.where(angle <= -np.pi, -angle, angle)
 
 
+def degree(stokes: Array) -> Array:
+    """Return the degree of polarisation, the length of (S1, S2, S3) over S0."""
+    return _array(length(stokes[..., 1], stokes[..., 2], stokes[..., 3]))
+
+
 def linear_degree(stokes: Array) -> Array:
     """Return the degree of linear polarisation, hypot(S1, S2) over S0."""
     return _array(length(stokes[..., 1], stokes[..., 2]))
@@ -73,8 +93,10 @@ def ellipticity(stokes: Array) -> Array:
     """
     xp, (_, s1, s2, s3) = namespace(stokes), _components(stokes)
     linear = length(s1, s2)
-    axes = length(linear, s3) + linear
-    return _array(s3 / xp.where(axes == 0.0, 1.0, axes))
+    # What is not physical may be infinite, and then is NaN here.
+    with np.errstate(over="ignore", invalid="ignore"):
+        axes = length(linear, s3) + linear
+        return _array(s3 / xp.where(axes == 0.0, 1.0, axes))
 
 
 def ellipticity_angle(stokes: Array) -> Array:

@@ -73,6 +73,28 @@ def test_the_tolerance_is_against_the_largest_eigenvalue():
     assert not slightly_not.is_physical(tolerance=0.9e-6)
 
 
+def test_the_default_tolerance_is_that_of_the_precision():
+    T = jones(np.random.default_rng(9), 300)
+    single = of_jones(T).astype(np.float32)
+    assert op.Mueller(single).is_physical().all()
+    assert not op.Mueller(single.astype(np.float64)).is_physical().all()
+    assert not op.Mueller(single).is_physical(tolerance=1e-9).all()
+    for dtype in (np.float32, np.float64, np.longdouble):
+        assert not op.Mueller(np.diag([1.0, 1.0, 1.0, 1.0 + 1e-4]).astype(dtype)).is_physical()
+
+
+@pytest.mark.parametrize("tolerance", [-1e-9, np.nan, np.inf, "1e-9", [1e-9], True, 1j, 10**400])
+def test_a_tolerance_is_a_finite_number_of_at_least_0(tolerance):
+    with pytest.raises(op.ValueFault, match=r"finite number >= 0, not .*; leave it out") as fault:
+        op.Mueller(np.eye(4)).is_physical(tolerance)
+    assert repr(tolerance)[:20] in str(fault.value)
+
+
+@pytest.mark.parametrize("tolerance", [0, 0.0, 1e-9, np.float32(1e-9), np.array(1e-9)])
+def test_any_number_may_be_a_tolerance(tolerance):
+    assert op.Mueller(np.eye(4)).is_physical(tolerance)
+
+
 @given(seed=st.integers(0, 10**6), power=st.integers(-280, 280))
 def test_no_physical_matrix_is_nearer_than_the_nearest(seed, power):
     rng = np.random.default_rng(seed)

@@ -126,3 +126,28 @@ def test_jax_gives_what_numpy_gives_and_finite_slopes(name, matrix):
     given = jax.numpy.array(matrix)
     np.testing.assert_allclose(jax.jit(figure)(given), figure(matrix), rtol=1e-6)
     assert np.isfinite(jax.grad(figure)(given)).all()
+
+
+@pytest.mark.parametrize("name", SCALARS + VECTORS)
+def test_single_precision_stays_so(name):
+    single = np.asarray(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix, np.float32)
+    for matrix in (single, single[np.newaxis]):
+        assert getattr(op.Mueller(matrix), name).dtype == np.float32
+
+
+ALL = [*SCALARS, *VECTORS, "retardance", "coherency", "cloude_eigenvalues"]
+
+
+@pytest.mark.parametrize("place", [(0, 0), (0, 1), (1, 0), (2, 2), (3, 2)])
+@pytest.mark.parametrize("infinite", [np.inf, -np.inf])
+def test_what_is_infinite_makes_no_warning(place, infinite):
+    matrix = np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
+    matrix[place] = infinite
+    given = op.Mueller(matrix)
+    for name in ALL:
+        getattr(given, name)
+    assert not given.is_physical()
+    assert np.isnan(given.nearest_physical().matrix).all()
+    assert not np.isfinite(given.depolarization_index)
+    assert not np.isfinite((given @ op.Rotator(0.3).mueller() @ given).matrix).all()
+    assert not np.isfinite((given @ op.Light([1.0, 0.5, 0.3, 0.2])).stokes).all()

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.mueller.scaled import scaled, unscaled
+from optipath.errors import ValueFault
+from optipath.jax_values import check_known
+from optipath.mueller.scaled import precision, scaled, unscaled
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -20,6 +22,9 @@ PAULI = np.array(
     [[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]], np.complex128
 )
 """The matrices s_i for which S_i = <E| s_i |E>, in the order and with the signs of `Light`."""
+
+# Of double precision.
+_TOLERANCE = 1e-9
 
 # M_ij = 1/2 tr(s_i T s_j T*) with T = sum_k c_k s_k, and c_k conj(c_l) gathered into C_kl.
 _TO_MUELLER = 0.5 * np.einsum("iab,kbc,jcd,lda->klij", *[PAULI] * 4).reshape(16, 16)
@@ -35,7 +40,7 @@ def coherency(matrix: Array) -> Array:
     array([0., 1., 0., 0.])
     """
     parts, power = scaled(matrix)
-    found = _coherency(parts)
+    found = gathered(parts)
     real, imaginary = (unscaled(matrix, part, power) for part in (found.real, found.imag))
     return real + 1j * imaginary
 
@@ -43,22 +48,28 @@ def coherency(matrix: Array) -> Array:
 def eigenvalues(matrix: Array) -> Array:
     """Return the eigenvalues of the coherency matrices, shape (..., 4), the largest first."""
     parts, power = scaled(matrix)
-    found = np.linalg.eigvalsh(_coherency(parts))[..., ::-1]
+    found = np.linalg.eigvalsh(gathered(parts))[..., ::-1]
     return unscaled(matrix, found[..., np.newaxis], power)[..., 0]
 
 
-def is_physical(matrix: Array, tolerance: float) -> Array:
+def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
     """Tell where no eigenvalue is below minus the tolerance times the largest; NaN is not.
+
+    Raises
+    ------
+    ValueFault
+        If the tolerance is no finite number >= 0.
 
     Examples
     --------
     >>> print(is_physical(np.eye(4), 0.0))
     True
     """
+    within = _tolerance(tolerance, matrix)
     # Near 1, where the largest neither runs over nor fades.
     parts, _ = scaled(matrix)
     values = eigenvalues(unscaled(matrix, parts, 0))
-    return np.asarray(values[..., 3] >= -tolerance * values[..., 0])
+    return np.asarray(values[..., 3] >= -within * values[..., 0])
 
 
 def nearest_physical(matrix: Array) -> Array:
@@ -70,13 +81,28 @@ def nearest_physical(matrix: Array) -> Array:
     array([ 1.5,  0.5,  0.5, -0.5])
     """
     parts, power = scaled(matrix)
-    values, vectors = np.linalg.eigh(_coherency(parts))
+    values, vectors = np.linalg.eigh(gathered(parts))
     kept = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
     positive = kept @ np.swapaxes(vectors.conj(), -1, -2)
     found = (positive.reshape(*parts.shape[:-2], 16) @ _TO_MUELLER).real
     return unscaled(matrix, found.reshape(parts.shape), power)
 
 
-def _coherency(parts: Array) -> Array:
+def _tolerance(given: Any, matrix: Array) -> float:
+    """Return the tolerance of `is_physical`, by the precision of the matrix if none is given."""
+    if given is None:
+        return max(_TOLERANCE, 100.0 * precision(matrix))
+    check_known("the tolerance of is_physical", given)
+    number = np.asarray(given)
+    if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
+        return float(number)
+    raise ValueFault(
+        f"the tolerance of is_physical must be a finite number >= 0, not {given!r}; leave it "
+        f"out to allow for rounding"
+    )
+
+
+def gathered(parts: Array) -> Array:
+    """Return the coherency matrices of matrices whose entries are numbers near 1."""
     flat = parts.reshape(*parts.shape[:-2], 16) @ _FROM_MUELLER
     return np.asarray(flat.reshape(parts.shape))

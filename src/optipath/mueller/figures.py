@@ -1,16 +1,17 @@
 """Figures read off the entries of a Mueller matrix, shape (..., 4, 4), each over M00.
 
-They are 0 where M00 is 0, NaN where an entry they need is not known, and exact in scale.
+They are 0 where M00 is 0, NaN where it is infinite or an entry they need is not known, and exact
+in scale.
 """
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.jax_values import namespace
-from optipath.polarization_state import direction, length
+from optipath.polarization_state import direction, length, ratio
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -35,7 +36,7 @@ def polarizance_vector(matrix: Array) -> Array:
 def depolarization_index(matrix: Array) -> Array:
     """Return the length of all entries but M00, over sqrt(3) M00."""
     flat = matrix.reshape(*matrix.shape[:-2], 16)
-    return norm(_over_m00(matrix, flat[..., 1:])) / np.sqrt(3.0)  # type: ignore[no-any-return]
+    return norm(_over_m00(matrix, flat[..., 1:])) / sqrt(3.0)
 
 
 def sample_psi(matrix: Array) -> Array:
@@ -60,8 +61,4 @@ def _bcs(matrix: Array) -> Iterator[Array]:
 
 
 def _over_m00(matrix: Array, entries: Array) -> Array:
-    xp, m00 = namespace(matrix), matrix[..., 0, 0, np.newaxis]
-    dark = m00 == 0.0
-    # What is no physical matrix may run over, into infinity.
-    with np.errstate(over="ignore"):
-        return xp.where(dark, 0.0, entries / xp.where(dark, 1.0, m00))  # type: ignore[no-any-return]
+    return ratio(entries, matrix[..., 0, 0, np.newaxis])  # type: ignore[no-any-return]

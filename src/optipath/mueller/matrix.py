@@ -11,7 +11,7 @@ from optipath.errors import FrameError
 from optipath.faint import folded, near_one
 from optipath.frames import Frame
 from optipath.frozen import same
-from optipath.jax_values import is_jax
+from optipath.jax_values import is_jax, is_traced, known
 from optipath.kernels import NUMPY, ROTATION
 from optipath.light import Light
 from optipath.mueller import cloude, figures
@@ -66,19 +66,24 @@ class Mueller:
     @overload
     def __matmul__(self, other: Light) -> Light: ...
     def __matmul__(self, other: Mueller | Light) -> Mueller | Light:
-        batch = self.matrix.shape[:-2]
+        matrix, batch = known(self.matrix), self.matrix.shape[:-2]
         if isinstance(other, Light):
             check_broadcast({"matrix": batch, "light": other.stokes.shape[:-1]})
             aligned = other.in_frame(self.frame_in)
+            if is_traced(matrix) or is_traced(aligned.mantissa):
+                return Light((matrix @ aligned.stokes[..., np.newaxis])[..., 0], self.frame_out)
             stokes, exponent = near_one(aligned.mantissa, aligned.exponent)
-            product = (self.matrix @ stokes[..., np.newaxis])[..., 0]
+            with np.errstate(over="ignore", invalid="ignore"):
+                product = (matrix @ stokes[..., np.newaxis])[..., 0]
             exponent = np.broadcast_to(exponent, product.shape[:-1])
             stokes, exponent = folded(product, exponent)
             return Light(stokes, self.frame_out, exponent)
         if isinstance(other, Mueller):
             check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
             turn = _turn_matrix(other.frame_out, self.frame_in)
-            return Mueller(self.matrix @ turn @ other.matrix, other.frame_in, self.frame_out)
+            with np.errstate(over="ignore", invalid="ignore"):
+                product = matrix @ turn @ known(other.matrix)
+            return Mueller(product, other.frame_in, self.frame_out)
         return NotImplemented
 
     @property
@@ -98,7 +103,7 @@ class Mueller:
     @property
     def diattenuation_vector(self) -> npt.NDArray[Any]:
         """(M01, M02, M03) / M00, of shape (..., 3), in the frame of the light that comes in."""
-        return figures.diattenuation_vector(self.matrix)
+        return figures.diattenuation_vector(known(self.matrix))
 
     @property
     def polarizance(self) -> npt.NDArray[Any]:
@@ -108,7 +113,7 @@ class Mueller:
     @property
     def polarizance_vector(self) -> npt.NDArray[Any]:
         """(M10, M20, M30) / M00, of shape (..., 3), in the frame of the light that goes out."""
-        return figures.polarizance_vector(self.matrix)
+        return figures.polarizance_vector(known(self.matrix))
 
     @property
     def depolarization_index(self) -> npt.NDArray[Any]:
@@ -123,7 +128,7 @@ class Mueller:
         >>> print(Mueller(np.diag([1.0, 0.5, 0.5, 0.5])).depolarization_index.round(12))
         0.5
         """
-        return figures.depolarization_index(self.matrix)
+        return figures.depolarization_index(known(self.matrix))
 
     @property
     def psi(self) -> npt.NDArray[Any]:
@@ -138,7 +143,7 @@ class Mueller:
         >>> print(np.tan(Mueller(glass).psi).round(12), Mueller(glass).delta.round(4))
         0.5 3.1416
         """
-        return figures.sample_psi(self.matrix)
+        return figures.sample_psi(known(self.matrix))
 
     @property
     def delta(self) -> npt.NDArray[Any]:
@@ -147,7 +152,7 @@ class Mueller:
         The phase of r_p / r_s in ellipsometry's exp(+i w t), atan2(M23, M22): pi where a
         dielectric is met below Brewster's angle, between 0 and pi for a bare metal.
         """
-        return figures.sample_delta(self.matrix)
+        return figures.sample_delta(known(self.matrix))
 
     @property
     def retardance(self) -> npt.NDArray[Any]:
@@ -198,13 +203,20 @@ class Mueller:
         """
         return cloude.eigenvalues(self.matrix)
 
-    def is_physical(self, tolerance: float = 1e-9) -> npt.NDArray[np.bool_]:
+    def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
         """Tell whether some mixture of Jones matrices acts like this, shape (...).
 
         Parameters
         ----------
         tolerance : float, optional
-            How far below 0, against the largest, an eigenvalue of `coherency` may be.
+            How far below 0, against the largest, an eigenvalue of `coherency` may be. By
+            default 1e-9, or a hundred roundings of a matrix of less than double precision:
+            1.2e-5 for float32.
+
+        Raises
+        ------
+        ValueFault
+            If the tolerance is no finite number >= 0.
 
         Examples
         --------
@@ -229,7 +241,7 @@ class Mueller:
         if not isinstance(other, Mueller):
             return NotImplemented
         frames = self.frame_in == other.frame_in and self.frame_out == other.frame_out
-        return frames and same(self.matrix, other.matrix)
+        return frames and same(known(self.matrix), known(other.matrix))
 
     __hash__ = None  # type: ignore[assignment]
 

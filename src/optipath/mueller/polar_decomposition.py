@@ -8,7 +8,8 @@ all over M00, M = M_depolarizer M_retarder M_diattenuator where
     M_depolarizer M_retarder = [[1, 0], [p, m']],  p = (P - m D d) / (1 - D^2),
     m' = m (1 - d d') / a + (m d - D P) d' / (1 - D^2) = m_depolarizer m_retarder,
 
-the last by singular values. Sums and differences of p and m' d lose fewer digits.
+the last by singular values. Sums and differences of p and m' d lose fewer digits. What does not
+depolarise has the parts of its Jones matrix, which lose none where little is let through.
 """
 
 from __future__ import annotations
@@ -17,19 +18,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.mueller.figures import norm
-from optipath.mueller.scaled import scaled, unscaled
+from optipath.faint import times_two_to
+from optipath.mueller.pure import jones_parts
+from optipath.mueller.scaled import precision, scaled, unscaled
+from optipath.mueller.turns import least_turn, outer, size_and_direction
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     Array = npt.NDArray[Any]
 
-# What a path of some elements may have gathered of rounding, against M00.
+# What a path of some elements may have gathered of rounding, against what they let through.
 _ROUNDING = 2.0**-46
+# The most of it against M00, which may be small because of its unit.
+_MOST = 2.0**-20
 # No physical matrix has an entry above its M00; where one has, ratios must not run over.
 _DARK = 2.0**-200
-_NOTHING = 2.0**-960
 _UNIT = np.eye(3)
 _LAST = np.array([False, False, True])
 
@@ -40,28 +44,27 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     m00 = parts[..., :1, :1]
     lit = np.abs(m00) > _DARK
     unit = np.where(lit, parts / np.where(lit, m00, 1.0), np.eye(4))
-    polarizance, m = unit[..., 1:, 0], unit[..., 1:, 1:]
-
-    size, d = _size_and_direction(unit[..., 0, 1:])
-    ideal = size > 1.0 - _ROUNDING
-    D = np.where(ideal, 1.0, size)
-    diattenuator = _bordered(D * d, D * d, _diattenuation(D, d))
-
-    gap = np.where(ideal, 1.0, 1.0 - D)
-    image = _applied(m, d)
-    half_sum, half_difference = (polarizance + image) / (1.0 + D), (polarizance - image) / gap
-    p, along = 0.5 * (half_sum + half_difference), 0.5 * (half_sum - half_difference)
-    across = (m - _outer(image, d)) / np.sqrt(gap * (1.0 + D))[..., np.newaxis]
-    depolarizing, turn = _depolarizer_and_turn(across + _outer(along, d), _ROUNDING / gap)
+    polarizance = unit[..., 1:, 0]
+    rounding = _rounding(matrix, np.where(lit, m00, 1.0)[..., 0], power)
+    pure, root, turn = jones_parts(unit, rounding)
+    size, d = size_and_direction(unit[..., 0, 1:])
+    ideal = np.where(pure, root <= rounding, _is_polariser(unit, size, rounding))
+    D = np.where(ideal, 1.0, np.minimum(size, 1.0))
+    root = np.where(ideal, 0.0, np.where(pure, root, np.sqrt((1.0 - D) * (1.0 + D))))
+    p, depolarizing, turns = _behind_diattenuator(unit, D, d)
+    turn = np.where(pure[..., np.newaxis], turn, turns)
+    depolarizing = np.where(pure[..., np.newaxis], _UNIT, depolarizing)
 
     # Behind an ideal polariser the light has one state, whatever follows: the least will do.
-    degree, seen = _size_and_direction(polarizance)
+    degree, seen = size_and_direction(polarizance)
     least = least_turn(d, np.where(degree == 0.0, d, seen))
     turn = np.where(ideal[..., np.newaxis], least, turn)
-    depolarizing = np.where(ideal[..., np.newaxis], degree[..., np.newaxis] * _UNIT, depolarizing)
+    one_state = (ideal & ~pure)[..., np.newaxis]
+    depolarizing = np.where(one_state, degree[..., np.newaxis] * _UNIT, depolarizing)
 
     none = np.zeros_like(d)
-    depolarizer = _bordered(none, np.where(ideal, 0.0, p), depolarizing)
+    diattenuator = _bordered(D * d, D * d, _diattenuation(root, d))
+    depolarizer = _bordered(none, np.where(ideal | pure, 0.0, p), depolarizing)
     retarder = _bordered(none, none, turn)
     return (
         unscaled(matrix, depolarizer, 0),
@@ -70,26 +73,32 @@ def polar_parts(matrix: Any) -> tuple[Array, Array, Array]:
     )
 
 
-def least_turn(a: Array, b: Array) -> Array:
-    """Return the rotations by the least angle that turn unit vectors a into b, (..., 3, 3).
+def _rounding(matrix: Any, m00: Array, power: Array) -> Array:
+    """Return what may be rounding in matrices over M00, shape (..., 1).
 
-    Examples
-    --------
-    >>> least_turn(np.array([1.0, 0.0, 0.0]), np.array([-1.0, 0.0, 0.0])).diagonal()
-    array([-1., -1.,  1.])
+    That of the parts, which let 1 through at most, is larger against an M00 that they block.
     """
-    normal = np.cross(a, b)
-    sine = norm(normal)[..., np.newaxis]
-    least = _UNIT[np.argmin(np.abs(a), axis=-1)]
-    axis = np.where(sine > _ROUNDING, normal, np.cross(a, least))
-    # Of vectors all but opposite the product is rounding, not all of it across a.
-    _, axis = _size_and_direction(axis - a * np.sum(a * axis, axis=-1, keepdims=True))
-    cosine = np.sum(a * b, axis=-1, keepdims=True)[..., np.newaxis]
-    crossed = np.cross(axis[..., np.newaxis, :], _UNIT)
-    # Row i of `crossed` is axis x e_i, and so minus row i of the matrix of (axis x).
-    return np.asarray(
-        cosine * _UNIT + (1.0 - cosine) * _outer(axis, axis) - sine[..., np.newaxis] * crossed
-    )
+    least = max(_ROUNDING, 64.0 * precision(matrix))
+    blocked = times_two_to(1.0 / np.abs(m00), -power)
+    return np.clip(least * blocked, least, max(least, _MOST))
+
+
+def _is_polariser(unit: Array, size: Array, rounding: Array) -> Array:
+    """Tell where D is 1, or nothing but rounding depends on the state that comes in."""
+    one_state = outer(unit[..., :, 0], unit[..., 0, :])
+    rest = np.abs(unit - one_state).max(axis=(-1, -2), initial=0.0)[..., np.newaxis]
+    return np.asarray((size > 1.0 - _ROUNDING) | ((size > 1.0 - rounding) & (rest <= rounding)))
+
+
+def _behind_diattenuator(unit: Array, D: Array, d: Array) -> tuple[Array, Array, Array]:
+    """Return p, m_depolarizer and m_retarder; numbers without a meaning where D is 1."""
+    polarizance, m = unit[..., 1:, 0], unit[..., 1:, 1:]
+    gap = np.where(D < 1.0, 1.0 - D, 1.0)
+    image = _applied(m, d)
+    half_sum, half_difference = (polarizance + image) / (1.0 + D), (polarizance - image) / gap
+    p, along = 0.5 * (half_sum + half_difference), 0.5 * (half_sum - half_difference)
+    across = (m - outer(image, d)) / np.sqrt(gap * (1.0 + D))[..., np.newaxis]
+    return p, *_depolarizer_and_turn(across + outer(along, d), _ROUNDING / gap)
 
 
 def _depolarizer_and_turn(m: Array, rounding: Array) -> tuple[Array, Array]:
@@ -106,16 +115,9 @@ def _depolarizer_and_turn(m: Array, rounding: Array) -> tuple[Array, Array]:
     return depolarizing, np.where(none, _UNIT, turn)
 
 
-def _size_and_direction(vector: Array) -> tuple[Array, Array]:
-    """Return lengths, shape (..., 1), and unit vectors; 0 and 0 for what has too few digits."""
-    size = norm(vector)[..., np.newaxis]
-    none = size < _NOTHING
-    return np.where(none, 0.0, size), np.where(none, 0.0, vector / np.where(none, 1.0, size))
-
-
-def _diattenuation(D: Array, d: Array) -> Array:
-    a = np.sqrt((1.0 - D) * (1.0 + D))[..., np.newaxis]
-    return np.asarray(a * _UNIT + (1.0 - a) * _outer(d, d))
+def _diattenuation(root: Array, d: Array) -> Array:
+    a = root[..., np.newaxis]
+    return np.asarray(a * _UNIT + (1.0 - a) * outer(d, d))
 
 
 def _bordered(row: Array, column: Array, lower: Array) -> Array:
@@ -123,10 +125,6 @@ def _bordered(row: Array, column: Array, lower: Array) -> Array:
     bordered[..., 0, 0] = 1.0
     bordered[..., 0, 1:], bordered[..., 1:, 0], bordered[..., 1:, 1:] = row, column, lower
     return bordered
-
-
-def _outer(a: Array, b: Array) -> Array:
-    return np.asarray(a[..., :, np.newaxis] * b[..., np.newaxis, :])
 
 
 def _applied(matrix: Array, vector: Array) -> Array:

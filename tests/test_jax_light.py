@@ -1,0 +1,132 @@
+"""Light and Mueller of JAX's arrays: those that are known, and those that JAX traces."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+jax = pytest.importorskip("jax")
+
+STOKES = np.array([[2.0, 0.6, -0.3, 0.8], [1.0, 1 / 3, 0.2, 0.1]])
+LIGHT = [
+    "intensity",
+    "log10_intensity",
+    "normalized",
+    "dop",
+    "dolp",
+    "docp",
+    "aop",
+    "ellipticity",
+    "ellipticity_angle",
+    "handedness",
+    "psi",
+    "delta",
+]
+MUELLER = [
+    "diattenuation",
+    "diattenuation_vector",
+    "polarizance",
+    "polarizance_vector",
+    "depolarization_index",
+    "psi",
+    "delta",
+    "retardance",
+    "coherency",
+    "cloude_eigenvalues",
+]
+NOT_TRACED = [
+    lambda m: m.coherency,
+    lambda m: m.cloude_eigenvalues,
+    lambda m: m.is_physical(),
+    lambda m: m.nearest_physical().matrix,
+    lambda m: m.lu_chipman().retarder.matrix,
+    lambda m: m.retardance,
+]
+
+
+def matrix():
+    return np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
+
+
+def doubles(values):
+    """Return an array of JAX's in float64, for use where its x64 is off."""
+    jax.config.update("jax_enable_x64", val=True)
+    try:
+        return jax.numpy.array(values, np.float64)
+    finally:
+        jax.config.update("jax_enable_x64", val=False)
+
+
+@pytest.mark.parametrize("name", LIGHT)
+def test_figures_of_known_light_keep_its_precision(name):
+    found = getattr(op.Light(doubles(STOKES)), name)
+    expected = getattr(op.Light(STOKES), name)
+    np.testing.assert_array_equal(found, expected)
+    assert found.dtype == expected.dtype
+
+
+@pytest.mark.parametrize("name", MUELLER)
+def test_figures_of_a_known_matrix_keep_its_precision(name):
+    found, expected = (getattr(op.Mueller(m), name) for m in (doubles(matrix()), matrix()))
+    np.testing.assert_array_equal(found, expected)
+    assert found.dtype == expected.dtype
+
+
+def test_what_is_done_to_known_light_keeps_its_precision():
+    light, metal = op.Light(STOKES), op.Mueller(matrix())
+    same, same_metal = op.Light(doubles(STOKES)), op.Mueller(doubles(matrix()))
+    frame = op.Frame().turned(0.3)
+    assert same == light
+    assert same_metal == metal
+    assert same.in_frame(frame) == light.in_frame(frame)
+    assert same + same == light + light
+    assert same_metal @ same == metal @ light
+    assert same_metal @ same_metal == metal @ metal
+    assert same_metal.is_physical()
+    assert same_metal.nearest_physical() == metal.nearest_physical()
+
+
+@pytest.mark.parametrize("figure", NOT_TRACED)
+def test_what_takes_numbers_says_so_where_jax_traces(figure):
+    with pytest.raises(op.ParameterError, match="numbers, not values that JAX traces"):
+        jax.jit(lambda m: figure(op.Mueller(m)))(matrix())
+
+
+def test_light_that_jax_traces_has_no_exponent():
+    for make in (lambda s: op.Light(s, exponent=3), lambda s: op.Light(STOKES, exponent=s)):
+        with pytest.raises(op.ParameterError, match="exponent"):
+            jax.jit(lambda s, make=make: make(s).stokes)(STOKES)
+
+
+def test_a_tolerance_that_jax_traces_is_refused():
+    with pytest.raises(op.ParameterError, match="tolerance"):
+        jax.jit(lambda t: op.Mueller(np.eye(4)).is_physical(t))(1e-9)
+
+
+@pytest.mark.parametrize(
+    "done",
+    [
+        lambda light, _: light.log10_intensity,
+        lambda light, _: light.in_frame(op.Frame().turned(0.3)).stokes,
+        lambda light, _: (light + op.Light([1.0, 0, 0, 0], op.Frame().turned(0.3))).stokes,
+        lambda light, _: (op.Light([1.0, 0, 0, 0], op.Frame().turned(0.3)) + light).stokes,
+        lambda light, metal: (metal @ light).stokes,
+        lambda light, metal: (op.Polarizer(0.3).mueller() @ metal @ light).stokes,
+        lambda light, _: (op.Polarizer(0.3).mueller() @ light).dop,
+    ],
+)
+def test_what_is_done_to_light_that_jax_traces_is_what_numpy_does(done):
+    def traced(stokes, metal):
+        return done(op.Light(stokes), op.Mueller(metal))
+
+    expected = traced(STOKES, matrix())
+    np.testing.assert_allclose(jax.jit(traced)(STOKES, matrix()), expected, rtol=1e-5, atol=1e-6)
+    slopes = jax.jacobian(traced)(jax.numpy.array(STOKES), jax.numpy.array(matrix()))
+    assert np.isfinite(slopes).all()
+
+
+def test_the_degree_of_polarisation_has_a_slope_at_unpolarised_light():
+    slope = jax.grad(lambda s: op.Light(s).dop)
+    np.testing.assert_allclose(slope(jax.numpy.array([1.0, 0.0, 0.0, 0.0])), 0.0)
+    found = slope(jax.numpy.array([1.0, 0.6, 0.0, 0.8]))
+    np.testing.assert_allclose(found, [-1.0, 0.6, 0.0, 0.8], rtol=1e-5, atol=1e-7)
