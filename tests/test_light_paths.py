@@ -68,6 +68,54 @@ def test_a_batch_has_its_ways_together():
     )
 
 
+def rings(count, kept=0.9, loss=1.0):
+    """So many rings in a row, in each of which a share is kept each time round."""
+    path, before = op.PathGraph(loops="sum"), "lamp.out"
+    path.add("lamp", op.Source())
+    for i in range(count):
+        path.add(f"split{i}", op.BeamSplitter(1.0 - kept))
+        path.add(f"grey{i}", op.Attenuator(loss))
+        path.connect(before, f"split{i}.in")
+        path.connect(f"split{i}.reflected", f"grey{i}.in")
+        path.connect(f"grey{i}.out", f"split{i}.back")
+        before = f"split{i}.transmitted"
+    path.add("eye", op.Detector())
+    path.connect(before, "eye.in")
+    return path
+
+
+def test_the_brightest_way_through_many_rings_is_found_at_once():
+    (way,) = rings(12).paths(limit=1)
+    assert way.light.intensity == pytest.approx(0.9**12)
+
+
+def test_light_that_never_fades_is_refused_and_no_list_without_end():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source()) >> path.add("join", op.Combiner())
+    path.add("split", op.BeamSplitter(1.0))
+    path["join"] >> path["split"]
+    path.connect("split.reflected", "join.in")
+    path.add("eye", op.Detector())
+    path.connect("split.transmitted", "eye.in")
+    with pytest.raises(op.ParameterError, match="never fades"):
+        path.paths(limit=1)
+
+
+def test_a_loop_behind_which_all_is_dark_gives_no_ways():
+    path = rings(1, kept=0.5)
+    dark = op.PathGraph(loops="sum")
+    for name, element in path.graph.nodes(data="element"):
+        dark.add(name, element)
+    dark.add("shut", op.Attenuator(0.0))
+    for start, end, (leaves, enters) in path.graph.edges(keys=True):
+        if end == "eye":
+            dark.connect(f"{start}.{leaves}", "shut.in")
+            dark.connect("shut.out", "eye.in")
+        else:
+            dark.connect(f"{start}.{leaves}", f"{end}.{enters}")
+    assert dark.paths(limit=1) == []
+
+
 def test_what_is_dark_is_no_way():
     assert op.load_preset("two-panes").paths() == []
 

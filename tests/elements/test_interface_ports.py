@@ -100,3 +100,11 @@ def test_the_azimuth_of_an_element_is_that_of_its_front():
 
     np.testing.assert_array_equal(turned(None, 0.4), turned(None, 0.0))
     np.testing.assert_allclose(turned(0.4, 0.9)[1], 0.7 * 0.5 * np.cos(0.8), rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    "element", [op.Interface(1.5 + 0.1j, 0.3), op.LayerStack([1.0, 1.5, 1.5 + 0.1j], 0.3)]
+)
+def test_an_element_alone_refuses_light_from_behind_as_well(element):
+    with pytest.raises(op.PathError, match="by port 'back'"):
+        element.mueller("back", "reflected")

@@ -137,11 +137,13 @@ def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
 
 @jones.register
 def _(element: Interface, way: Coupling, read: Reader) -> Jones:
-    outside = read.index(element.outside).real
+    before, behind = read.index(element.outside).real, read.index(element.index)
     c, s = cos_sin(read.angle(element.incidence))
     if element.incidence_in is not None:
-        c, s = refracted(read.index(element.incidence_in).real / outside, s)
-    found = boundary(read.index(element.index) / outside, c, s)
+        if way.enters == "back":
+            before, behind = behind.real, before
+        c, s = refracted(read.index(element.incidence_in).real / before, s)
+    found = boundary(behind / before, c, s)
     return found.reflected if way.reflects else found.transmitted
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import TYPE_CHECKING
 
 from optipath.composer.builder import Builder
 from optipath.composer.entries import entries_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterable, Iterator
 
     from optipath.composer.entries import Entries
     from optipath.program import Program
@@ -63,42 +64,63 @@ class Live:
         )
 
     def _forward(self) -> list[set[int]]:
-        reached: list[set[int]] = [set() for _ in self.program.steps]
-        return self._settled(reached, lambda: self._send_forward(reached))
+        steps, used_by = self.program.steps, self.program.used_by
+        reached: list[set[int]] = [set() for _ in steps]
+        waiting = _Waiting(range(len(steps)))
+        for light in waiting:
+            arriving = set().union(*(reached[source] for source in steps[light].inputs))
+            found = _sent(self.entries[light], arriving, emits=not steps[light].inputs)
+            if not found <= reached[light]:
+                reached[light] |= found
+                waiting.add(used_by[light])
+        return reached
 
     def _backward(self) -> list[set[int]]:
-        needed: list[set[int]] = [set() for _ in self.program.steps]
+        steps = self.program.steps
+        needed: list[set[int]] = [set() for _ in steps]
         for reading in self.program.readings.values():
             needed[reading.light] |= set(range(reading.components))
-        return self._settled(needed, lambda: self._send_backward(needed))
-
-    def _settled(self, found: list[set[int]], sent: Callable[[], None]) -> list[set[int]]:
-        """Return what is found once nothing is added any more; loops take several rounds."""
-        sent()
-        before = -1
-        while self.program.loops and (now := sum(map(len, found))) > before:
-            before = now
-            sent()
-        return found
-
-    def _send_forward(self, reached: list[set[int]]) -> None:
-        for light, (step, rows) in enumerate(zip(self.program.steps, self.entries, strict=True)):
-            arriving = set().union(*(reached[source] for source in step.inputs))
-            if rows is None:
-                reached[light] |= arriving
-            elif not step.inputs:
-                reached[light] |= {i for i, entry in enumerate(rows[0]) if entry != 0.0}
-            else:
-                reached[light] |= {i for i in range(4) if any(rows[i][j] != 0.0 for j in arriving)}
-
-    def _send_backward(self, needed: list[set[int]]) -> None:
-        for light in reversed(range(len(needed))):
+        waiting = _Waiting(reversed(range(len(steps))))
+        for light in waiting:
             rows, asked = self.entries[light], needed[light]
-            for before in self.program.steps[light].inputs:
-                if rows is None:
-                    needed[before] |= asked
-                else:
-                    needed[before] |= {j for j in range(4) if any(rows[i][j] != 0.0 for i in asked)}
+            found = asked
+            if rows is not None and steps[light].inputs:
+                found = {j for j in range(4) if any(rows[i][j] != 0.0 for i in asked)}
+            for before in steps[light].inputs:
+                if not found <= needed[before]:
+                    needed[before] |= found
+                    waiting.add((before,))
+        return needed
+
+
+def _sent(rows: Entries | None, arriving: set[int], *, emits: bool) -> set[int]:
+    """Return the components that a step makes of those that arrive."""
+    if rows is None:
+        return arriving
+    if emits:
+        return {i for i, entry in enumerate(rows[0]) if entry != 0.0}
+    return {i for i in range(4) if any(rows[i][j] != 0.0 for j in arriving)}
+
+
+class _Waiting:
+    """Lights to be looked at, once each, and again where others that they hang on have changed."""
+
+    def __init__(self, lights: Iterable[int]) -> None:
+        self._lights = deque(lights)
+        self._there = set(self._lights)
+
+    def add(self, lights: Iterable[int]) -> None:
+        """Let some wait that do not yet."""
+        for light in lights:
+            if light not in self._there:
+                self._there.add(light)
+                self._lights.append(light)
+
+    def __iter__(self) -> Iterator[int]:
+        while self._lights:
+            light = self._lights.popleft()
+            self._there.discard(light)
+            yield light
 
 
 def trim(live: Live) -> tuple[Program, list[str]]:

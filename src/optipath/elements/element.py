@@ -125,13 +125,7 @@ class Element:
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""
-        found: list[str] = []
-        for use in self._uses(owner):
-            try:
-                use.check()
-            except ValueFault as fault:
-                found += fault.faults
-        return found
+        return _faults(self._uses(owner))
 
     def _uses(self, owner: str) -> list[Use]:
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
@@ -210,7 +204,11 @@ class Element:
         REFLECTION.by_method(method)
         owner = self.kind or type(self).__name__
         leaves = leaves or self.natural
-        uses = self._uses(owner)
+        uses = self._uses(owner) + [
+            Use(f"{owner}.{name}", value, domain)
+            for field, limits in self.domains_entered(enters).items()
+            for name, value, domain in limits.parts(field, getattr(self, field))
+        ]
         open_ones = [
             f"parameter '{use.value.name}' of {owner} has no value yet"
             for use in uses
@@ -224,7 +222,7 @@ class Element:
             for port, frame in ((enters, frame_in), (leaves, frame_out))
             if frame is not None
         }
-        faults = self.faults(owner) + open_ones
+        faults = list(dict.fromkeys(_faults(uses) + open_ones))
         faults = faults or broadcast_fault(shapes) or self.frame_faults(owner, frames)
         if faults:
             raise PathError(*faults)
@@ -280,6 +278,16 @@ def _same_value(first: Any, second: Any, domain: Domain) -> bool:
     # An index may be written as a complex number or as a Material.
     pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)
     return all(same(one, other) for one, other in pairs)
+
+
+def _faults(uses: list[Use]) -> list[str]:
+    found: list[str] = []
+    for use in uses:
+        try:
+            use.check()
+        except ValueFault as fault:
+            found += fault.faults
+    return found
 
 
 def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:

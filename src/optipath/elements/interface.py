@@ -64,7 +64,9 @@ class Interface(FourPort, kind="interface"):
         """Return what is reflected and what is let through, from either side.
 
         Between media that do not absorb, both are the same from the two sides (Stokes'
-        relations): r' = -r for s and for p, and power carried either way is 1 - |r|^2.
+        relations): r' = -r for s and for p, and power carried either way is 1 - |r|^2. Where
+        the medium in front may be one that light does not get into, since it has been
+        refracted before, what is reflected from behind is another matter.
         """
         n, k = numbers_of(self.index, self.domains()["index"])
         media = (_real(self.outside), n, k)
@@ -72,8 +74,9 @@ class Interface(FourPort, kind="interface"):
         before = () if self.incidence_in is None else (_real(self.incidence_in),)
         reflect = Operation(REFLECTION, (*media, *before, *angle))
         transmit = Operation(TRANSMISSION, (*media, *before, *angle))
-        both = reflect, transmit
-        return self._ways(both, both)
+        behind = (n, media[0], 0.0) if before else media
+        reflect_back = Operation(REFLECTION, (*behind, *before, *angle))
+        return self._ways((reflect, transmit), (reflect_back, transmit))
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
         """Return that the medium behind must not absorb where light comes from there."""

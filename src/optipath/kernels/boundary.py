@@ -166,13 +166,13 @@ def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
 
     The same again, where nothing is reflected totally: Re g^2 is never negative.
     """
-    sqrt, wave = xp.sqrt, _lossless_wave(xp)
+    sqrt, wave, lossless = xp.sqrt, _lossless_wave(xp), lossless_boundary(xp)
 
     def boundary(n1: Any, n: Any, *angle: Any) -> Boundary:
-        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
         if len(angle) > 2:
-            # Unless light has been refracted totally before, and there is none.
-            u = xp.maximum(u, 0.0)
+            # All may have been reflected before.
+            return lossless(n1, n, *angle)
+        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
         return Boundary(p, sqrt(u), 0.0, u, contrast, 0.0, s, c, n1, n, 0.0)
 
     return boundary

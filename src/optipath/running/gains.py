@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from functools import reduce
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,26 @@ if TYPE_CHECKING:
 _MOST = 1 << 22
 """How many entries of matrices are looked at together; larger systems are judged by pivots."""
 
-_WHOLE = 64.0 * np.finfo(np.float64).eps
+
+_FEW_DIGITS = 1e-9
+
+
+class Worst(NamedTuple):
+    """That path of a batch of which most stays in a loop.
+
+    Attributes
+    ----------
+    closed : bool
+        Whether all of some light stays, or more.
+    leaves : float
+        How much leaves each time round, as a share.
+    condition : float
+        The condition number of the sum.
+    """
+
+    closed: bool
+    leaves: float
+    condition: float
 
 
 def check_gains(meetings: Sequence[Meeting]) -> None:
@@ -39,21 +58,20 @@ def check_gains(meetings: Sequence[Meeting]) -> None:
     """
     faults = []
     for meeting in meetings:
-        doubtful = ~np.asarray(reduce(np.logical_and, meeting.conditions, np.True_))
-        if not np.any(doubtful):
+        if np.all(reduce(np.logical_and, meeting.conditions, np.True_)):
             continue
         place = meeting.program.steps[meeting.loop.start].label
-        gain, condition = _worst(meeting, doubtful)
-        if gain >= 1.0 - _WHOLE:
+        worst = _worst(meeting)
+        if worst.closed:
             faults.append(
-                f"light that goes round at '{place}' never fades: {gain:.9g} of it comes back each "
-                f"time; let some of it leave, or absorb some"
+                f"light that goes round at '{place}' never fades: {1.0 - worst.leaves:.9g} of it "
+                f"comes back each time; let some of it leave, or absorb some"
             )
-        elif gain > 1.0 - LITTLE:
+        elif worst.leaves < LITTLE:
             warnings.warn(
-                f"of the light that goes round at '{place}', {gain:.9g} comes back each time; the "
-                f"condition number of the sum is {condition:.2g}, by which errors of the values "
-                f"that are given may be enlarged",
+                f"of the light that goes round at '{place}', all but {worst.leaves:.2g} comes back "
+                f"each time; the condition number of the sum is {worst.condition:.2g}, by which "
+                f"errors of the values that are given may be enlarged",
                 LoopWarning,
                 stacklevel=2,
             )
@@ -61,41 +79,55 @@ def check_gains(meetings: Sequence[Meeting]) -> None:
         raise ParameterError(*faults)
 
 
-def _worst(meeting: Meeting, doubtful: Array) -> tuple[float, float]:
-    """Return the largest gain among the doubtful paths of a batch, and the condition there.
+def _worst(meeting: Meeting) -> Worst:
+    """Return the worst of the doubtful paths of a batch.
 
     The condition number is that of (I - M)^-1 with respect to I and M, which unlike that of
     their difference sees a loop whose lights all stay alike.
     """
-    shape, count = np.atleast_1d(doubtful).shape, len(meeting.unknowns)
+    columns = [meeting.scattered(column.back) for column in meeting.columns]
+    numbers = [*meeting.pivots, *(number for column in columns for number in column.values())]
+    shape = np.broadcast_shapes((1,), *map(np.shape, numbers))
+    holds = reduce(np.logical_and, meeting.conditions, np.True_)
+    where = np.argwhere(~np.broadcast_to(holds, shape))
+    count = len(meeting.unknowns)
 
     def picked(number: Any) -> Array:
         return np.broadcast_to(np.asarray(number, float), shape)[tuple(where.T)]
 
-    where = np.argwhere(np.atleast_1d(doubtful))
-    where = where[: max(1, _MOST // (count * count))]
     # What no light ever gets to may keep all of it.
-    lit = np.stack([picked(_lit(number, doubtful.ndim)) for number in meeting.found], axis=-1) > 0
+    lit = np.stack([picked(_lit(number, shape)) for number in meeting.found], axis=-1) > 0.0
+    pivots = np.where(lit, np.stack([picked(p) for p in meeting.pivots], axis=-1), 1.0)
+    pivots = np.nan_to_num(pivots, nan=0.0)
+    least, most = pivots.min(axis=-1), max(1, _MOST // (count * count))
+    first = np.argsort(least)[:most]
+    closed = bool(least[first[0]] <= 0.0)
     if count * count > _MOST:
-        left = np.where(lit, np.stack([picked(p) for p in meeting.pivots], axis=-1), 1.0)
-        least = float(np.min(np.nan_to_num(left, nan=0.0)))
-        return 1.0 - least, 2.0 / max(least, np.finfo(float).tiny)
+        leaves = float(least[first[0]])
+        return Worst(closed, leaves, 2.0 / max(leaves, np.finfo(float).tiny))
+    where, lit = where[first], lit[first]
     matrices = np.zeros((len(where), count, count))
-    for column, found in enumerate(meeting.columns):
-        for row, number in meeting.scattered(found.back).items():
-            matrices[:, row, column] = picked(number)
+    for place, column in enumerate(columns):
+        for row, number in column.items():
+            matrices[:, row, place] = picked(number)
     matrices *= lit[:, :, np.newaxis] & lit[:, np.newaxis, :]
     gains = np.abs(np.linalg.eigvals(matrices)).max(axis=-1)
     worst = int(np.argmax(gains))
+    leaves = 1.0 - float(gains[worst])
+    if not closed:
+        # Next to 1, a gain has lost the digits that the pivots still have.
+        leaves = max(leaves, float(least[first[0]]) if leaves < _FEW_DIGITS else 0.0)
     size = np.linalg.norm(matrices[worst], 2)
     with np.errstate(all="ignore"):
         sums = np.linalg.pinv(np.eye(count) - matrices[worst], rcond=0.0)
-    return float(gains[worst]), float((1.0 + size) * np.linalg.norm(sums, 2))
+    return Worst(closed, leaves, float((1.0 + size) * np.linalg.norm(sums, 2)))
 
 
-def _lit(number: Any, axes: int) -> Array:
-    """Return where an unknown is not 0, in any of the columns that may be found together."""
+def _lit(number: Any, shape: tuple[int, ...]) -> Array:
+    """Return where an unknown is not 0, for any of the paths that share a loop."""
     lit = np.asarray(np.asarray(number) != 0.0)
-    while lit.ndim > axes:
+    while lit.ndim > len(shape):
         lit = np.asarray(lit.any(axis=0))
-    return lit
+    own = shape[len(shape) - lit.ndim :]
+    shared = tuple(axis for axis, length in enumerate(own) if length == 1)
+    return np.asarray(lit.any(axis=shared, keepdims=True))

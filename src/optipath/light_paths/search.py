@@ -1,4 +1,4 @@
-"""Light paths: the ways from a source to a detector one by one, with what each contributes."""
+"""The search for ways of light, from where most may come of it."""
 
 from __future__ import annotations
 
@@ -9,50 +9,26 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError
 from optipath.kernels import NUMPY, Plain, energy
 from optipath.light import Light
+from optipath.light_paths.light_path import LightPath
 from optipath.walk import evaluated
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from optipath.kernels import Carried
-    from optipath.program import Program
     from optipath.whole_path import WholePath
 
-
-@dataclass(frozen=True)
-class LightPath:
-    """One way from a source to a detector or a dump.
-
-    Attributes
-    ----------
-    route : tuple of str
-        The out-ports by which light leaves element after element, as ``"node.port"``.
-    end : str
-        The detector or dump.
-    bounces : int
-        How often it has been reflected.
-    light : Light
-        What it contributes.
-    """
-
-    route: tuple[str, ...]
-    end: str
-    bounces: int
-    light: Light
-
-    def __str__(self) -> str:
-        brightest = float(np.max(self.light.intensity, initial=0.0))
-        return f"{brightest:.6g}  {' -> '.join((*self.route, self.end))}"
+_FAINTEST = 1e-200
+"""What is not followed any further, as a share of what a source emits."""
 
 
 @dataclass(order=True)
 class _Branch:
-    """Light on its way, the brightest first."""
+    """Light on its way, first that of which most can arrive somewhere by one way."""
 
-    dimness: float
+    hope: float
     number: int
     light: int = field(compare=False)
     state: Carried = field(compare=False)
@@ -61,50 +37,8 @@ class _Branch:
     end: str = field(compare=False, default="")
 
 
-def light_paths(
-    whole: WholePath,
-    limit: int | None,
-    bounces: int | None,
-    parameters: Mapping[str, Any],
-    framed: Callable[[Any], Any],
-) -> list[LightPath]:
-    """Return the ways of light through a path, the brightest first.
-
-    Parameters
-    ----------
-    whole : WholePath
-        The path as it stands.
-    limit : int or None
-        How many at most.
-    bounces : int or None
-        How many reflections each may have.
-    parameters : mapping of str to Any
-        As a plan takes them.
-    framed : callable
-        Gives the frame of a reading for these values, or what makes it.
-
-    Raises
-    ------
-    ParameterError
-        If what is given is not allowed, or there is no end of ways.
-    """
-    _check("limit", limit, 1)
-    _check("bounces", bounces, 0)
-    if limit is None and (place := _endless(whole.program, bounces)):
-        cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
-        raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
-    whole.refuse_traced(parameters, "light paths are listed")
-    whole.inputs.resolve(parameters)
-    found: list[LightPath] = []
-    for path in _Search(whole, parameters, framed).paths(bounces):
-        if len(found) == limit:
-            break
-        found.append(path)
-    return found
-
-
-class _Search:
-    """Goes along all ways at once, always on from where light is brightest."""
+class Search:
+    """Goes along all ways at once, always on from where most may come of it."""
 
     def __init__(
         self, whole: WholePath, parameters: Mapping[str, Any], framed: Callable[[Any], Any]
@@ -125,12 +59,15 @@ class _Search:
             self._ends.setdefault(reading.light, []).append(name)
         self._count = count()
         self._waiting: list[_Branch] = []
+        self._most = self._most_that_arrives()
+        self._least = 0.0
 
     def paths(self, bounces: int | None) -> Iterator[LightPath]:
         """Yield the ways with so many bounces at most."""
         for light, _ in self.program.sources.values():
             s0, s1, s2, s3 = self.numbers[self.program.steps[light].evaluation or 0]
             state = self.way.emit((s0, s1, s2, s3))
+            self._least = max(self._least, _FAINTEST * self._brightness(state))
             self._add(light, state, (self.program.steps[light].label,), 0)
         while self._waiting:
             branch = heappop(self._waiting)
@@ -159,10 +96,45 @@ class _Search:
     def _add(
         self, light: int, state: Carried, route: tuple[str, ...], bounces: int, end: str = ""
     ) -> None:
-        brightest = float(np.max(energy(NUMPY, state), initial=0.0))
-        if brightest > 0.0:
-            branch = _Branch(-brightest, next(self._count), light, state, route, bounces, end)
+        hope = self._brightness(state) * (1.0 if end else self._most[light])
+        if hope > self._least:
+            branch = _Branch(-hope, next(self._count), light, state, route, bounces, end)
             heappush(self._waiting, branch)
+
+    @staticmethod
+    def _brightness(state: Carried) -> float:
+        with np.errstate(all="ignore"):
+            return float(np.max(np.abs(energy(NUMPY, state)), initial=0.0))
+
+    def _most_that_arrives(self) -> list[float]:
+        """Return the largest share of each light that can get to an end by one way (Dijkstra)."""
+        steps = self.program.steps
+        gains = [self._largest_gain(place) for place in range(len(self.program.evaluations))]
+        most = [0.0] * len(steps)
+        waiting = [(-1.0, light) for light in self._ends]
+        for _, light in waiting:
+            most[light] = 1.0
+        while waiting:
+            share, light = heappop(waiting)
+            if -share < most[light]:
+                continue
+            evaluation = steps[light].evaluation
+            share = -share if evaluation is None else -share * gains[evaluation]
+            for before in steps[light].inputs:
+                if share > most[before]:
+                    most[before] = share
+                    heappush(waiting, (-share, before))
+        return most
+
+    def _largest_gain(self, evaluation: int) -> float:
+        """Return what an element does to the intensity of the light that it dims least."""
+        structure = self.program.evaluations[evaluation].kernel.structure
+        if structure is None:
+            return 1.0
+        with np.errstate(all="ignore"):
+            first = structure.rows(NUMPY, self.numbers[evaluation])[0]
+            polarised = np.sqrt(sum(np.square(entry) for entry in first[1:]))
+            return float(np.max(np.abs(first[0]) + polarised, initial=0.0))
 
     def _arrived(self, branch: _Branch) -> LightPath:
         reading = self.program.readings[branch.end]
@@ -172,34 +144,3 @@ class _Search:
         stokes[..., reading.components :] = np.nan
         light = Light.of(stokes, self.framed(reading.frame))
         return LightPath(branch.route, branch.end, branch.bounces, light)
-
-
-def _check(what: str, number: Any, least: int) -> None:
-    whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-    if number is not None and not (whole and number >= least):
-        raise ParameterError(f"{what} must be a whole number of {least} or more, not {number!r}")
-
-
-def _endless(program: Program, bounces: int | None) -> str:
-    """Return a place where light goes round without end; nothing where it does not."""
-    for loop in program.loops:
-        if bounces is None or _goes_round_unbounced(program, range(loop.start, loop.stop)):
-            return program.steps[loop.start].label
-    return ""
-
-
-def _goes_round_unbounced(program: Program, members: range) -> bool:
-    """Tell whether there is a way round a loop that has no reflection."""
-    inputs = {
-        light: {i for i in program.steps[light].inputs if i in members}
-        for light in members
-        if not program.steps[light].bounces
-    }
-    waiting = True
-    while waiting:
-        # What waits for nothing any more is on no way round.
-        done = [light for light, before in inputs.items() if not before & inputs.keys()]
-        for light in done:
-            del inputs[light]
-        waiting = bool(done)
-    return bool(inputs)

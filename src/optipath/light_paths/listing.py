@@ -1,0 +1,67 @@
+"""The ways of light through a path, listed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ParameterError
+from optipath.light_paths.rounds import endless
+from optipath.light_paths.search import Search
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.light_paths.light_path import LightPath
+    from optipath.whole_path import WholePath
+
+
+def light_paths(
+    whole: WholePath,
+    limit: int | None,
+    bounces: int | None,
+    parameters: Mapping[str, Any],
+    framed: Callable[[Any], Any],
+) -> list[LightPath]:
+    """Return the ways of light through a path, the brightest first.
+
+    Parameters
+    ----------
+    whole : WholePath
+        The path as it stands.
+    limit : int or None
+        How many at most.
+    bounces : int or None
+        How many reflections each may have.
+    parameters : mapping of str to Any
+        As a plan takes them.
+    framed : callable
+        Gives the frame of a reading for these values, or what makes it.
+
+    Raises
+    ------
+    ParameterError
+        If what is given is not allowed, or there is no end of ways.
+    """
+    _check("limit", limit, 1)
+    _check("bounces", bounces, 0)
+    if limit is None and (place := endless(whole.program, bounces)):
+        cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
+        raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
+    whole.refuse_traced(parameters, "light paths are listed")
+    whole.inputs.resolve(parameters)
+    # Refuses light that never fades.
+    whole.stepwise.lights(whole.sorter.sort(parameters))
+    found: list[LightPath] = []
+    for path in Search(whole, parameters, framed).paths(bounces):
+        if len(found) == limit:
+            break
+        found.append(path)
+    return found
+
+
+def _check(what: str, number: Any, least: int) -> None:
+    whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
+    if number is not None and not (whole and number >= least):
+        raise ParameterError(f"{what} must be a whole number of {least} or more, not {number!r}")
