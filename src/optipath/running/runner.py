@@ -64,7 +64,7 @@ class Runner:
         How many steps are compiled in one piece.
     """
 
-    longest = 64
+    longest = 200
 
     def __init__(
         self, program: Program, inputs: Inputs, manner: Manner, *, as_it_stands: bool = False

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 Lights: TypeAlias = list[tuple[Any, ...]]
 
-_SEVERAL = 3
-"""After how many runs a function is worth its while."""
+_SEVERAL, _SHORT = 3, 64
+"""After how many runs a function is worth its while, and up to how many steps."""
 
 
 class Single:
@@ -76,7 +76,10 @@ class Single:
         key = tuple(number for number in numbers if number is True or number is False)
         if key not in self._paths:
             self._runs += 1
-            if self._runs <= _SEVERAL or not self.compilable():
+            if (
+                self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT)
+                or not self.compilable()
+            ):
                 return self._stepped(given)
             self._paths[key] = self._made(given)
             if self._is_usual(given):
