@@ -328,9 +328,20 @@ def test_what_runs_a_batch_can_be_asked():
     assert plan.engine_for(100_000) == plan.engine == "numba"
     assert "from 65,536 by numba" in plan.explain()
     turning = [op.Polarizer(op.Parameter("a")), op.Retarder(op.Parameter("b"), 0.3)]
-    long = chain(turning * 30, [1.0, 0, 0, 0])
+    long = chain(turning * 110, [1.0, 0, 0, 0])
     assert op.Composer(engine="numba").compose(long).engine == "numpy"
     assert "step by step" in op.Composer(engine="numba").compose(long).explain()
+
+
+def test_a_formula_that_would_be_compiled_for_a_minute_is_run_by_numpy():
+    angles = [op.Parameter(f"a{i}") for i in range(20)]
+    path = chain([op.Interface(0.2 + 3j, angle, azimuth=0.3) for angle in angles], [1.0, 0, 0, 0])
+    plan = path.compose()
+    assert plan.engine_for(100_000) == plan.engine == "numpy"
+    assert "take Numba too long to compile" in plan.explain()
+    given = {f"a{i}": np.linspace(0.1, 1.0, 70_000) for i in range(20)}
+    few = {name: values[:5] for name, values in given.items()}
+    np.testing.assert_allclose(plan.run(**given).stokes[:5], plan.run(**few).stokes, rtol=1e-13)
 
 
 COMPILES = """
