@@ -245,13 +245,31 @@ def test_a_normal_off_the_bisector_is_named_with_its_angle():
         (([[0, 0, np.inf], *CORNER[1:]], [-1.5]), ["finite", "-1.5"]),
         (([CORNER[0], CORNER[0], CORNER[2]], [1.5]), ["vertices 0 and 1", "are one point"]),
         ((CORNER, ["glass"]), ["'glass'"]),
-        ((CORNER, [1.5], [[0, 0]]), ["normals must have shape (..., 3)"]),
+        ((CORNER, [1.5], [[0, 0]]), ["normals must have shape (..., 1, 3), not (1, 2)"]),
         ((CORNER, [-1.5], [[0, 1, 0]]), ["off the bisector", "-1.5"]),
-        ((CORNER, [1.5], [[0, 0, 0]]), ["a normal has no length"]),
+        ((CORNER, [1.5], [[0, 0, 0]]), ["the normal of vertex 1 has no length"]),
         ((CORNER, [1.5], [[0, 0, 1], [0, 0, 1]]), ["normals must have shape (..., 1, 3)"]),
         ((op.Parameter("v"), [1.5], [[0, 0, 1]]), ["points that are known"]),
-        ((op.VerticesByAngles((0.3,)), [1.5, 1.5]), ["1 incidences, m = 2 for 2 materials"]),
+        ((op.VerticesByAngles((0.3,)), [1.5, 1.5]), ["1 incidence, m = 2 for 2 materials"]),
         ((op.VerticesByAngles((2.0,)), [1.5]), ["vertices.incidences[0] is 114"]),
+        ((None, [1.5]), ["m = 1 for 1 material, not None"]),
+        (("abc", [1.5]), ["not 'abc'"]),
+        (({}, [1.5]), ["not {}"]),
+        (((point for point in CORNER), [1.5]), ["not <generator"]),
+        ((CORNER, [1.5], [[0, 1j, 1]]), ["normals must be real numbers, not"]),
+        ((CORNER, [1.5], [[0, 1], [1]]), ["normals have rows of unequal lengths"]),
+        ((CORNER, [1.5], [[0, np.nan, 1]]), ["the normal of vertex 1 is not finite"]),
+        (([[CORNER] * 3] * 2, [1.5], [[[0, 1, 1]]] * 2), ["vertices (2, 3), normals (2,)"]),
+        (
+            ([CORNER[0], CORNER[0], [0, 0, np.nan]], [-1.5], [[0, 0, 0]]),
+            [
+                "3 faults",
+                "vertex 2, counted from the light as 0, is [0.0, 0.0, nan]",
+                "-1.5",
+                "has no length",
+            ],
+        ),
+        (([CORNER[0], CORNER[0], CORNER[2]], [1.5], [[0, 1, 1]]), ["vertices 0 and 1"]),
     ],
 )
 def test_what_is_wrong_is_told_in_words(arguments, messages):
@@ -259,6 +277,104 @@ def test_what_is_wrong_is_told_in_words(arguments, messages):
         op.path_from_vertices(*arguments)
     for message in messages:
         assert message in str(error.value)
+
+
+def test_all_normals_of_sound_vertices_are_told_at_once_and_of_faulty_ones_no_angle():
+    with pytest.raises(op.PathError) as error:
+        op.path_from_vertices(np.array(CORNER) * np.nan, [1.5], [[0, 1, 0]])
+    assert "off the bisector" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("batch", "chain", "told"), [((7,), (5,), "chain 5"), ((2, 4), (1, 2), r"chain \(1, 2\)")]
+)
+def test_the_chain_of_a_batch_that_is_wrong_is_named(batch, chain, told):
+    points = np.broadcast_to(np.array(CORNER), (*batch, 3, 3)).copy()
+    normals = np.broadcast_to([[0.0, 1.0, 1.0]], (*batch, 1, 3)).copy()
+    for wrong, message in (
+        (np.nan, rf"vertex 2 of {told}, counted from the light as 0, is \[nan, nan, nan\]"),
+        (points[(*chain, 1)], rf"vertices 1 and 2 of {told}"),
+        (1e80, rf"vertices 1 and 2 of {told}, .*1e\+80 apart; legs are within 1e-70 .. 1e\+70"),
+    ):
+        faulty = points.copy()
+        faulty[(*chain, 2)] = wrong
+        with pytest.raises(op.PathError, match=message):
+            op.path_from_vertices(faulty, [1.5], normals)
+    normals[chain] = [[0.0, 1.0, 1.001]]
+    with pytest.raises(op.PathError, match=rf"the normal of vertex 1 of {told} is off .* 0.0286 d"):
+        op.path_from_vertices(points, [1.5], normals)
+
+
+def test_one_coordinate_of_many_chains_that_is_not_finite_is_named():
+    points = random_chains(18, 3, (10_000,))
+    points[7777, 3, 2] = np.nan
+    with pytest.raises(op.PathError, match=r"vertex 3 of chain 7777, .* nan\]"):
+        op.path_from_vertices(points, MATERIALS[:3])
+    plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:3]).compose()
+    with pytest.raises(op.ParameterError, match=r"'points' is nan at \(7777, 3, 2\)"):
+        plan.run(points=points)
+
+
+@pytest.mark.parametrize("dtype", ["int16", "int32", "int64", "uint8", "float32", "longdouble"])
+def test_points_of_any_kind_of_number_are_the_same_as_floats(dtype):
+    points = 40.0 * np.array([[2, 0, 5], [2, 0, 0], [2, 4, 0], [0, 4, 4]])
+    expected = op.path_from_vertices(points, MATERIALS[:2]).trace()
+    legs = np.diff(points, axis=0)
+    legs /= np.linalg.norm(legs, axis=-1, keepdims=True)
+    given, normals = points.astype(dtype), np.diff(legs, axis=0)
+    light = op.path_from_vertices(given, MATERIALS[:2], normals).trace()
+    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=1e-14)
+    np.testing.assert_array_equal(light.frame.x, expected.frame.x)
+    assert light.frame.x.dtype == np.float64
+    later = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).trace(points=given)
+    np.testing.assert_array_equal(later.frame.x, expected.frame.x)
+    matrix = op.SpecularVertex(1.5, given, 1).mueller()
+    np.testing.assert_array_equal(
+        matrix.frame_out.x, op.SpecularVertex(1.5, points, 1).mueller().frame_out.x
+    )
+    of_whole_normals = op.path_from_vertices(
+        np.array(CORNER, dtype), [1.5], np.array([[0, 7, 7]], dtype)
+    )
+    assert of_whole_normals == op.path_from_vertices(CORNER, [1.5])
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("count", [1, 3000])
+@pytest.mark.parametrize("scale", [1e-160, 1e-75, 1e75, 1e155])
+def test_legs_that_are_too_short_or_too_long_are_refused(engine, count, scale):
+    points = random_chains(19, 2, (count,))
+    points[-1] *= scale
+    with pytest.raises(op.PathError, match=r"apart; legs are within 1e-70 .. 1e\+70"):
+        op.path_from_vertices(points, MATERIALS[:2])
+    path = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2])
+    plan = op.Composer(engine=engine).compose(path)
+    with pytest.raises(op.ParameterError, match=r"apart; legs are within 1e-70 .. 1e\+70"):
+        plan.run(points=points)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_frame_of_anything_is_looked_at_without_a_warning():
+    for scale in (0.0, 1e-200, 1e155, np.inf):
+        with np.errstate(all="ignore"):
+            vertex = op.SpecularVertex(1.5, scale * np.array(CORNER), 1)
+        vertex.own_frame("reflected").frame({})
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_normals_next_to_the_tolerance_are_told_apart_exactly(seed):
+    points = random_chains(20 + seed, 3, (5000,))
+    legs = np.diff(points, axis=-2)
+    legs /= np.linalg.norm(legs, axis=-1, keepdims=True)
+    bisectors = np.diff(legs, axis=-2)
+    across = np.cross(bisectors, legs[:, 1:])
+    across *= np.linalg.norm(bisectors, axis=-1, keepdims=True)
+    across /= np.linalg.norm(across, axis=-1, keepdims=True)
+    size = np.linalg.norm(bisectors, axis=-1, keepdims=True)
+    op.path_from_vertices(points, MATERIALS[:3], bisectors + 0.99e-6 * size * across)
+    off = np.zeros((5000, 3, 1))
+    off[4321, 1] = 1.01e-6
+    with pytest.raises(op.PathError, match="vertex 2 of chain 4321 is off"):
+        op.path_from_vertices(points, MATERIALS[:3], bisectors + off * size * across)
 
 
 @pytest.mark.parametrize("engine", ENGINES)

@@ -297,7 +297,9 @@ class Parameter:
             return
         value = array[bad].ravel()[0]
         if not np.isfinite(value):
-            raise ParameterError(f"parameter '{self.name}' is {value}; give a finite number")
+            place = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
+            where = f" at {place if len(place) > 1 else place[0]}" if place else ""
+            raise ParameterError(f"parameter '{self.name}' is {value}{where}; give a finite number")
         given = self.text(float(value))
         raise ParameterError(
             f"parameter '{self.name}' is {given}, outside its range; give {self.range_text()}"

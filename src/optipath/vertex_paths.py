@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.elements import Detector, Source, SpecularVertex
-from optipath.errors import PathError
-from optipath.frozen import frozen
+from optipath.errors import PathError, ValueFault
 from optipath.jax_values import is_traced
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.path_graph import PathGraph
-from optipath.vertices import VerticesByAngles, normal_faults
+from optipath.vertices import VERTICES, VerticesByAngles, counted, normal_faults
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -33,7 +34,7 @@ def path_from_vertices(
     of incidence and all frames come from the points; ``path.trace().frame`` is the world frame
     of the last leg, with x = k_out cross k_in at the last vertex. A vertex at which light comes
     back along its way, or goes straight on, has no plane of incidence of its own, and keeps the
-    x that the light came with.
+    x that the light came with, or takes that which angles say.
 
     Parameters
     ----------
@@ -73,17 +74,33 @@ def path_from_vertices(
     if not several:
         wanted = "a sequence with one for each reflection"
         raise PathError(*faults, f"materials must be {wanted}, not {materials!r}")
-    if normals is not None and not faults:
-        faults += normal_faults(chain, normals, len(several))
     # With others in place of faulty vertices, so that the rest is checked too.
     path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
+    is_sound = not faults
     try:
         path.compose()
     except PathError as error:
         faults += error.faults
+        is_sound = is_sound and _is_sound(chain, len(several))
+    if normals is not None:
+        faults += _normal_faults(chain, normals, len(several), is_sound=is_sound)
     if faults:
         raise PathError(*faults)
     return path
+
+
+def _is_sound(chain: Any, count: int) -> bool:
+    try:
+        replace(VERTICES, tail=(count + 2, 3)).check("vertices", chain)
+    except ValueFault:
+        return not isinstance(chain, np.ndarray)
+    return True
+
+
+def _normal_faults(chain: Any, normals: Any, count: int, *, is_sound: bool) -> list[str]:
+    if is_sound and not isinstance(chain, np.ndarray):
+        return ["normals are checked against points that are known; leave them out"]
+    return normal_faults(chain if is_sound else None, normals, count)
 
 
 def _path(chain: Any, materials: Sequence[Any], intensity: Any) -> PathGraph:
@@ -112,16 +129,18 @@ def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
         return vertices, []
     if isinstance(vertices, VerticesByAngles):
         found = len(vertices.incidences)
-        return vertices, [f"vertices have {found} incidences{_for(count)}"] * (found != count)
+        fault = f"vertices have {counted(found, 'incidence')}{_for(count)}"
+        return vertices, [fault] * (found != count)
     try:
-        chain = vertices if is_traced(vertices) else frozen(np.asarray(vertices))
+        chain = vertices if is_traced(vertices) else VERTICES.kept(np.asarray(vertices))
     except ValueError:
         return None, ["vertices have rows of unequal lengths; make them (..., m + 2, 3)"]
     shape = np.shape(chain)
     if shape[-2:] == (count + 2, 3) or (not count and len(shape) > 1 and shape[-1] == 3):
         return chain, []
-    return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {shape}"]
+    given = shape or shortened(vertices)
+    return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {given}"]
 
 
 def _for(count: int) -> str:
-    return f", m = {count} for {count} material{'s' * (count != 1)}" if count else ""
+    return f", m = {count} for {counted(count, 'material')}" if count else ""

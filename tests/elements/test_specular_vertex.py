@@ -61,8 +61,103 @@ def test_light_behind_an_analyzer_is_told_in_the_frame_of_the_vertex_before_it()
     nodes = [("lamp", op.Source()), ("vertex", vertex)]
     straight = path_of(*nodes, ("analyzer", op.Polarizer(0.2)), ("eye", op.Detector()))
     np.testing.assert_array_equal(straight.trace().frame.z, [0, 1, 0])
-    turned = path_of(*nodes, ("analyzer", op.Polarizer(azimuth=0.2)), ("eye", op.Detector()))
-    assert turned.trace().frame == op.Frame(), "its own frame is nowhere in the world"
+
+
+TURNS = [0.4, np.array([0.1, -0.4, 2.0]), op.Parameter("turn", 0.4), -op.Parameter("turn", 0.4)]
+
+
+def angle_of(turn):
+    if isinstance(turn, op.Parameter):
+        return -turn.default if turn.negative else turn.default
+    return turn
+
+
+def behind_a_vertex(*between, azimuth=None):
+    """A path in which light meets a vertex and then, maybe, other elements."""
+    vertex = op.SpecularVertex(1.5, CORNER, place=1)
+    path = path_of(("lamp", op.Source()), ("vertex", vertex), *between)
+    last = f"{between[-1][0]}.{between[-1][1].outputs[-1]}" if between else "vertex.reflected"
+    path.add("eye", op.Detector())
+    path.connect(last, "eye.in", azimuth=azimuth)
+    return path, vertex.own_frame("reflected").frame({})
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_turned_link_behind_a_vertex_turns_the_frame_of_the_light(turn):
+    path, own = behind_a_vertex(azimuth=turn)
+    light = path.trace()
+    expected = own.turned(angle_of(turn))
+    for axis in "xyz":
+        found = getattr(light.frame, axis)
+        np.testing.assert_allclose(found, np.broadcast_to(getattr(expected, axis), found.shape))
+    plain = behind_a_vertex()[0].trace().stokes
+    np.testing.assert_allclose(light.in_frame(own).stokes - plain, 0.0, atol=1e-16)
+
+
+@pytest.mark.parametrize("turn", TURNS)
+def test_a_turned_element_behind_a_vertex_turns_the_frame_of_the_light(turn):
+    path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=turn)))
+    assert path.trace().frame.x.shape == (*np.shape(angle_of(turn)), 3)
+    np.testing.assert_allclose(path.trace().frame.x, own.turned(angle_of(turn)).x, atol=1e-15)
+    twice, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=turn)), azimuth=0.3)
+    expected = own.turned(angle_of(turn) + 0.3)
+    np.testing.assert_allclose(twice.trace().frame.x, expected.x, atol=1e-15)
+
+
+def test_the_turn_of_a_frame_is_the_one_that_a_run_was_given():
+    path, own = behind_a_vertex(azimuth=op.Parameter("turn"))
+    several = np.linspace(-1.0, 1.0, 5)
+    np.testing.assert_allclose(path.trace(turn=several).frame.x, own.turned(several).x, atol=1e-15)
+    plan = path.compose()
+    for where, light in plan.stream(2, turn=several):
+        np.testing.assert_allclose(light.frame.x, own.turned(several[where]).x, atol=1e-15)
+    bound = path.bind(turn=0.7).trace()
+    np.testing.assert_allclose(bound.frame.x, own.turned(0.7).x, atol=1e-15)
+
+
+def test_light_straight_through_a_beam_splitter_keeps_the_frame_of_the_vertex():
+    splitter = ("splitter", op.BeamSplitter(azimuth=0.2))
+    path, own = behind_a_vertex(splitter, azimuth=0.3)
+    np.testing.assert_allclose(path.trace().frame.x, own.turned(0.5).x, atol=1e-15)
+    path.add("side", op.Detector())
+    path.connect("splitter.reflected", "side.in")
+    lights = path.compose().run_all()
+    np.testing.assert_allclose(lights["eye"].frame.x, own.turned(0.5).x, atol=1e-15)
+    assert lights["side"].frame == op.Frame(), "where it goes is not known"
+
+
+def test_light_that_may_come_from_behind_a_beam_splitter_has_no_frame_of_a_vertex():
+    path, _ = behind_a_vertex(("splitter", op.BeamSplitter()))
+    path.add("other", op.Source())
+    path.connect("other.out", "splitter.back")
+    assert path.trace().frame == op.Frame()
+
+
+@pytest.mark.parametrize("turn", TURNS[::2])
+def test_light_before_a_vertex_is_told_in_the_frame_that_its_turns_lead_from(turn):
+    vertex = op.SpecularVertex(1.5, CORNER, place=1)
+    path = path_of(
+        ("lamp", op.Source()),
+        ("filter", op.Polarizer(0.1, azimuth=turn)),
+        ("splitter", op.BeamSplitter(azimuth=0.2)),
+        links=False,
+    )
+    path["lamp"] >> path["filter"] >> path["splitter"]
+    path.add("vertex", vertex) >> path.add("eye", op.Detector())
+    path.connect("splitter.transmitted", "vertex.in", azimuth=0.3)
+    frame = (path.bind(turn=0.4) if path.parameters else path).mueller().frame_in
+    own = vertex.own_frame("in").frame({})
+    np.testing.assert_allclose(frame.turned(angle_of(turn) + 0.5).x, own.x, atol=1e-15)
+
+
+def test_light_that_is_kept_on_its_way_has_the_frame_of_the_vertex():
+    path, own = behind_a_vertex(("analyzer", op.Polarizer(azimuth=0.4)))
+    lights = path.trace(keep="all")
+    np.testing.assert_allclose(
+        lights["analyzer.out -> eye.in"].frame.x, own.turned(0.4).x, atol=1e-15
+    )
+    arriving = op.SpecularVertex(1.5, CORNER, place=1).own_frame("in").frame({})
+    np.testing.assert_array_equal(lights["lamp.out -> vertex.in"].frame.x, arriving.x)
 
 
 def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
@@ -85,6 +180,7 @@ def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
         (op.SpecularVertex(1.5, CORNER, 1, reflections=2), r"shape \(..., 4, 3\), not \(3, 3\)"),
         (op.SpecularVertex(1.5, op.Parameter("v"), 1), r"tell the number of reflections"),
         (op.SpecularVertex(1.5, [1.0, 2.0], 1), r"shape \(..., 3, 3\), not \(2,\)"),
+        (op.SpecularVertex(1.5, [[0, 0, 0], [1, 1]], 1), "rows of unequal lengths"),
         (op.SpecularVertex(1.5, [[1j, 0, 0], [0, 1, 0], [0, 0, 1]], 1), "is complex"),
     ],
 )

@@ -76,6 +76,27 @@ def test_some_of_the_points_by_angles_are_those_of_all(count):
         assert some == whole[3 * first : 3 * first + 9]
 
 
+@pytest.mark.parametrize("length", [1e-200, 1e-75, 1e75, 1e155, 1e200])
+@pytest.mark.parametrize("kind", [np.float32, np.float64])
+def test_legs_that_keep_no_digits_are_not_finite(length, kind):
+    with np.errstate(all="ignore"):
+        points = map(kind, (0.0, 0.0, 0.0, 0.0, 0.0, length, 0.0, 2.0, length))
+        found = INCIDENCE(NUMPY)(*points)
+    assert all(math.isnan(number) and number.dtype == kind for number in found)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4, 5])
+def test_the_axes_of_angles_are_across_the_planes_of_their_points(count):
+    rng = np.random.default_rng(count)
+    angles = [*rng.uniform(0.1, 1.4, count), *rng.uniform(-3.0, 3.0, count - 1)]
+    numbers = [float(f(a)) for a in angles for f in (np.cos, np.sin)]
+    found = PointsByAngles(count, 0, count + 1, axes=True)(FLOAT)(*numbers)
+    points, across = found[: 3 * count + 6], found[3 * count + 6 :]
+    for vertex in range(count):
+        x = ARRIVING(FLOAT)(*points[: 3 * vertex + 9])[:3]
+        assert across[3 * vertex : 3 * vertex + 3] == pytest.approx(x, abs=1e-13)
+
+
 def cheaper(kernel):
     """All the cheaper kernels of one, however deep."""
     for found in (kernel.without, kernel.denser):

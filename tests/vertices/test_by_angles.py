@@ -71,9 +71,10 @@ def test_angles_go_to_toml_and_back(tmp_path):
     ("arguments", "message"),
     [
         (((),), "need an incidence for each reflection"),
-        (((0.1, 0.2),), "2 incidences take 1 turns, .* not 0"),
-        (((0.1,), (0.2,)), "1 incidences take 0 turns, .* not 1"),
+        (((0.1, 0.2),), "2 incidences take 1 turn, .* not 0"),
+        (((0.1,), (0.2,)), "1 incidence takes 0 turns, .* not 1"),
         ((0.1,), "incidences must be a sequence of angles, not 0.1"),
+        ((np.array(0.3),), "incidences must be a sequence of angles"),
         (("0.1",), "incidences must be a sequence of angles"),
     ],
 )
@@ -102,3 +103,46 @@ def test_tables_of_angles_with_faults_are_told_by_key(tmp_path):
             op.load_preset(file)
         for message in messages:
             assert message in str(error.value)
+
+
+EDGES = (0.0, 1e-17, 1e-15, 1e-8, 1e-7, 0.3, np.pi / 2 - 1e-15, np.pi / 2)
+
+
+@pytest.mark.parametrize("rho", [0.0, 0.5, -2.0])
+@pytest.mark.parametrize("axis", ["none", "horizontal", "diagonal", 0.2])
+@pytest.mark.parametrize("metals", [{}, {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}])
+def test_the_turn_counts_next_to_the_normal_and_to_grazing_incidence_too(rho, axis, metals):
+    delta, phi = np.array(EDGES)[:, np.newaxis], np.array(EDGES)
+    given = {"delta": delta, "phi": phi, "rho": rho, "filter": axis, **metals}
+    space, plane = (op.load_preset(name) for name in ("npgr026-3d", "npgr026"))
+    light = space.trace(**given)
+    np.testing.assert_allclose(light.stokes, plane.trace(**given).stokes, rtol=0, atol=1e-13)
+    one = {**given, "delta": 0.0, "phi": 1e-17}
+    np.testing.assert_allclose(
+        space.trace(**one).stokes, plane.trace(**one).stokes, rtol=0, atol=1e-13
+    )
+
+
+def test_frames_at_vertices_without_a_plane_are_those_of_the_angles():
+    space = op.load_preset("npgr026-3d")
+    light = space.trace(delta=0.0, phi=0.7, rho=0.5)
+    np.testing.assert_allclose(light.frame.x, [np.cos(0.5), -np.sin(0.5), 0.0], atol=1e-16)
+    near = space.trace(delta=1e-6, phi=0.7, rho=0.5)
+    np.testing.assert_allclose(light.frame.x, near.frame.x, atol=1e-9)
+    np.testing.assert_allclose(light.stokes, near.stokes, atol=1e-9)
+
+
+@pytest.mark.parametrize("small", [0.0, 1e-15, 1e-10])
+def test_a_filter_before_a_long_chain_is_in_the_plane_that_the_angles_say(small):
+    turns = (0.4, 1.0, -0.7)
+    chain = op.VerticesByAngles((small, 0.5, 0.6, 0.7), turns)
+    space, plane = op.PathGraph(), op.PathGraph()
+    for path in (space, plane):
+        node = path.add("lamp", op.Source()) >> path.add("filter", op.Polarizer(0.3))
+        for place, angle in enumerate(chain.incidences):
+            azimuth = turns[place - 1] if place else 0.0
+            vertex = op.SpecularVertex(0.2 + 3.4j, chain, place + 1)
+            surface = op.Interface(0.2 + 3.4j, angle, azimuth=azimuth)
+            node = node >> path.add(f"x{place}", vertex if path is space else surface)
+        node >> path.add("eye", op.Detector())
+    np.testing.assert_allclose(space.trace().stokes, plane.trace().stokes, atol=1e-8)

@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
-from optipath.composer.vertex_placement import vertex_frame
+from optipath.composer.vertex_frames import vertex_frame
 from optipath.composer.wiring import link_text
 from optipath.elements import Detector, SpecularVertex
 from optipath.errors import ComposerError, listed

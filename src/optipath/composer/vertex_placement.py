@@ -11,36 +11,11 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from optipath.composer.wiring import Link, Wiring
-    from optipath.vertices import VertexFrame
 
 
 def is_vertex(wiring: Wiring, name: str) -> bool:
     """Tell whether a node is a vertex of a chain."""
     return isinstance(wiring.elements[name], SpecularVertex)
-
-
-def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
-    """Return the frame of the vertex that light at an end comes from, or a source's goes to.
-
-    Directly, or through elements that let it go straight on and are not turned.
-    """
-    backward = port in wiring.elements[name].inputs
-    passed: set[str] = set()
-    while name not in passed:
-        passed.add(name)
-        links = _links(wiring, name, port, backward=backward)
-        if len(links) != 1 or _is_turned(wiring, links[0]):
-            return None
-        start, end, (leaves, enters) = links[0]
-        name, port = (start, leaves) if backward else (end, enters)
-        element = wiring.elements[name]
-        if isinstance(element, SpecularVertex):
-            return element.own_frame(port)
-        ways = element.inputs if backward else element.outputs
-        if not element.straight or len(ways) != 1:
-            return None
-        port = ways[0]
-    return None
 
 
 def vertex_link_faults(wiring: Wiring, link: Link) -> list[str]:
@@ -87,16 +62,3 @@ def _next(vertex: SpecularVertex) -> str:
     place: Any = vertex.place
     before = place - 1 if isinstance(place, int) else "the one"
     return f"the same vertices, and place {before} before place {place}"
-
-
-def _links(wiring: Wiring, name: str, port: str, *, backward: bool) -> list[Link]:
-    if backward:
-        return wiring.links_to.get((name, port), [])
-    edges = wiring.graph.out_edges(name, keys=True)
-    return [link for link in edges if link[2][0] == port]
-
-
-def _is_turned(wiring: Wiring, link: Link) -> bool:
-    own = wiring.graph.edges[link]["azimuth"]
-    turn = getattr(wiring.elements[link[1]], "azimuth", 0.0) if own is None else own
-    return not (isinstance(turn, (int, float)) and turn == 0.0)

@@ -5,29 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from optipath.domains import Index, OutsideIndex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.frozen import same
-from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
+from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES, TurnBetweenPlanes
 from optipath.materials import Material
-from optipath.parameters import Parameter
-from optipath.vertices import (
-    Coordinates,
-    VertexFrame,
-    Vertices,
-    VerticesByAngles,
-    VerticesDomain,
-    coordinates,
-)
+from optipath.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain, is_count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.domains import Domain
     from optipath.frames import Frame
+    from optipath.vertices import Coordinates
 
 
 class SpecularVertex(Element, kind="specular-vertex"):
@@ -76,23 +67,16 @@ class SpecularVertex(Element, kind="specular-vertex"):
                 object.__setattr__(self, name, int(value))
 
     @property
-    def count(self) -> int:
-        """How many reflections there are; 0 where nothing says so."""
-        if isinstance(self.vertices, VerticesByAngles):
-            return len(self.vertices.incidences)
-        if _is_count(self.reflections):
-            return self.reflections  # type: ignore[return-value]
-        value = self.vertices
-        value = value.default if isinstance(value, Parameter) else value
-        shape = () if value is None else np.shape(value)
-        return max(shape[-2] - 2, 0) if len(shape) > 1 else 0
+    def in_chain(self) -> PlaceInChain:
+        """Where it stands in its chain."""
+        return PlaceInChain(self.vertices, self.place, self.reflections)
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number; which vertex this is, is none."""
         for name, domain in self.domains().items():
             value = getattr(self, name)
             if isinstance(domain, VerticesDomain):
-                whole = replace(domain, tail=(max(self.count, 1) + 2, 3))
+                whole = replace(domain, tail=self.in_chain.tail)
                 yield from whole.parts(name, value)
             elif name not in ("place", "reflections"):
                 yield from domain.parts(name, value)
@@ -108,20 +92,21 @@ class SpecularVertex(Element, kind="specular-vertex"):
 
     def own_frame(self, port: str) -> VertexFrame:
         """Return the frame of a port, made when somebody looks at it."""
-        return VertexFrame(self._points(0), leaves=port == "reflected")
+        return VertexFrame(self.in_chain.points_from_start(), leaves=port == "reflected")
 
     def points_around(self) -> Coordinates:
         """Return the three points that say at which angle light meets the surface."""
-        return self._points(self._place - 1)
+        return self.in_chain.points_around()
 
     def turn_from_before(self) -> Operation:
         """Return the turn from the frame in which light leaves the vertex before."""
-        points = self._points(0)
-        return Operation(points.kernel(TURN_BETWEEN_PLANES), points.arguments)
+        points = self.in_chain.points_from_start()
+        kernel = replace(TURN_BETWEEN_PLANES, factory=points.planes(TurnBetweenPlanes()))
+        return Operation(kernel, points.arguments)
 
     def follows(self, before: Element) -> bool:
         """Tell whether another element is the vertex before this one, in the same chain."""
-        if not isinstance(before, SpecularVertex) or not _is_count(self.place):
+        if not isinstance(before, SpecularVertex) or not is_count(self.place):
             return False
         return before.place == self.place - 1 and same(self.vertices, before.vertices)
 
@@ -130,32 +115,4 @@ class SpecularVertex(Element, kind="specular-vertex"):
         found = []
         if frames:
             found.append(f"'{owner}' has its frames from its vertices; give it no other frames")
-        if self.reflections is not None and not _is_count(self.reflections):
-            found.append(
-                f"{owner}.reflections must be a whole number above 0, not {self.reflections!r}"
-            )
-        elif not self.count and isinstance(self.vertices, Parameter):
-            found.append(
-                f"{owner}.vertices is a parameter without a default; tell the number of "
-                f"reflections of the chain, reflections=..."
-            )
-        most = self.count or np.inf
-        if not _is_count(self.place) or self.place > most:
-            up_to = f" of 1 .. {self.count}" if self.count else " above 0"
-            given = "a parameter" if isinstance(self.place, Parameter) else repr(self.place)
-            found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
-        return found
-
-    @property
-    def _place(self) -> int:
-        # What is no place is told as a fault, and must not be in the way until then.
-        place = self.place if _is_count(self.place) else 1
-        return min(place, max(self.count, 1))
-
-    def _points(self, first: int) -> Coordinates:
-        count = max(self.count, 1) + 2
-        return coordinates(self.vertices, count, first, self._place + 1)
-
-
-def _is_count(value: Any) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and value > 0
+        return [*found, *self.in_chain.faults(owner)]

@@ -37,6 +37,7 @@ from optipath.kernels.layers import Stack
 from optipath.kernels.linear import Linear
 from optipath.kernels.parted import Parts, energy, light_of, parts_of, unit_light
 from optipath.kernels.plain import Plain
+from optipath.kernels.planes import AxesAtVertex, OfPlanes, TurnBetweenPlanes
 from optipath.kernels.points_by_angles import PointsByAngles
 from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
 from optipath.kernels.powers_way import Powers
@@ -61,6 +62,7 @@ from optipath.kernels.structures import (
     turn_linear,
 )
 from optipath.kernels.textbook import textbook_reflection, textbook_transmission
+from optipath.kernels.vertices import LONGEST, SHORTEST
 
 
 def _fresnel(
@@ -146,10 +148,8 @@ TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
-TURN_BETWEEN_PLANES = Kernel(
-    "turn between planes of incidence", ROTATION, vertices.turn_between_planes
-)
-INCIDENCE, ARRIVING, REFLECTED = vertices.incidence, vertices.arriving, vertices.reflected
+TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
+INCIDENCE, ARRIVING, REFLECTED = vertices.incidence, AxesAtVertex(), AxesAtVertex(leaves=True)
 """What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
@@ -186,6 +186,7 @@ __all__ = [
     "GIVEN_AMPLITUDES",
     "GIVEN_TURN",
     "INCIDENCE",
+    "LONGEST",
     "MATRIX",
     "METHODS",
     "MIRROR",
@@ -200,6 +201,7 @@ __all__ = [
     "ROTATION",
     "ROTATION_ALONG",
     "SCALE",
+    "SHORTEST",
     "STACK_REFLECTION",
     "STACK_REFLECTION_BACK",
     "STACK_TRANSMISSION",
@@ -221,6 +223,7 @@ __all__ = [
     "Kernel",
     "KernelFamily",
     "Linear",
+    "OfPlanes",
     "Parts",
     "Plain",
     "PointsByAngles",
@@ -228,6 +231,7 @@ __all__ = [
     "Primitives",
     "Scaled",
     "Structure",
+    "TurnBetweenPlanes",
     "Way",
     "add",
     "boosted",

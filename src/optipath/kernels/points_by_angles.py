@@ -27,6 +27,8 @@ class PointsByAngles:
         How many vertices there are between the start and the end.
     first, last : int
         Which points are wanted, 0 being the start.
+    axes : bool
+        Whether the x of each vertex between these points is wanted behind them.
 
     Examples
     --------
@@ -38,6 +40,7 @@ class PointsByAngles:
     reflections: int
     first: int
     last: int
+    axes: bool = False
 
     @property
     def takes(self) -> int:
@@ -54,19 +57,23 @@ class PointsByAngles:
             # By vertex: its incidence, and the turn from the vertex before it to it.
             met = dict(enumerate(pairs[:count], 1))
             turned = dict(enumerate(pairs[count:], 2))
-            found = {middle: _ORIGIN, middle + 1: _Z}
+            found, across = {middle: _ORIGIN, middle + 1: _Z}, {}
             light = _Axes(_X, _Y, _Z)
             for vertex in range(middle + 1, self.last):
                 light = light.turned(*turned[vertex]) if vertex in turned else light
+                across[vertex] = light.x
                 light = light.reflected(*met[vertex])
                 found[vertex + 1] = plus(found[vertex], light.z)
             light = _Axes(_X, _Y, _Z)
             for vertex in range(middle, self.first, -1):
+                across[vertex] = light.x
                 light = light.before_reflection(*met[vertex])
                 found[vertex - 1] = minus(found[vertex], light.z)
                 light = light.before_turn(*turned[vertex]) if vertex in turned else light
-            wanted = range(self.first, self.last + 1)
-            return tuple(number for point in wanted for number in found[point])
+            wanted = [found[point] for point in range(self.first, self.last + 1)]
+            if self.axes:
+                wanted += [across[vertex] for vertex in range(self.first + 1, self.last)]
+            return tuple(number for vector in wanted for number in vector)
 
         return points
 

@@ -1,4 +1,4 @@
-"""Light along a chain of vertices: angles and planes of incidence out of the points alone.
+"""Light along a chain of vertices: its legs, and the angles of incidence between them.
 
 A chain is the point where light starts, one for each specular reflection, and the point
 where it ends. The surface at a vertex is perpendicular to the bisector of its two legs.
@@ -7,18 +7,20 @@ where it ends. The surface at a vertex is perpendicular to the bisector of its t
 from __future__ import annotations
 
 from itertools import pairwise
+from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.rotation import align
-from optipath.kernels.vectors import Vector, choice, cross, dot, minus, plus, times
+from optipath.kernels.vectors import Vector, dot, minus, plus, times
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from optipath.kernels.primitives import Primitives
 
-_PARALLEL = 2.0**-50
-"""The sine of twice an incidence below which it is the rounding of the points."""
+SHORTEST, LONGEST = 1e-70, 1e70
+"""The legs whose squares, and those of their products, keep all digits."""
+
+_LEAST, _INVERSE = SHORTEST * SHORTEST, 1.0 / LONGEST
 
 
 class Leg(NamedTuple):
@@ -61,45 +63,6 @@ def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
     return met
 
 
-def turn_between_planes(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
-    """Make ``(x0, y0, ...) -> (cos 2a, sin 2a)`` between the planes of the last two vertices.
-
-    The points are all from the start of the chain to the one behind these vertices.
-    """
-    along, planes, aligned = legs(xp), axes(xp), align(xp)
-
-    def turned(*coordinates: Any) -> tuple[Any, Any]:
-        several = along(points_of(coordinates))
-        *_, x, new_x = planes(several)
-        c, s = aligned(dot(x, new_x), dot(several[-2].unit, cross(x, new_x)))
-        return c, s
-
-    return turned
-
-
-def arriving(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(x0, y0, ...) -> (x, z)``, six numbers: how light arrives at the last vertex."""
-    return _frame(xp, -2)
-
-
-def reflected(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(x0, y0, ...) -> (x, z)``, six numbers: how light leaves the last vertex."""
-    return _frame(xp, -1)
-
-
-def _frame(xp: Primitives, leg: int) -> Callable[..., tuple[Any, ...]]:
-    along, planes, sqrt = legs(xp), axes(xp), xp.sqrt
-
-    def axes_of(*coordinates: Any) -> tuple[Any, ...]:
-        several = along(points_of(coordinates))
-        x, z = planes(several)[-1], several[leg].unit
-        # Next to the normal, where the plane is known to fewer digits than the direction.
-        x = minus(x, times(dot(x, z), z))
-        return *times(1.0 / sqrt(dot(x, x)), x), *z
-
-    return axes_of
-
-
 def points_of(coordinates: Sequence[Any]) -> list[Vector]:
     """Return coordinates in a row as points.
 
@@ -113,47 +76,19 @@ def points_of(coordinates: Sequence[Any]) -> list[Vector]:
 
 
 def legs(xp: Primitives) -> Callable[[Sequence[Vector]], list[Leg]]:
-    """Make ``points -> legs``."""
-    sqrt = xp.sqrt
+    """Make ``points -> legs``; one that is too short or too long is not finite."""
+    sqrt, where = xp.sqrt, xp.where
 
     def between(points: Sequence[Vector]) -> list[Leg]:
         found = []
         for start, end in pairwise(points):
             along = minus(end, start)
-            inverse = 1.0 / sqrt(dot(along, along))
+            squared = dot(along, along)
+            inverse = 1.0 / sqrt(squared)
+            # Both limits are 0 in single precision, which has none of the other numbers.
+            kept = (squared > _LEAST) & (inverse > _INVERSE)
+            inverse = where(kept, inverse, nan)
             found.append(Leg(along, inverse, times(inverse, along)))
         return found
 
     return between
-
-
-def axes(xp: Primitives) -> Callable[[Sequence[Leg]], list[Vector]]:
-    """Make ``legs -> x at each vertex``: k_out cross k_in, across the plane of incidence.
-
-    Light along the normal, and light that goes straight through, has no plane of its own, and
-    keeps the x that it came with; the first of a chain, one that is perpendicular to it.
-    """
-    sqrt, where, chosen = xp.sqrt, xp.where, choice(xp)
-
-    def planes(several: Sequence[Leg]) -> list[Vector]:
-        found, x = [], perpendicular(several[0].unit)
-        for before, behind in pairwise(several):
-            # Of the points' differences: what is parallel in them comes to 0.
-            across = times(behind.inverse * before.inverse, cross(behind.along, before.along))
-            squared = dot(across, across)
-            has_plane = squared > _PARALLEL * _PARALLEL
-            own = times(1.0 / sqrt(where(has_plane, squared, 1.0)), across)
-            x = chosen(has_plane, own, x)
-            found.append(x)
-        return found
-
-    def perpendicular(k: Vector) -> Vector:
-        # What world x leaves of itself across the light, or world y where light goes along x.
-        u, v, w = k
-        near_x = u * u > 0.5
-        across = chosen(
-            near_x, (-(u * v), 1.0 - v * v, -(v * w)), (1.0 - u * u, -(u * v), -(u * w))
-        )
-        return times(1.0 / sqrt(dot(across, across)), across)
-
-    return planes

@@ -25,7 +25,8 @@ if TYPE_CHECKING:
 class VerticesByAngles:
     """The vertices of a chain of specular reflections, given by angles.
 
-    Legs are of length 1, and the middle one runs from the world's origin along its z.
+    Legs are of length 1, and the middle one runs from the world's origin along its z. Next to
+    the normal and at grazing incidence, where points tell no plane of incidence, the angles do.
 
     Parameters
     ----------
@@ -62,8 +63,9 @@ class VerticesByAngles:
             raise PathError("vertices by angles need an incidence for each reflection; give one")
         if turns != count - 1:
             raise PathError(
-                f"{count} incidences take {count - 1} turns, one from each plane of incidence to "
-                f"the next, not {turns}"
+                f"{counted(count, 'incidence')} take{'s' * (count == 1)} "
+                f"{counted(count - 1, 'turn')}, one from each plane of incidence to the next, not "
+                f"{turns}"
             )
 
     def parts(self, name: str) -> Iterator[tuple[str, Any, Domain]]:
@@ -126,6 +128,17 @@ def vertices_from_angles(
 
 
 def _sequence(name: str, angles: Any) -> tuple[Any, ...]:
-    if isinstance(angles, str) or not hasattr(angles, "__iter__"):
+    if isinstance(angles, str) or not np.iterable(angles):
         raise PathError(f"{name} must be a sequence of angles, not {angles!r}; write ({angles},)")
     return tuple(angles)
+
+
+def counted(count: int, what: str) -> str:
+    """Return how many there are of something.
+
+    Examples
+    --------
+    >>> counted(1, "turn"), counted(2, "turn")
+    ('1 turn', '2 turns')
+    """
+    return f"{count} {what}{'s' * (count != 1)}"

@@ -10,7 +10,7 @@ from optipath.vertices.by_angles import VerticesByAngles
 from optipath.views import View
 
 if TYPE_CHECKING:
-    from optipath.kernels import Kernel, KernelFamily
+    from optipath.kernels import KernelFamily, OfPlanes
     from optipath.kernels.kernel import Factory
 
 
@@ -34,9 +34,15 @@ class Coordinates(NamedTuple):
             return of_coordinates
         return Composed(of_coordinates, self.points, self.points.takes)
 
-    def kernel(self, of_coordinates: Kernel) -> Kernel:
-        """Return a kernel of coordinates alone as one of the arguments."""
-        return replace(of_coordinates, factory=self.factory(of_coordinates.factory))
+    def planes(self, of_planes: OfPlanes) -> Factory:
+        """Return a factory of planes of incidence as one of the arguments.
+
+        Angles tell a plane where points do not; the points are to be all from the start.
+        """
+        if self.points is None:
+            return of_planes
+        known = replace(of_planes, known=True)
+        return Composed(known, replace(self.points, axes=True), self.points.takes)
 
     def family(self, kernels: KernelFamily, geometry: Factory) -> KernelFamily:
         """Return kernels whose last arguments a geometry makes of coordinates."""

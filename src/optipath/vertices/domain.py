@@ -1,4 +1,4 @@
-"""The domain of vertices: finite points, each apart from the next."""
+"""The domain of vertices: finite points, each apart from the next, and not too far."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ import numpy as np
 
 from optipath.domains import Domain, Quantity
 from optipath.errors import ValueFault
+from optipath.frozen import array_of, frozen
+from optipath.kernels import LONGEST, SHORTEST
 from optipath.vertices.by_angles import VerticesByAngles
+from optipath.vertices.naming import of_chain, pieces_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-_AT_ONCE = 1 << 14
-"""How many chains are looked at together, so that they stay in the cache."""
+_LEAST, _MOST = SHORTEST**2, LONGEST**2
 
 
 @dataclass(frozen=True)
@@ -37,21 +39,91 @@ class VerticesDomain(Domain):
         """Two vertices in one point have no direction, and light along none is not finite."""
         return True
 
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change; whole numbers, whose differences wrap, as floats.
+
+        Examples
+        --------
+        >>> VERTICES.kept(np.eye(3, dtype=np.uint8)).dtype
+        dtype('float64')
+        """
+        kept = frozen(value)
+        whole = isinstance(kept, np.ndarray) and kept.dtype.kind in "iu"
+        return frozen(kept.astype(np.float64)) if whole else kept
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        """Return the value as an array of numbers, or say which vertex is wrong.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner, the vertex and its chain, and what is asked for.
+        """
+        try:
+            return super().check(owner, value)
+        except ValueFault:
+            # Where all is well, nobody needs to know where.
+            if fault := self._not_finite(owner, value):
+                raise ValueFault(fault) from None
+            raise
+
+    def _not_finite(self, owner: str, value: Any) -> str:
+        try:
+            array = array_of(value)
+        except ValueError:
+            return ""
+        if array.dtype.kind not in "fc" or array.shape[-2:] != self.tail[-2:] or array.ndim < 2:
+            return ""
+        chains = array.reshape(-1, *array.shape[-2:])
+        bad = np.argwhere(~np.isfinite(chains))
+        if not len(bad):
+            return ""
+        chain, vertex = int(bad[0, 0]), int(bad[0, 1])
+        where, given = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
+        return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {given}; give finite coordinates"
+
     def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
         super()._check_numbers(owner, array)
-        chains = array.reshape(-1, *self.tail)
-        for start in range(0, len(chains), _AT_ONCE):
-            some = chains[start : start + _AT_ONCE]
-            alike = some[:, 1:] == some[:, :-1]
-            meet = alike[..., 0] & alike[..., 1] & alike[..., 2]
-            if meet.any():
-                chain, place = (int(found[0]) for found in np.nonzero(meet))
-                where = f" of chain {start + chain}" if len(chains) > 1 else ""
-                raise ValueFault(
-                    f"{owner}: vertices {place} and {place + 1}{where}, counted from the light as "
-                    f"0, are one point, {some[chain, place].tolist()}; move one, or leave it out"
-                )
+        chains = array.reshape(-1, *array.shape[-2:])
+        for piece in pieces_of(len(chains)):
+            some = chains[piece]
+            if _are_surely_apart(some):
+                continue
+            legs = some[:, 1:] - some[:, :-1]
+            with np.errstate(over="ignore"):
+                squares = np.einsum("...i,...i", legs, legs)
+            bad = ~((squares >= _LEAST) & (squares <= _MOST))
+            if bad.any():
+                chain, place = (int(found[0]) for found in np.nonzero(bad))
+                where = of_chain(piece.start + chain, array.shape[:-2])
+                raise ValueFault(_leg_fault(owner, some[chain], place, where))
 
 
+def _are_surely_apart(chains: npt.NDArray[Any]) -> bool:
+    """Tell, quickly, whether all legs are within the limits; those from chain to chain as well."""
+    flat = chains.reshape(-1)
+    with np.errstate(over="ignore"):
+        squares = flat[3:] - flat[:-3]
+        squares *= squares
+        lengths = squares[:-2] + squares[1:-1]
+        lengths += squares[2:]
+    of_legs = lengths[::3]
+    return bool(of_legs.min() >= _LEAST and of_legs.max() <= _MOST)
+
+
+def _leg_fault(owner: str, chain: npt.NDArray[Any], place: int, where: str) -> str:
+    both = f"{owner}: vertices {place} and {place + 1}{where}{_COUNTED},"
+    start, end = chain[place], chain[place + 1]
+    if np.array_equal(start, end):
+        return f"{both} are one point, {start.tolist()}; move one, or leave it out"
+    with np.errstate(over="ignore"):
+        length = float(np.max(np.abs(end - start)))
+    return (
+        f"{both} are about {length:.2g} apart; legs are within {SHORTEST:g} .. {LONGEST:g}: give "
+        f"the points in another unit"
+    )
+
+
+_COUNTED = ", counted from the light as 0"
 VERTICES = VerticesDomain("coordinate")
 Vertices: TypeAlias = Annotated[Quantity | VerticesByAngles, VERTICES]

@@ -1,8 +1,8 @@
-"""The frame of light at a vertex, made when somebody looks at it."""
+"""The frame of light at a vertex, or beside it, made when somebody looks at it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,13 +16,18 @@ from optipath.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    import numpy.typing as npt
+
     from optipath.parameters import Resolved
     from optipath.vertices.coordinates import Coordinates
+    from optipath.views import View
 
 
 @dataclass(frozen=True)
 class VertexFrame:
     """How light arrives at the last of some vertices, or how it leaves there.
+
+    On its way from there it may be told in a frame that is turned about its direction.
 
     Attributes
     ----------
@@ -30,37 +35,59 @@ class VertexFrame:
         From the start of the chain to the point behind the vertex.
     leaves : bool
         Whether the frame is that of the reflected light.
+    turns : tuple of View
+        The angles by which the light's own frame is turned on about the direction of travel.
     """
 
     points: Coordinates
     leaves: bool
+    turns: tuple[View, ...] = ()
+
+    def turned(self, *turns: View) -> VertexFrame:
+        """Return the frame turned by more angles."""
+        return replace(self, turns=(*self.turns, *turns))
 
     @property
     def names(self) -> set[str]:
         """The open parameters that it depends on."""
-        values = (view.value for view in self.points.arguments)
+        values = (view.value for view in self._views)
         return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
 
     def frame(self, given: Mapping[str, Resolved]) -> Frame:
-        """Return the frame, with x across the plane of incidence.
+        """Return the frame: x across the plane of incidence, and turned from there.
 
         Raises
         ------
         FrameError
-            If JAX traces the vertices.
+            If JAX traces the values.
         """
-        if any(view.traced for view in self.points.arguments) or any(
+        if any(view.traced for view in self._views) or any(
             is_traced(given[name].value) for name in self.names
         ):
             raise FrameError(
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        numbers = [view.numbers(given) for view in self.points.arguments]
-        axes = self.points.factory(REFLECTED if self.leaves else ARRIVING)(NUMPY)(*numbers)
-        shape = np.broadcast_shapes(*(number.shape for number in numbers))
-        x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
-        return Frame.trusted(x, np.cross(z, x), z)
+        points = [_doubles(view, given) for view in self.points.arguments]
+        turns = [_doubles(view, given) for view in self.turns]
+        shape = np.broadcast_shapes(*(number.shape for number in (*points, *turns)))
+        with np.errstate(all="ignore"):
+            axes = self.points.planes(REFLECTED if self.leaves else ARRIVING)(NUMPY)(*points)
+            x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
+            y = np.cross(z, x)
+            if turns:
+                angle = np.asarray(sum(turns))[..., np.newaxis]
+                c, s = np.cos(angle), np.sin(angle)
+                x, y = c * x + s * y, c * y - s * x
+        return Frame.trusted(x, y, z)
+
+    @property
+    def _views(self) -> tuple[View, ...]:
+        return *self.points.arguments, *self.turns
+
+
+def _doubles(view: View, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
+    return view.numbers(given).astype(np.float64, copy=False)
 
 
 def _vectors(components: Any, shape: tuple[int, ...]) -> Any:
