@@ -88,6 +88,7 @@ class Meeting:
         self.numbers = numbers
         self.way = Plain(xp)
         self.unknowns = [(knot, part) for knot in loop.knots for part in range(self.count(knot))]
+        self._knots = frozenset(loop.knots)
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
         self._system = Elimination(
@@ -141,7 +142,7 @@ class Meeting:
             for user in self.program.used_by[light]:
                 after = self._behind(user, state)
                 passed.append(energy(xp, after))
-                if user in self.loop.knots:
+                if user in self._knots:
                     parts = parts_of(xp, after, self.count(user))
                     before = column.back.get(user, (0.0,) * len(parts))
                     sums = (one + other for one, other in zip(before, parts, strict=True))

@@ -124,10 +124,11 @@ class _Lowering:
         outside = {knot: self._arriving(knot) for knot in stretch.knots}
         for knot in stretch.knots:
             self.lights[knot] = self.builder.knot(".".join(knot))
-        for port in stretch.ports:
-            if port not in stretch.knots:
-                self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
-        inside = {knot: self._arriving(knot, set(stretch.ports)) for knot in stretch.knots}
+        # The knots come first.
+        for port in stretch.ports[len(stretch.knots) :]:
+            self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
+        members = set(stretch.ports)
+        inside = {knot: self._arriving(knot, members) for knot in stretch.knots}
         self.builder.close(
             {self.lights[knot]: [*outside[knot], *inside[knot]] for knot in stretch.knots}
         )
