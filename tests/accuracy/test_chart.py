@@ -90,13 +90,15 @@ def test_the_chart_of_one_interface_has_all_methods(tmp_path):
     assert (tmp_path / "chart.png").read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize("name", op.preset_names())
-def test_every_preset_can_be_charted(name):
+# npgr026 is charted above, and those that are like it, or take long, are left out.
+CHARTED = ["coated-metal", "glass-slab", "malus", "npgr026-3d", "senarmont", "sky-and-window"]
+
+
+@pytest.mark.parametrize("name", CHARTED)
+def test_presets_can_be_charted(name):
     found = path_chart(op.load_preset(name), name, LITTLE._replace(samples=1))
     # By Jones columns, where there are any: Stokes vectors lose a light that is nearly
     # extinguished, as here.
-    if name == "ellipsometer-pcsa":
-        return  # At normal incidence its photometer is dark but for roundings.
     ways = {contender["composing"] for contender in found["contenders"]}
     composing = "jones" if "jones" in ways else "stokes"
     assert worst(by_words(found, "stable", "float64", composing), "normwise") <= 100
