@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
     from optipath.light import Light
 
 
@@ -32,6 +34,11 @@ class LightPath:
     bounces: int
     light: Light
 
+    @property
+    def intensity(self) -> npt.NDArray[Any]:
+        """The intensity that it contributes, of shape (...)."""
+        return self.light.intensity
+
     def __str__(self) -> str:
-        brightest = float(np.max(self.light.intensity, initial=0.0))
+        brightest = float(np.max(self.intensity, initial=0.0))
         return f"{brightest:.6g}  {' -> '.join((*self.route, self.end))}"
