@@ -45,8 +45,8 @@ class LayerStack(FourPort, kind="layer-stack"):
     Examples
     --------
     >>> pane = LayerStack([1.0, 1.5, 1.0], incidence=0.0)
-    >>> print(pane.mueller("in", "transmitted").matrix[0, 0].round(6), round(1.0 / 1.0833333, 6))
-    0.923077 0.923077
+    >>> print(pane.mueller("in", "transmitted").matrix[0, 0].round(12), 2 * 1.5 / (1 + 1.5**2))
+    0.923076923077 0.9230769230769231
     """
 
     indices: Indices

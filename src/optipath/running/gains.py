@@ -111,16 +111,22 @@ def _worst(meeting: Meeting) -> Worst:
         for row, number in column.items():
             matrices[:, row, place] = picked(number)
     matrices *= lit[:, :, np.newaxis] & lit[:, np.newaxis, :]
-    gains = np.abs(np.linalg.eigvals(matrices)).max(axis=-1)
-    worst = int(np.argmax(gains))
-    leaves = 1.0 - float(gains[worst])
-    if not closed:
+    gain, condition = _largest_gain(matrices)
+    leaves = 1.0 - gain
+    if not closed and leaves < _FEW_DIGITS:
         # Next to 1, a gain has lost the digits that the pivots still have.
-        leaves = max(leaves, float(least[first[0]]) if leaves < _FEW_DIGITS else 0.0)
-    size = np.linalg.norm(matrices[worst], 2)
+        leaves = max(leaves, float(least[first[0]]))
+    return Worst(closed, leaves, condition)
+
+
+def _largest_gain(matrices: Array) -> tuple[float, float]:
+    """Return the largest spectral radius of several matrices, and the condition of that one."""
+    gains = np.abs(np.linalg.eigvals(matrices)).max(axis=-1)
+    worst = matrices[int(np.argmax(gains))]
     with np.errstate(all="ignore"):
-        sums = np.linalg.pinv(np.eye(count) - matrices[worst], rcond=0.0)
-    return Worst(closed, leaves, float((1.0 + size) * np.linalg.norm(sums, 2)))
+        sums = np.linalg.pinv(np.eye(len(worst)) - worst, rcond=0.0)
+    condition = (1.0 + np.linalg.norm(worst, 2)) * np.linalg.norm(sums, 2)
+    return float(gains.max()), float(condition)
 
 
 def _lit(number: Any, shape: tuple[int, ...]) -> Array:
