@@ -4,24 +4,11 @@ import numpy as np
 import pytest
 
 import optipath as op
+from light_figures import FIGURES as LIGHT
 
 jax = pytest.importorskip("jax")
 
 STOKES = np.array([[2.0, 0.6, -0.3, 0.8], [1.0, 1 / 3, 0.2, 0.1]])
-LIGHT = [
-    "intensity",
-    "log10_intensity",
-    "normalized",
-    "dop",
-    "dolp",
-    "docp",
-    "aop",
-    "ellipticity",
-    "ellipticity_angle",
-    "handedness",
-    "psi",
-    "delta",
-]
 MUELLER = [
     "diattenuation",
     "diattenuation_vector",

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from light_figures import FIGURES
 
 
 def test_horizontal_light_seen_from_a_diagonal_frame_is_antidiagonal():
@@ -129,22 +130,6 @@ def test_a_light_shows_what_makes_it_again_and_cannot_change():
     assert "exponent=array(-10)" in repr(light)
     with pytest.raises(AttributeError, match="cannot change"):
         light.stokes = np.zeros(4)
-
-
-FIGURES = [
-    "intensity",
-    "log10_intensity",
-    "normalized",
-    "dop",
-    "dolp",
-    "docp",
-    "aop",
-    "ellipticity",
-    "ellipticity_angle",
-    "handedness",
-    "psi",
-    "delta",
-]
 
 
 @pytest.mark.parametrize("size", [1e-170, 1e-300, 1e300])

@@ -4,19 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
+from light_figures import STATE as FIGURES
 
 PHASES = st.floats(-3.1, 3.1)
 SIZES = st.floats(1e-3, 1e3)
-FIGURES = [
-    "dolp",
-    "docp",
-    "aop",
-    "ellipticity",
-    "ellipticity_angle",
-    "handedness",
-    "psi",
-    "delta",
-]
 
 # Stokes vector; aop, ellipticity, handedness, psi, delta.
 HANDBOOK = {

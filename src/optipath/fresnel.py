@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import INCIDENCE, OUTSIDE, Domain, IndexDomain
+from optipath.domains import INCIDENCE, INDEX, OUTSIDE, Domain
 from optipath.errors import ValueFault
 from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION, cosine, refraction, sine
 from optipath.precision import precision
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from optipath.kernels import KernelFamily
 
-_INDEX = IndexDomain("index of refraction")
 _COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
 
 
@@ -110,7 +109,7 @@ def _fresnel(
     family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: str
 ) -> tuple[npt.NDArray[Any], ...]:
     kernel, kind = family.by_method(method), precision(dtype)
-    m = _INDEX.check("index", index)
+    m = INDEX.check("index", index)
     c = _COSINE.check("cos_incidence", cos)
     s = _COSINE.check("sin_incidence", sin)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
@@ -160,7 +159,7 @@ def refraction_angle(
     >>> print(np.degrees(refraction_angle(1.5, np.radians(40.0))).round(6))
     25.373994
     """
-    m = _INDEX.check("index", index)
+    m = INDEX.check("index", index)
     angle = INCIDENCE.check("incidence", incidence)
     front = OUTSIDE.check("outside", outside)
     check_broadcast({"index": m.shape, "incidence": angle.shape, "outside": front.shape})

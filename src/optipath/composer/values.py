@@ -46,12 +46,7 @@ class Values:
             (end, enters) for _, end, (_, enters) in self.graph.edges(keys=True)
         )
         elements = self.graph.nodes(data="element")
-        return [
-            Use(f"{name}.{part}", value, domain)
-            for name, port in entries
-            for field, limits in elements[name].domains_entered(port).items()
-            for part, value, domain in limits.parts(field, getattr(elements[name], field))
-        ]
+        return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
 
     @cached_property
     def parameters(self) -> dict[str, Parameter]:

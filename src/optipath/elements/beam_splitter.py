@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from optipath.frames import Frame
 
 
+_THROUGH = {"in": "transmitted", "transmitted": "in", "back": "reflected", "reflected": "back"}
+
+
 class BeamSplitter(FourPort, kind="beam-splitter"):
     """A lossless beam splitter that does not polarise.
 
@@ -51,8 +54,7 @@ class BeamSplitter(FourPort, kind="beam-splitter"):
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
         """Return the world frame of a port: its own, or that of light which passes straight."""
-        through = {"transmitted": "in", "in": "transmitted", "reflected": "back"}
-        return frames.get(port) or frames.get(through.get(port, "reflected"))
+        return frames.get(port) or frames.get(_THROUGH[port])
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that transmitted light keeps its frame and reflected light its x."""

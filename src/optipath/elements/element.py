@@ -117,6 +117,14 @@ class Element:
         del port
         return {}
 
+    def uses_entered(self, owner: str, port: str) -> list[Use]:
+        """Return the numbers that must be something besides, where a link leads to a port."""
+        return [
+            Use(f"{owner}.{name}", value, domain)
+            for field, limits in self.domains_entered(port).items()
+            for name, value, domain in limits.parts(field, getattr(self, field))
+        ]
+
     def parameters(self) -> Iterator[Parameter]:
         """Yield the parameters among the values."""
         for _, value, _ in self.quantities():
@@ -204,11 +212,7 @@ class Element:
         REFLECTION.by_method(method)
         owner = self.kind or type(self).__name__
         leaves = leaves or self.natural
-        uses = self._uses(owner) + [
-            Use(f"{owner}.{name}", value, domain)
-            for field, limits in self.domains_entered(enters).items()
-            for name, value, domain in limits.parts(field, getattr(self, field))
-        ]
+        uses = self._uses(owner) + self.uses_entered(owner, enters)
         open_ones = [
             f"parameter '{use.value.name}' of {owner} has no value yet"
             for use in uses

@@ -42,7 +42,7 @@ from optipath.kernels.points_by_angles import PointsByAngles
 from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
 from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
-from optipath.kernels.refraction import Refracting, lossless_refraction, refraction
+from optipath.kernels.refraction import Refracting, refraction
 from optipath.kernels.scaled import Scaled
 from optipath.kernels.stable import (
     denser_reflection,
@@ -242,7 +242,6 @@ __all__ = [
     "is_zero",
     "largest_error",
     "light_of",
-    "lossless_refraction",
     "not_above_rounding",
     "parts_of",
     "ratio_bounds",

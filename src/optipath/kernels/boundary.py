@@ -190,7 +190,7 @@ def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    where, behind = xp.where, _refracted(xp)
+    where, behind = xp.where, refracted_wave(xp)
 
     def wave(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
         """Return the cosine and sine in n1, p, n^2 - n1^2, and Re g^2."""
@@ -208,11 +208,15 @@ def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return wave
 
 
-def _refracted(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def refracted_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(n1, n, n0, cos0, sin0) -> (cos, sin, p, n^2 - (n0 sin0)^2)`` for the angle in n1.
+
+    Parallel boundaries have refracted the light from n0 into n1; n0 sin0 is what Snell's law
+    keeps.
+    """
     where, sqrt, maximum, minimum = xp.where, xp.sqrt, xp.maximum, xp.minimum
 
     def refracted(n1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
-        """Return the cosine and sine in n1, p, and n^2 - (n0 sin)^2, by Snell's invariant."""
         p0, y = n0 * c0, n0 * s0
 
         def along(m: Any) -> Any:

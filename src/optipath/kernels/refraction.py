@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.boundary import absorbing_boundary, hypotenuse, lossless_boundary
+from optipath.kernels.boundary import absorbing_boundary, hypotenuse, refracted_wave
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.boundary import Boundary
     from optipath.kernels.kernel import Factory
     from optipath.kernels.primitives import Primitives
 
@@ -22,27 +21,17 @@ def refraction(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     the real part of g = sqrt(m2^2 - (n1 sin)^2) (Born & Wolf, Principles of Optics, sec. 14.2),
     which is Snell's law where nothing absorbs. Where all is reflected, it is a right angle.
     """
-    boundary, direction = absorbing_boundary(xp), _direction(xp)
-    return lambda n1, n, k, c, s: direction(boundary(n1, n, k, c, s))
+    boundary, where, length = absorbing_boundary(xp), xp.where, hypotenuse(xp)
 
-
-def lossless_refraction(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    """Make ``(n1, n, cos, sin) -> (cos, sin)``: the same, cheaper, for k = 0."""
-    boundary, direction = lossless_boundary(xp), _direction(xp)
-    return lambda n1, n, c, s: direction(boundary(n1, n, c, s))
-
-
-def _direction(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
-    where, length = xp.where, hypotenuse(xp)
-
-    def direction(at: Boundary) -> tuple[Any, Any]:
+    def refract(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any]:
+        at = boundary(n1, n, k, c, s)
         along = at.n1 * at.s
         size = length(along, at.a)
         there = size > 0.0
         size = where(there, size, 1.0)
         return where(there, at.a / size, 1.0), along / size
 
-    return direction
+    return refract
 
 
 @dataclass(frozen=True)
@@ -59,12 +48,11 @@ class Refracting:
 
     def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         """Make ``(n1, n, k, [n0,] cos, sin)``."""
-        kernel, refracted = self.factory(xp), lossless_refraction(xp)
+        kernel, refracted = self.factory(xp), refracted_wave(xp)
 
         def refracting(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
             if len(angle) > 2:
-                n0, c, s = angle
-                angle = refracted(n0, n1, c, s)
+                angle = refracted(n1, n, *angle)[:2]
             return kernel(n1, n, k, *angle)
 
         return refracting
