@@ -24,6 +24,8 @@ def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
     Directly, or through elements that let it go straight on, whose links may turn it. Of
     light that several links bring, or may have brought, nothing is known.
     """
+    if not wiring.vertices:
+        return None
     return _followed(wiring, (name, port), _before) or _followed(wiring, (name, port), _behind)
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 def is_vertex(wiring: Wiring, name: str) -> bool:
     """Tell whether a node is a vertex of a chain."""
-    return isinstance(wiring.elements[name], SpecularVertex)
+    return name in wiring.vertices
 
 
 def vertex_link_faults(wiring: Wiring, link: Link) -> list[str]:

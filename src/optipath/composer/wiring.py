@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 from optipath.composer.travel import Port, Ways, among, backwards, reached, stretches
+from optipath.elements import SpecularVertex
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -59,6 +60,12 @@ class Wiring:
     def elements(self) -> dict[str, Element]:
         """The element of each node."""
         return dict(self.graph.nodes(data="element"))
+
+    @cached_property
+    def vertices(self) -> frozenset[str]:
+        """The nodes that are vertices of chains."""
+        found = (name for name, e in self.elements.items() if isinstance(e, SpecularVertex))
+        return frozenset(found)
 
     @cached_property
     def couplings(self) -> dict[str, tuple[Coupling, ...]]:

@@ -52,8 +52,10 @@ def boundary_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) 
 
 def refracted_frame(element: Boundary, port: str, frames: Mapping[str, Frame]) -> Frame | None:
     """Return the frame of refracted light, of that of the other; None where it is not known."""
+    if port != "transmitted" or not {"in", "reflected"} <= frames.keys():
+        return None
     angles = _angles("", element)
-    if port != "transmitted" or not {"in", "reflected"} <= frames.keys() or not angles:
+    if not angles:
         return None
     arriving, reflected = frames["in"], frames["reflected"]
     front, behind = (np.asarray(angle)[..., np.newaxis] for angle in angles)
