@@ -74,6 +74,6 @@ def _made():
     }
     for label, thing in {"path": path, "plan": plan, "light": light, "matrix": matrix}.items():
         for name in dir(type(thing)):
-            if not name.startswith("_") and callable(getattr(type(thing), name)):
+            if name[0] != "_" and name != "of" and callable(getattr(type(thing), name)):
                 found[f"{label}.{name}"] = getattr(thing, name)
     return found

@@ -6,11 +6,14 @@ from tests.random_paths import Draw
 
 import optipath as op
 
+# Compiling takes seconds.
+_ENGINES = ["auto"] * 9 + ["numpy"] * 10 + ["numba"]
+
 
 def make(rng):
     """Make one path and one way to compose and run it."""
     seed, loops = rng.randrange(2**32), rng.random() < 0.4
-    options = {"engine": rng.choice(["auto", "numpy"])}
+    options = {"engine": rng.choice(_ENGINES)}
     for name, choices in {
         "model": ["auto", "full"],
         "composing": ["stokes", "jones"],
