@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import OptipathError, PathError, PresetError, did_you_mean
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -91,7 +92,9 @@ def locate(preset: str | PathLike[str]) -> Path:
     try:
         path = Path(preset)
     except TypeError:
-        raise PresetError(f"a preset is a name or the path of a file, not {preset!r}") from None
+        raise PresetError(
+            f"a preset is a name or the path of a file, not {shown(preset)}"
+        ) from None
     if path.suffix.lower() != ".toml":
         names = preset_names()
         cure = did_you_mean(path.stem, names)
@@ -121,7 +124,9 @@ def read_preset(path: Path) -> PathGraph:
     document = _parse(path, _text(path))
     number = document.get("format", FORMAT)
     if number != FORMAT or isinstance(number, bool):
-        raise PresetError(f"'{path}' has format {number!r}, but this version reads format {FORMAT}")
+        raise PresetError(
+            f"'{path}' has format {shown(number)}, but this version reads format {FORMAT}"
+        )
     try:
         return read(document)
     except OptipathError as error:

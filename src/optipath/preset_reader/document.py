@@ -14,6 +14,7 @@ from optipath.preset_reader.cases import read_case
 from optipath.preset_reader.elements import read_element, read_frames
 from optipath.preset_reader.faults import Faults
 from optipath.preset_reader.parameters import read_parameter
+from optipath.quoting import shown
 from optipath.units import dimension_of, with_article
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def read(document: dict[str, Any]) -> PathGraph:
     description = str(document.get("description", ""))
     loops = document.get("loops", LOOPS[0])
     if isinstance(loops, str) and loops not in LOOPS:
-        faults.append(f"the preset: loops {loops!r} is unknown{did_you_mean(loops, LOOPS)}")
+        faults.append(f"the preset: loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
     loops = loops if loops in LOOPS else LOOPS[-1]
     path = PathGraph(description, declared=tuple(parameters), loops=loops)
     elements = _tables(document, "elements", faults)
@@ -93,7 +94,7 @@ def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str,
         if isinstance(table, dict):
             found[name] = table
         else:
-            faults.append(f"{section}.{name} must be a table, not {table!r}")
+            faults.append(f"{section}.{name} must be a table, not {shown(table)}")
     return found
 
 
@@ -125,7 +126,7 @@ def _link(
 ) -> set[str]:
     """Add a link; return the nodes whose links are not all there, if it could not be added."""
     if not isinstance(table, dict):
-        faults.append(f"{where} must be a table headed [[links]], not {table!r}")
+        faults.append(f"{where} must be a table headed [[links]], not {shown(table)}")
         return set(path.graph)
     ends = {key: str(table.get(key)).partition(".")[0] for key in ("from", "to")}
     before = len(faults)
