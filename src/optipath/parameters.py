@@ -139,7 +139,7 @@ class Parameter:
                 f"parameter '{self.name}' cannot have the word {shown(word)}; begin with a letter, "
                 f"and keep '{ABSENT}' for an element that is left out"
             )
-        if isinstance(value, str) or np.ndim(value) or isinstance(value, complex):
+        if isinstance(value, (str, complex, list, tuple)) or np.ndim(value):
             raise ParameterError(
                 f"the word '{word}' of parameter '{self.name}' must be a number, not {shown(value)}"
             )
@@ -239,7 +239,7 @@ class Parameter:
         UnitError
             If it is no quantity of the parameter's dimension.
         """
-        if text in self.all_words:
+        if text in self.words or (self.optional and text == ABSENT):
             return text
         if text[:1].isalpha():
             cure = did_you_mean(text, self.all_words) if self.all_words else "; give a number"
@@ -285,7 +285,7 @@ class Parameter:
                 return entry
             raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(entry)}")
         value = self.parse(entry)
-        return {**self.words, ABSENT: None}[value] if isinstance(value, str) else value
+        return self.words.get(value) if isinstance(value, str) else value
 
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         bad = ~np.isfinite(array)

@@ -6,7 +6,13 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, PathError, PresetError, did_you_mean
+from optipath.errors import (
+    OptipathError,
+    PathError,
+    PresetError,
+    did_you_mean,
+    few_suggestions,
+)
 from optipath.quoting import shown
 
 if TYPE_CHECKING:
@@ -128,7 +134,8 @@ def read_preset(path: Path) -> PathGraph:
             f"'{path}' has format {shown(number)}, but this version reads format {FORMAT}"
         )
     try:
-        return read(document)
+        with few_suggestions():
+            return read(document)
     except OptipathError as error:
         raise PathError(*(f"{path.name}: {fault}" for fault in error.faults)) from None
 
@@ -156,6 +163,12 @@ def _text(path: Path) -> str:
 def _parse(path: Path, text: str) -> dict[str, Any]:
     import tomllib  # noqa: PLC0415 - as above
 
+    from optipath.preset_format.limits import refuse_unwieldy  # noqa: PLC0415 - as above
+
+    try:
+        refuse_unwieldy(text)
+    except PresetError as error:
+        raise PresetError(f"'{path}' cannot be read: {error}") from None
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.

@@ -158,8 +158,12 @@ def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dic
 
 
 def _complex(parts: Mapping[str, Any]) -> Any:
-    real, *imaginary = map(np.asarray, parts.values())
-    return (real + 1j * sum(imaginary))[()]
+    try:
+        real, *imaginary = map(np.asarray, parts.values())
+        return (real + 1j * sum(imaginary))[()]
+    except ValueError:
+        names = " and ".join(f"'{name}'" for name in parts)
+        raise UnitError(f"the shapes of {names} do not fit; make all rows equally long") from None
 
 
 def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:

@@ -47,14 +47,16 @@ def read(document: dict[str, Any]) -> PathGraph:
         name for name, table in elements.items() if not _add(path, name, table, parameters, faults)
     }
     links = document.get("links", [])
-    linked = [
-        _link(path, f"links[{number}]", table, parameters, lost, faults)
-        for number, table in enumerate(links if isinstance(links, list) else [])
-    ]
+    suspects = set(lost)
+    for number, table in enumerate(links if isinstance(links, list) else []):
+        suspects |= _link(path, f"links[{number}]", table, parameters, lost, faults)
+    ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
     for name, table in _tables(document, "cases", faults).items():
         path.cases[name] = read_case(f"cases.{name}", table, parameters, faults)
-        _check_published(path, name, lost, faults)
-    suspects = lost | {name for names in linked for name in names}
+        for detector in path.cases[name].published:
+            if detector not in ends and detector not in lost:
+                cure = did_you_mean(detector, ends)
+                faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
     if not suspects:
         used = path.parameters
         faults += [
@@ -77,14 +79,6 @@ def _unit_faults(path: PathGraph, parameters: dict[str, Parameter]) -> list[str]
         for name, parameter in path.parameters.items()
         if name in parameters and parameter.unit != parameters[name].unit
     ]
-
-
-def _check_published(path: PathGraph, case: str, lost: set[str], faults: Faults) -> None:
-    ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]
-    for name in path.cases[case].published:
-        if name not in ends and name not in lost:
-            cure = did_you_mean(name, ends)
-            faults.append(f"cases.{case}.published: '{name}' is no detector{cure}")
 
 
 def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str, dict[str, Any]]:

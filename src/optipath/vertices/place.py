@@ -75,7 +75,7 @@ class PlaceInChain:
             )
         if not is_count(self.number) or self.number > (self.count or np.inf):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
-            given = "a parameter" if isinstance(self.number, Parameter) else repr(self.number)
+            given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
             found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
         return found
 
