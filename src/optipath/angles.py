@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import ParameterError
 from optipath.jax_values import is_jax, namespace
+from optipath.quoting import shown
 from optipath.shapes import broadcast_fault
 
 _APART = 1e-6
@@ -88,5 +89,5 @@ def _numbers(name: str, value: Any) -> Any:
     except ValueError:
         raise ParameterError(f"{name} has rows of unequal lengths; make it one shape") from None
     if array.dtype.kind not in "iuf":
-        raise ParameterError(f"{name} must be real numbers, not {value!r}")
+        raise ParameterError(f"{name} must be real numbers, not {shown(value)}")
     return array if array.dtype.char in "fd" else array.astype(np.float64)

@@ -13,6 +13,7 @@ from optipath.domains import Domain
 from optipath.errors import ParameterError, ValueFault
 from optipath.faint import is_faint
 from optipath.kernels import NUMPY, Boosts, boosted, largest_error, ratio_bounds
+from optipath.quoting import shown
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ def intensity_bounds(
     0.0 2.0
     """
     if isinstance(diattenuations, str) or not isinstance(diattenuations, (Sequence, np.ndarray)):
-        raise ParameterError(f"diattenuations must be a sequence, not {diattenuations!r}")
+        raise ParameterError(f"diattenuations must be a sequence, not {shown(diattenuations)}")
     given = {"source_dop": (source_dop, _DOP)}
     given |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(diattenuations)}
     numbers: dict[str, npt.NDArray[Any]] = {}

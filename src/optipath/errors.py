@@ -2,14 +2,24 @@
 
 from __future__ import annotations
 
+import math
+from contextlib import contextmanager
+from contextvars import ContextVar
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from optipath.quoting import printable, shown
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
 
 _LONGEST = 600
+_MOST_NAMES = 1000
+_MOST_LISTED = 30
+_LONGEST_NAME = 100
+
+_looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 
 
 class OptipathError(Exception):
@@ -18,7 +28,8 @@ class OptipathError(Exception):
     Parameters
     ----------
     *faults : str
-        One sentence for each fault: the thing, the value, and the cure.
+        One sentence for each fault: the thing, the value, and the cure. Control characters
+        that it quotes are shown by their codes.
 
     Examples
     --------
@@ -29,7 +40,7 @@ class OptipathError(Exception):
     """
 
     def __init__(self, *faults: str) -> None:
-        short = tuple(map(_shortened, faults))
+        short = tuple(printable(_shortened(fault)) for fault in faults)
         super().__init__(*short)
         self.faults = short
 
@@ -104,7 +115,8 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     Returns
     -------
     str
-        ``"; did you mean 'x'?"``, or the list of what there is.
+        ``"; did you mean 'x'?"``, or the list of what there is; nothing where `few_suggestions`
+        has no look left.
 
     Examples
     --------
@@ -113,12 +125,43 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    names, word = list(known), str(word)
-    by_lower = {name.lower(): name for name in reversed(names)}
-    close = get_close_matches(word.lower(), by_lower, n=1)
+    left = _looks_left.get()
+    if left <= 0:
+        return ""
+    _looks_left.set(left - 1)
+    names = list(known)
+    text = word if isinstance(word, str) else shown(word)
+    # The time of a comparison grows with the product of the lengths.
+    by_lower = {
+        name.lower(): name
+        for name in reversed(names[:_MOST_NAMES])
+        if len(name) <= _LONGEST_NAME >= len(text)
+    }
+    close = get_close_matches(text.lower(), by_lower, n=1)
     if close:
         return f"; did you mean '{by_lower[close[0]]}'?"
+    if len(names) > _MOST_LISTED:
+        return (
+            f"; there are: {', '.join(names[:_MOST_LISTED])} and {len(names) - _MOST_LISTED} more"
+        )
     return f"; there are: {', '.join(names)}" if names else "; there are none"
+
+
+@contextmanager
+def few_suggestions(most: int = 20) -> Iterator[None]:
+    """Let `did_you_mean` look for so many words inside, and no more: each look takes its time.
+
+    Examples
+    --------
+    >>> with few_suggestions(1):
+    ...     [did_you_mean(word, ["in", "out"]) for word in ("ou", "inn")]
+    ["; did you mean 'out'?", '']
+    """
+    token = _looks_left.set(most)
+    try:
+        yield
+    finally:
+        _looks_left.reset(token)
 
 
 def listed(words: Sequence[str]) -> str:

@@ -23,6 +23,7 @@ from optipath.polarization_state import (
     phase_difference,
     ratio,
 )
+from optipath.quoting import shown
 from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
@@ -74,13 +75,14 @@ class Light:
     def __init__(self, stokes: Any, frame: Frame | None = None, exponent: Any = 0) -> None:
         frame = Frame() if frame is None else frame
         if not isinstance(frame, Frame):
-            raise FrameError(f"the frame of a light must be a Frame, not {frame!r}")
+            raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
         mantissa = stokes if is_jax(stokes) else real_array("a Stokes vector", stokes, (4,))
         check_known("the exponent of a light", exponent)
         given, exponent = exponent, np.asarray(exponent)
         if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
             raise ShapeError(
-                f"the exponent of a light must be an integer within -2^40 .. 2^40, not {given!r}"
+                f"the exponent of a light must be an integer within -2^40 .. 2^40, not "
+                f"{shown(given)}"
             )
         batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
         exponent = np.broadcast_to(exponent.astype(np.int64), batch)

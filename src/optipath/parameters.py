@@ -11,6 +11,7 @@ from optipath.angles import CosSin
 from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import array_of, frozen, same
 from optipath.jax_values import is_traced
+from optipath.quoting import shown
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ class Parameter:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.isidentifier():
             raise ParameterError(
-                f"parameter name {self.name!r} must be letters, digits and underscores, "
+                f"parameter name {shown(self.name)} must be letters, digits and underscores, "
                 f"not starting with a digit"
             )
         dimension_of(self.unit)
@@ -121,7 +122,7 @@ class Parameter:
             value = getattr(self, name)
             if not isinstance(value, kind):
                 raise ParameterError(
-                    f"{name} of parameter '{self.name}' must be {described}, not {value!r}"
+                    f"{name} of parameter '{self.name}' must be {described}, not {shown(value)}"
                 )
 
     def _limit(self, value: Any) -> float:
@@ -129,18 +130,18 @@ class Parameter:
             return float(value)
         except (TypeError, ValueError, OverflowError):
             raise ParameterError(
-                f"the range of parameter '{self.name}' must be numbers, not {value!r}"
+                f"the range of parameter '{self.name}' must be numbers, not {shown(value)}"
             ) from None
 
     def _word(self, word: Any, value: Any) -> float:
         if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
             raise ParameterError(
-                f"parameter '{self.name}' cannot have the word {word!r}; begin with a letter, "
+                f"parameter '{self.name}' cannot have the word {shown(word)}; begin with a letter, "
                 f"and keep '{ABSENT}' for an element that is left out"
             )
-        if isinstance(value, str) or np.ndim(value) or isinstance(value, complex):
+        if isinstance(value, (str, complex, list, tuple)) or np.ndim(value):
             raise ParameterError(
-                f"the word '{word}' of parameter '{self.name}' must be a number, not {value!r}"
+                f"the word '{word}' of parameter '{self.name}' must be a number, not {shown(value)}"
             )
         return float(self.resolve(value).value)
 
@@ -204,7 +205,7 @@ class Parameter:
             numbers = [0.0 if entry is None else entry for entry in entries]
             array = np.array(numbers).reshape(array.shape)
         elif array.dtype.kind not in "iufc":
-            raise ParameterError(f"parameter '{self.name}' must be a number, not {raw!r}")
+            raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(raw)}")
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         self._check_range(array)
@@ -238,7 +239,7 @@ class Parameter:
         UnitError
             If it is no quantity of the parameter's dimension.
         """
-        if text in self.all_words:
+        if text in self.words or (self.optional and text == ABSENT):
             return text
         if text[:1].isalpha():
             cure = did_you_mean(text, self.all_words) if self.all_words else "; give a number"
@@ -282,9 +283,9 @@ class Parameter:
                 return self._limit(entry)
             if isinstance(entry, (float, complex)):
                 return entry
-            raise ParameterError(f"parameter '{self.name}' must be a number, not {entry!r}")
+            raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(entry)}")
         value = self.parse(entry)
-        return {**self.words, ABSENT: None}[value] if isinstance(value, str) else value
+        return self.words.get(value) if isinstance(value, str) else value
 
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         bad = ~np.isfinite(array)

@@ -11,6 +11,7 @@ from optipath.errors import ParameterError, did_you_mean
 from optipath.frames import Frame
 from optipath.light import Light
 from optipath.mueller import Mueller
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -185,7 +186,9 @@ class Plan:
         """
         name, _, _ = self._detector
         if isinstance(size, bool) or not isinstance(size, int) or size < 1:
-            raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
+            raise ParameterError(
+                f"the size of a part must be a whole number above 0, not {shown(size)}"
+            )
         for where, lights in self._runner.stream(size, parameters):
             yield Part(where, self._in_frames(lights, parameters, where)[name])
 

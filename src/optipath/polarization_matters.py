@@ -11,6 +11,7 @@ from optipath.composer import Composer
 from optipath.errors import ParameterError
 from optipath.kernels import Kernel
 from optipath.program import Evaluation
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -102,7 +103,7 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     if detector is None and len(ends) != 1:
         raise ParameterError(
             f"the path has {len(ends)} detectors ({', '.join(ends)}); name one, as in "
-            f"polarization(path, {ends[0]!r})"
+            f"polarization(path, {shown(ends[0])})"
             if ends
             else "the path has no detector; give it one"
         )

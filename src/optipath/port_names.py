@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PathError, did_you_mean
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,7 +58,7 @@ def split_port(text: Any, *, out: bool) -> tuple[str, str]:
     """
     if not isinstance(text, str) or text.count(".") != 1:
         way = "out" if out else "in"
-        raise PathError(f"{text!r} is no {way}-port; write it as 'node.{way}'")
+        raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
     name, _, port = text.partition(".")
     return name, port
 

@@ -14,6 +14,7 @@ from optipath.jax_values import is_traced
 from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.path_graph import PathGraph
+from optipath.quoting import shown
 from optipath.vertices import VERTICES, VerticesByAngles, counted, normal_faults
 
 if TYPE_CHECKING:
@@ -73,7 +74,7 @@ def path_from_vertices(
     chain, faults = _chain(vertices, len(several))
     if not several:
         wanted = "a sequence with one for each reflection"
-        raise PathError(*faults, f"materials must be {wanted}, not {materials!r}")
+        raise PathError(*faults, f"materials must be {wanted}, not {shown(materials)}")
     # With others in place of faulty vertices, so that the rest is checked too.
     path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
     is_sound = not faults

@@ -19,6 +19,7 @@ from optipath.errors import ComposerError, did_you_mean
 from optipath.kernels import METHODS
 from optipath.plan import Plan
 from optipath.precision import precision
+from optipath.quoting import shown
 from optipath.reduction import MODELS
 
 if TYPE_CHECKING:
@@ -110,7 +111,7 @@ class Composer:
         for option, choices in CHOICES.items():
             value = getattr(self, option)
             if value not in choices and not (option == "loops" and value is None):
-                faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
+                faults.append(f"{option} {shown(value)} is unknown{did_you_mean(value, choices)}")
         try:
             precision(self.dtype)
         except ComposerError as fault:
@@ -120,7 +121,7 @@ class Composer:
         if (self.engine, self.dtype) == ("jax", "longdouble"):
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
-            faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
+            faults.append(f"threads must be a whole number above 0, not {shown(self.threads)}")
         faults += self._tolerance_faults()
         if self.composing == "jones" and self.model in MODELS[:-1]:
             faults.append(
@@ -136,7 +137,9 @@ class Composer:
             return []
         if isinstance(given, bool) or not isinstance(given, Real) or not 0.0 < given < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
-            return [f"tolerance must be {allowed}, not {given!r}; leave it out for exact plans"]
+            return [
+                f"tolerance must be {allowed}, not {shown(given)}; leave it out for exact plans"
+            ]
         if self.model == "full" or self.composing == "jones":
             what = "model 'full'" if self.model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
@@ -160,7 +163,7 @@ class Composer:
         """
         graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
-            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {path!r}")
+            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():
             return self._plan(graph)
 

@@ -13,6 +13,7 @@ from optipath.errors import ValueFault
 from optipath.frozen import array_of, frozen
 from optipath.jax_values import is_traced
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.units import USUAL_UNITS, format_quantity
 
 
@@ -67,7 +68,7 @@ class Domain:
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         if array.dtype.kind not in "fc":
-            raise ValueFault(f"{owner} must be {self.described()}, not {value!r}")
+            raise ValueFault(f"{owner} must be {self.described()}, not {shown(value)}")
         if self.tail and array.shape[-len(self.tail) :] != self.tail:
             wanted = ", ".join(map(str, ("...", *self.tail)))
             raise ValueFault(f"{owner} must have shape ({wanted}), not {array.shape}")

@@ -12,6 +12,7 @@ from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
 from optipath.materials import Material
+from optipath.quoting import shown
 
 _N = Domain("index of refraction", minimum=0.0)
 _K = Domain("extinction coefficient", minimum=0.0)
@@ -140,8 +141,8 @@ class IndicesDomain(Domain):
             Always, since good lists are checked by their parts.
         """
         raise ValueFault(
-            f"{owner} is {value!r}; give a list of two indices or more, the medium in front first "
-            f"and the substrate last"
+            f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
+            f"first and the substrate last"
         )
 
     def check_parameter(self, owner: str, parameter: Any) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from optipath.errors import ParameterError
 from optipath.light_paths.rounds import endless
 from optipath.light_paths.search import Search
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -64,4 +65,6 @@ def light_paths(
 def _check(what: str, number: Any, least: int) -> None:
     whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
     if number is not None and not (whole and number >= least):
-        raise ParameterError(f"{what} must be a whole number of {least} or more, not {number!r}")
+        raise ParameterError(
+            f"{what} must be a whole number of {least} or more, not {shown(number)}"
+        )

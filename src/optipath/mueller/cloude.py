@@ -12,6 +12,7 @@ import numpy as np
 from optipath.errors import ValueFault
 from optipath.jax_values import check_known
 from optipath.mueller.scaled import precision, scaled, unscaled
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -97,7 +98,7 @@ def _tolerance(given: Any, matrix: Array) -> float:
     if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
         return float(number)
     raise ValueFault(
-        f"the tolerance of is_physical must be a finite number >= 0, not {given!r}; leave it "
+        f"the tolerance of is_physical must be a finite number >= 0, not {shown(given)}; leave it "
         f"out to allow for rounding"
     )
 

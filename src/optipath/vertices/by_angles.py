@@ -11,6 +11,7 @@ from optipath.domains import ANGLE, INCIDENCE, in_unit_of
 from optipath.errors import PathError
 from optipath.frozen import frozen, same
 from optipath.kernels import NUMPY, PointsByAngles, cosine, sine
+from optipath.quoting import shown
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -129,7 +130,9 @@ def vertices_from_angles(
 
 def _sequence(name: str, angles: Any) -> tuple[Any, ...]:
     if isinstance(angles, str) or not np.iterable(angles):
-        raise PathError(f"{name} must be a sequence of angles, not {angles!r}; write ({angles},)")
+        raise PathError(
+            f"{name} must be a sequence of angles, not {shown(angles)}; write ({shown(angles)},)"
+        )
     return tuple(angles)
 
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.frozen import array_of
+from optipath.quoting import shown
 from optipath.shapes import broadcast_fault
 from optipath.vertices.naming import of_chain, pieces_of
 
@@ -48,7 +49,7 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     except ValueError:
         return ["normals have rows of unequal lengths; make them one shape"]
     if given.dtype.kind not in "iuf":
-        return [f"normals must be real numbers, not {normals!r}"]
+        return [f"normals must be real numbers, not {shown(normals)}"]
     if given.shape[-2:] != (count, 3):
         return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
     given = given.astype(np.float64, copy=False)
