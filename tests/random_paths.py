@@ -43,7 +43,8 @@ class Draw:
 
     def matrix(self):
         if self.chance(0.5):
-            return np.diag([1.0, *self.rng.uniform(0, 1, 3)])
+            foil = np.diag([1.0, *self.rng.uniform(0, 1, 3)])
+            return op.Mueller(foil).nearest_physical().matrix
         return op.Polarizer(0.0, 0.0, float(self.rng.uniform(0.3, 1)), 0.2).mueller().matrix
 
     def element(self):

@@ -22,6 +22,7 @@ from optipath.kernels.carried import (
     stokes_of,
 )
 from optipath.kernels.circular import cosine, sine, without_rounding
+from optipath.kernels.coherency import FROM_MUELLER, TO_MUELLER, is_physical
 from optipath.kernels.compensated import (
     compensated_lossless_reflection,
     compensated_lossless_transmission,
@@ -182,6 +183,7 @@ __all__ = [
     "DEPOLARIZER",
     "DEPOLARIZING_BLOCK",
     "FLOAT",
+    "FROM_MUELLER",
     "FULL",
     "GIVEN_AMPLITUDES",
     "GIVEN_TURN",
@@ -207,6 +209,7 @@ __all__ = [
     "STACK_TRANSMISSION",
     "STACK_TRANSMISSION_BACK",
     "THIRD_OF_ABSORPTION",
+    "TO_MUELLER",
     "TRANSMISSION",
     "TURN",
     "TURN_BACK",
@@ -239,6 +242,7 @@ __all__ = [
     "composed",
     "cosine",
     "energy",
+    "is_physical",
     "is_zero",
     "largest_error",
     "light_of",
