@@ -163,6 +163,7 @@ GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, given_amplitudes)
 ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
 THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, medium.third_of_absorption)
 ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
+DEXTROROTATION_ALONG = Kernel("dextrorotation along the way", ROTATION, medium.dextrorotation_along)
 RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
@@ -182,6 +183,7 @@ __all__ = [
     "CONSTANT_DEPOLARIZING_BLOCK",
     "DEPOLARIZER",
     "DEPOLARIZING_BLOCK",
+    "DEXTROROTATION_ALONG",
     "FLOAT",
     "FROM_MUELLER",
     "FULL",
