@@ -93,8 +93,12 @@ class Draw:
     def medium(self):
         length, absorption = self.number(0, 0.1), self.number(0, 30)
         either = (self.number(-40, 40), 0.0)
-        rotation, retardance = either if self.chance(0.5) else either[::-1]
-        return op.Medium(length, absorption, rotation, retardance, self.turn(), self.turn())
+        turns, retardance = either if self.chance(0.5) else either[::-1]
+        rates = {
+            "retardance": retardance,
+            ("rotation", "dextrorotation")[len(self.values) % 2]: turns,
+        }
+        return op.Medium(length, absorption, angle=self.turn(), azimuth=self.turn(), **rates)
 
     def source(self):
         intensity = float(self.rng.uniform(0.5, 100))
