@@ -252,7 +252,8 @@ class Plan:
         Raises
         ------
         ParameterError
-            As in `run`, or if a detector is not named or not known.
+            As in `run`, or if a detector is not named or not known, if light goes round, or
+            if a Mueller matrix is unphysical.
 
         Examples
         --------

@@ -92,6 +92,20 @@ def walk(
     return {light: way.read(states[light], count) for light, count in reads.items()}
 
 
+def whole_matrices(
+    program: Program, leaves: Sequence[Any], way: Way, number: Callable[[Any], Any] = itself
+) -> dict[int, Numbers]:
+    """Return what the evaluations of whole Mueller matrices come to, as `walk` may be given it.
+
+    Parameters
+    ----------
+    program, leaves, way, number
+        As `walk` takes them.
+    """
+    evaluations = program.evaluations
+    return {i: evaluated(evaluations[i], leaves, way, number) for i in program.matrices}
+
+
 def _behind(
     program: Program,
     light: int,

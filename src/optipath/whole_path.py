@@ -89,7 +89,7 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            If a value is out of its range.
+            If a value is out of its range, or a Mueller matrix unphysical.
         """
         ends = self.program.readings
         if self.engine_for(given.paths) not in COMPILED:
@@ -112,7 +112,7 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            If a value is out of its range.
+            If a value is out of its range, or a Mueller matrix unphysical.
         """
         ends = self.program.readings
 

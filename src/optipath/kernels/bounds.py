@@ -22,10 +22,6 @@ if TYPE_CHECKING:
     from optipath.kernels.structures import Numbers, Structure
 
 
-_ROUNDING = 1e-9
-"""How much longer a row of a matrix may be than it should, having been measured or rounded."""
-
-
 class Boosts(NamedTuple):
     """What is known of several boosts of the tangents hyperbolic t_i.
 
@@ -124,11 +120,13 @@ class Bounded(NamedTuple):
 class Bounds:
     """The way of intensities without polarisation, with bounds of what polarisation does.
 
+    They hold for physical matrices, which `is_physical` tells.
+
     Parameters
     ----------
     xp : Primitives
         What it is computed with.
-    slack : float, optional
+    slack : float or array_like, optional
         What is given away for roundings.
 
     Examples
@@ -140,7 +138,7 @@ class Bounds:
     ((0.25, 0.75, 1.25, 0.8), 0)
     """
 
-    def __init__(self, xp: Primitives, slack: float = 2.0**-44) -> None:
+    def __init__(self, xp: Primitives, slack: Any = 2.0**-44) -> None:
         self.xp = xp
         self.slack = slack
 
@@ -171,11 +169,7 @@ class Bounds:
         left = 1.0 - diattenuation * before
         dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
         dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
-        # A matrix that makes light that cannot be is bounded by nothing.
-        can_be = self._can_be(rows, mean)
-        lower = self.xp.where(can_be, lower * least, 0.0)
-        upper = self.xp.where(can_be, upper * most, math.inf)
-        return Bounded(mean * total, lower, upper, Boosts(dop))
+        return Bounded(mean * total, lower * least, upper * most, Boosts(dop))
 
     def add(self, first: Bounded, second: Bounded) -> Bounded:
         """Return the state of two lights together, of which the more polarised is counted."""
@@ -198,14 +192,6 @@ class Bounds:
         # What all but cancels is as sure as what it is left of.
         lower = self.xp.maximum(state.lower * least - self.slack * upper, 0.0)
         return (state.total, lower, upper, dop_bound(state.boosts)), 0
-
-    def _can_be(self, rows: Sequence[Sequence[Any]], mean: Any) -> Any:
-        """Tell whether no row and no column is longer than the mean transmittance allows."""
-        inner = [row[1:] for row in rows[1:]]
-        lines = [rows[0][1:], [row[0] for row in rows[1:]], *inner, *zip(*inner, strict=True)]
-        most = mean * mean * (1.0 + _ROUNDING)
-        checks = (sum(entry * entry for entry in line) <= most for line in lines)
-        return reduce(lambda one, other: one & other, checks)
 
     def _share(self, parts: Sequence[Any], whole: Any) -> Any:
         """Return the length of a vector over a number, at most 1; 0 where the number is 0."""

@@ -12,7 +12,8 @@ from optipath.formulas import slack_of
 from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
 from optipath.running.gains import check_gains
-from optipath.walk import evaluated, walk
+from optipath.running.physical import what_matrices_lack
+from optipath.walk import evaluated, walk, whole_matrices
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -135,9 +136,19 @@ class Stepwise:
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
 
     def bounds(self, given: Given) -> list[np.ndarray[Any, Any]]:
-        """Return what `Bounds` reads at every end, shape (4, ...)."""
-        way = Bounds(NUMPY, slack_of(self.dtype.name))
-        found = self._walk(self.leaves(given), way)
+        """Return what `Bounds` reads at every end, shape (4, ...).
+
+        Raises
+        ------
+        ParameterError
+            If a Mueller matrix is unphysical.
+        """
+        leaves = self.leaves(given)
+        with np.errstate(all="ignore"):
+            matrices = whole_matrices(self.program, leaves, self._ways[Linear], self.number)
+        lacking = what_matrices_lack(self.program, matrices)
+        way = Bounds(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
+        found = self._walk(leaves, way, shared=matrices)
         read = []
         for reading in self.program.readings.values():
             parts = np.empty((4, *given.batch), self.dtype)
