@@ -6,12 +6,13 @@ import math
 from contextlib import contextmanager
 from contextvars import ContextVar
 from difflib import get_close_matches
+from numbers import Integral
 from typing import TYPE_CHECKING
 
 from optipath.quoting import printable, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
 
 _LONGEST = 600
@@ -162,6 +163,32 @@ def few_suggestions(most: int = 20) -> Iterator[None]:
         yield
     finally:
         _looks_left.reset(token)
+
+
+def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
+    """Return the sentence for a word that is none of those there are; none for one that is.
+
+    Examples
+    --------
+    >>> unknown("engine", "nunpy", ("numpy", "jax")), unknown("engine", "jax", ("numpy", "jax"))
+    (["engine 'nunpy' is unknown; did you mean 'numpy'?"], [])
+    """
+    if isinstance(word, str) and word in known:
+        return []
+    return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
+
+
+def whole_number(what: str, number: object, least: int = 1) -> list[str]:
+    """Return the sentence for what is no whole number, or too small; none for one that serves.
+
+    Examples
+    --------
+    >>> whole_number("threads", 1.5), whole_number("threads", 2)
+    (['threads must be a whole number of 1 or more, not 1.5'], [])
+    """
+    if isinstance(number, Integral) and not isinstance(number, bool) and int(number) >= least:
+        return []
+    return [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
 
 
 def listed(words: Sequence[str]) -> str:

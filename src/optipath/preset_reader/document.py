@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer import LOOPS, partial_faults
 from optipath.domains import ANGLE
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError, did_you_mean, unknown
 from optipath.path_graph import PathGraph
 from optipath.port_names import find_port
 from optipath.preset_format import decode, schema
@@ -38,8 +38,8 @@ def read(document: dict[str, Any]) -> PathGraph:
     }
     description = str(document.get("description", ""))
     loops = document.get("loops", LOOPS[0])
-    if isinstance(loops, str) and loops not in LOOPS:
-        faults.append(f"the preset: loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
+    if isinstance(loops, str):
+        faults += unknown("the preset: loops", loops, LOOPS)
     loops = loops if loops in LOOPS else LOOPS[-1]
     path = PathGraph(description, declared=tuple(parameters), loops=loops)
     elements = _tables(document, "elements", faults)
