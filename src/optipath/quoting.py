@@ -43,7 +43,7 @@ class _Short(Repr):
 
 
 def shown(value: object) -> str:
-    """Return the representation of any value, cut where it is long or deep.
+    """Return the representation of any value, on one line, cut where it is long or deep.
 
     Examples
     --------
@@ -52,7 +52,8 @@ def shown(value: object) -> str:
     >>> shown(1 << 20_000)
     'an integer of 20001 bits'
     """
-    return _SHORT.repr(value)
+    # Arrays are written in rows.
+    return re.sub(r"\n\s*", " ", _SHORT.repr(value))
 
 
 _SHORT = _Short()
