@@ -170,6 +170,22 @@ def test_what_a_rounded_matrix_lacks_is_given_away_and_no_more(share):
         np.testing.assert_allclose(found.upper, exact.upper, rtol=50.0 * share)
 
 
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_light_polarised_by_a_rounding_too_much_stays_within_its_bounds(engine):
+    rng = np.random.default_rng(8)
+    axes = unit_vectors(rng, 20_000) * [1.0, 1.0, 1e-7]
+    axes /= np.linalg.norm(axes, axis=-1, keepdims=True)
+    state = np.concatenate([np.ones((20_000, 1)), (1.0 + 9e-13) * axes], axis=-1)
+    angle = 0.5 * np.arctan2(axes[:, 1], axes[:, 0])
+    path = chain([op.Polarizer(op.Parameter("a"))], op.Parameter("state"), reads="intensity")
+    plan = op.Composer(engine=engine).compose(path)
+    along = np.linalg.norm(state[:, 1:3], axis=-1)
+    for turned, true in ((angle, 0.5 * (1.0 + along)), (angle + np.pi / 2, 0.5 * (1.0 - along))):
+        found = plan.certificate(a=turned, state=state)
+        assert np.all(found.lower * found.scalar <= np.maximum(true, 0.0))
+        assert np.all(true <= found.upper * found.scalar)
+
+
 def test_matrices_of_single_precision_are_bounded_as_constants_and_as_parameters():
     rng = np.random.default_rng(6)
     matrices = physical(rng, 200, terms=1).astype(np.float32)

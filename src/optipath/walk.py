@@ -94,7 +94,7 @@ def walk(
 
 def whole_matrices(
     program: Program, leaves: Sequence[Any], way: Way, number: Callable[[Any], Any] = itself
-) -> dict[int, Numbers]:
+) -> dict[int, tuple[Any, ...]]:
     """Return what the evaluations of whole Mueller matrices come to, as `walk` may be given it.
 
     Parameters

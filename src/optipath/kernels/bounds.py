@@ -109,12 +109,15 @@ class Bounded(NamedTuple):
         Bounds of the ratio of the true intensity to it, when the boosts began.
     boosts : Boosts
         What has happened since.
+    excess : float
+        By how much more than wholly its source says, in rounded numbers, that it is polarised.
     """
 
     total: Any
     lower: Any
     upper: Any
     boosts: Boosts
+    excess: Any = 0.0
 
 
 class Bounds:
@@ -146,7 +149,9 @@ class Bounds:
         """Return the state of emitted light."""
         del count
         s0, *rest = stokes
-        return Bounded(s0, 1.0, 1.0, Boosts(self._share(rest, s0)))
+        dop = self._ratio(rest, s0)
+        excess = self.xp.maximum(dop - 1.0, 0.0)
+        return Bounded(s0, 1.0, 1.0, Boosts(self.xp.minimum(dop, 1.0)), excess)
 
     def act(
         self, structure: Structure, numbers: Numbers, state: Bounded, count: int = 1
@@ -156,10 +161,10 @@ class Bounds:
         rows = structure.rows(self.xp, numbers)
         mean, *first = rows[0]
         diattenuation = self._share(first, mean)
-        total, lower, upper, boosts = state
+        total, lower, upper, boosts, excess = state
         after = boosted(self.xp, boosts, diattenuation)
         if structure.jones is not None:
-            return Bounded(mean * total, lower, upper, after)
+            return Bounded(mean * total, lower, upper, after, excess)
         # What may depolarise is no boost. The intensity behind it is bounded as if it were, and
         # its light by what the matrix can do at most.
         least, most = ratio_bounds(self.xp, after)
@@ -169,7 +174,7 @@ class Bounds:
         left = 1.0 - diattenuation * before
         dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
         dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
-        return Bounded(mean * total, lower * least, upper * most, Boosts(dop))
+        return Bounded(mean * total, lower * least, upper * most, Boosts(dop), excess)
 
     def add(self, first: Bounded, second: Bounded) -> Bounded:
         """Return the state of two lights together, of which the more polarised is counted."""
@@ -182,19 +187,26 @@ class Bounds:
         total, lower, upper = sums
         lit = xp.where(total > 0.0, total, 1.0)
         lower, upper = (xp.where(total > 0.0, part / lit, 1.0) for part in (lower, upper))
-        return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)))
+        excess = xp.maximum(first.excess, second.excess)
+        return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)), excess)
 
     def read(self, state: Bounded, count: int = 1) -> tuple[Components, Any]:
         """Return the intensity without polarisation, the bounds, and that of the DoP."""
         del count
         least, most = ratio_bounds(self.xp, state.boosts)
-        upper = state.upper * most * (1.0 + self.slack)
+        # Light (1, d, 0, 0) is d times (1, 1, 0, 0) less d - 1 of unpolarised light.
+        slack = self.slack + 2.0 * state.excess
+        upper = state.upper * most * (1.0 + slack)
         # What all but cancels is as sure as what it is left of.
-        lower = self.xp.maximum(state.lower * least - self.slack * upper, 0.0)
+        lower = self.xp.maximum(state.lower * least - slack * upper, 0.0)
         return (state.total, lower, upper, dop_bound(state.boosts)), 0
 
     def _share(self, parts: Sequence[Any], whole: Any) -> Any:
         """Return the length of a vector over a number, at most 1; 0 where the number is 0."""
+        return self.xp.minimum(self._ratio(parts, whole), 1.0)
+
+    def _ratio(self, parts: Sequence[Any], whole: Any) -> Any:
+        """Return the length of a vector over a number; 0 where the number is 0."""
         xp = self.xp
         parts = [part for part in parts if not (isinstance(part, float) and part == 0.0)]
         if not parts:
@@ -205,4 +217,4 @@ class Bounds:
             unit = xp.where(largest > 0.0, largest, 1.0)
             length = largest * xp.sqrt(sum((part / unit) * (part / unit) for part in parts))
         there = whole > 0.0
-        return xp.where(there, xp.minimum(length / xp.where(there, whole, 1.0), 1.0), 0.0)
+        return xp.where(there, length / xp.where(there, whole, 1.0), 0.0)
