@@ -41,7 +41,9 @@ def show(preset: str, case: str | None, svg: Path | None) -> None:
 
 def _picture(path: PathGraph, title: str) -> str:
     # A picture has a width of its own; what is printed has the terminal's.
-    width = max(100, *map(cell_len, printable(draw(path)).splitlines()))
+    text = StringIO()
+    _print(Terminal(width=100, file=text), path)
+    width = max(100, *map(cell_len, text.getvalue().splitlines()))
     recorder = Terminal(record=True, width=width, file=StringIO())
     _print(recorder, path)
     return _FROM_THE_NET.sub("", recorder.export_svg(title=printable(title)))

@@ -7,12 +7,14 @@ from typing import Any
 
 import click
 from rich.console import Console
-from rich.table import Table
+from rich.table import Column, Table
 from rich.text import Text
 
 from optipath.quoting import printable
 
 _NARROWEST, _WIDEST = 20, 1000
+_COLUMN = 30
+"""How wide a column that needs it is on the narrowest terminal."""
 
 
 def say(text: str) -> None:
@@ -34,24 +36,29 @@ def headed(*headers: str, **keywords: Any) -> Table:
 
 
 class Terminal(Console):
-    """A console whose tables are as wide as their longest words, on narrow terminals too."""
+    """A console that leaves it to a narrow terminal to break lines, rather than to cut them."""
 
     def __init__(self, **keywords: Any) -> None:
-        keywords.setdefault("width", _width())
-        super().__init__(highlight=False, **keywords)
+        # With both told, rich does not read them from the environment, where anything may stand.
+        width = keywords.pop("width", None) or _width()
+        super().__init__(width=width, height=25, highlight=False, **keywords)
 
     def print(self, *objects: Any, **keywords: Any) -> None:
         """Print; what is too long for a line goes on in the next."""
         for shown in (thing for thing in objects if isinstance(thing, Table)):
             for column in shown.columns:
                 column.overflow = "fold"
-            least = self.measure(shown, options=self.options.update(width=_WIDEST)).minimum
-            self.width = max(self.width, least)
-        super().print(*objects, **keywords)
+                column.min_width = min(_COLUMN, self._widest(column))
+        super().print(*objects, **{"crop": False, **keywords})
 
     def on_broken_pipe(self) -> None:
         """Leave it to the command, which ends in silence."""
         raise BrokenPipeError
+
+    def _widest(self, column: Column) -> int:
+        options = self.options.update(width=_COLUMN)
+        parts = (column.header, *column.cells)
+        return max(self.measure(part, options=options).maximum for part in parts)
 
 
 def _width() -> int:
