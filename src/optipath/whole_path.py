@@ -37,7 +37,7 @@ class WholePath(Runner):
         if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
             name = next(n for n, end in self.program.readings.items() if end is reading)
-            found = self.jax.matrix(resolved, batch, source, name)
+            found = self.jax.matrix(resolved, batch, parameters, source, name)
             self.refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
         given = self.sorter.sort(parameters)
