@@ -11,6 +11,7 @@ SOURCE = Path(op.__file__).parent
 ROOMS = [
     "errors",
     "jax_values",
+    "array_likes",
     "frozen",
     "shapes",
     "units",

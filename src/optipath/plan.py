@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.engines import LARGE
-from optipath.errors import ParameterError, did_you_mean
+from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.frames import Frame
 from optipath.light import Light
 from optipath.mueller import Mueller
@@ -185,7 +185,9 @@ class Plan:
         """
         name, _, _ = self._detector
         if isinstance(size, bool) or not isinstance(size, int) or size < 1:
-            raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
+            raise ParameterError(
+                f"the size of a part must be a whole number above 0, not {shown(size)}"
+            )
         for where, lights in self._runner.stream(size, parameters):
             yield Part(where, self._in_frames(lights, parameters, where)[name])
 
@@ -400,8 +402,9 @@ class Plan:
     @staticmethod
     def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
         if name is not None:
-            if name not in names:
-                raise ParameterError(f"{what} '{name}' does not exist{did_you_mean(name, names)}")
+            if not isinstance(name, str) or name not in names:
+                cure = did_you_mean(name, names)
+                raise ParameterError(f"{what} {shown(name)} does not exist{cure}")
             return name
         if len(names) != 1:
             raise ParameterError(

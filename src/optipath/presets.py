@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, PathError, PresetError, did_you_mean
+from optipath.errors import OptipathError, PathError, PresetError, did_you_mean, shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -91,7 +91,8 @@ def locate(preset: str | PathLike[str]) -> Path:
     try:
         path = Path(preset)
     except TypeError:
-        raise PresetError(f"a preset is a name or the path of a file, not {preset!r}") from None
+        wanted = "a name or the path of a file"
+        raise PresetError(f"a preset is {wanted}, not {shown(preset)}") from None
     if path.suffix.lower() != ".toml":
         names = preset_names()
         cure = did_you_mean(path.stem, names)

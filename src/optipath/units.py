@@ -11,7 +11,7 @@ import re
 from decimal import Decimal
 from typing import NamedTuple
 
-from optipath.errors import UnitError, did_you_mean
+from optipath.errors import UnitError, did_you_mean, shown
 
 
 class Unit(NamedTuple):
@@ -90,7 +90,8 @@ def dimension_of(unit: str) -> str:
     if unit == "":
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
-        raise UnitError(f"unit '{unit}' is unknown{did_you_mean(unit, UNITS)}")
+        word = unit if isinstance(unit, str) else shown(unit)
+        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
     return UNITS[unit].dimension
 
 

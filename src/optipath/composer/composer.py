@@ -15,7 +15,7 @@ from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
-from optipath.errors import ComposerError, did_you_mean
+from optipath.errors import ComposerError, did_you_mean, shown
 from optipath.kernels import METHODS
 from optipath.plan import Plan
 from optipath.precision import precision
@@ -109,8 +109,10 @@ class Composer:
         faults = []
         for option, choices in CHOICES.items():
             value = getattr(self, option)
-            if value not in choices and not (option == "loops" and value is None):
-                faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
+            # What is no text may refuse to be compared.
+            known = isinstance(value, str) and value in choices
+            if not known and not (option == "loops" and value is None):
+                faults.append(f"{option} {shown(value)} is unknown{did_you_mean(value, choices)}")
         try:
             precision(self.dtype)
         except ComposerError as fault:
@@ -120,7 +122,7 @@ class Composer:
         if (self.engine, self.dtype) == ("jax", "longdouble"):
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
-            faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
+            faults.append(f"threads must be a whole number above 0, not {shown(self.threads)}")
         faults += self._tolerance_faults()
         if self.composing == "jones" and self.model in MODELS[:-1]:
             faults.append(
@@ -136,7 +138,8 @@ class Composer:
             return []
         if isinstance(given, bool) or not isinstance(given, Real) or not 0.0 < given < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
-            return [f"tolerance must be {allowed}, not {given!r}; leave it out for exact plans"]
+            cure = "leave it out for exact plans"
+            return [f"tolerance must be {allowed}, not {shown(given)}; {cure}"]
         if self.model == "full" or self.composing == "jones":
             what = "model 'full'" if self.model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
@@ -160,7 +163,7 @@ class Composer:
         """
         graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
         if not isinstance(graph, nx.MultiDiGraph):
-            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {path!r}")
+            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():
             return self._plan(graph)
 

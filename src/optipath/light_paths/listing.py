@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, shown
 from optipath.light_paths.rounds import endless
 from optipath.light_paths.search import Search
 
@@ -64,4 +64,5 @@ def light_paths(
 def _check(what: str, number: Any, least: int) -> None:
     whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
     if number is not None and not (whole and number >= least):
-        raise ParameterError(f"{what} must be a whole number of {least} or more, not {number!r}")
+        wanted = f"a whole number of {least} or more"
+        raise ParameterError(f"{what} must be {wanted}, not {shown(number)}")
