@@ -14,6 +14,7 @@ ROOMS = [
     "errors",
     "written_files",
     "jax_values",
+    "array_likes",
     "frozen",
     "shapes",
     "units",

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from difflib import get_close_matches
 from numbers import Integral
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from optipath.quoting import printable, shown
 
@@ -44,6 +44,10 @@ class OptipathError(Exception):
         short = tuple(printable(_shortened(fault)) for fault in faults)
         super().__init__(*short)
         self.faults = short
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Whatever a subclass is made of, its sentences are what it is.
+        return _of_faults, (type(self), self.faults), self.__dict__
 
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
@@ -201,6 +205,12 @@ def listed(words: Sequence[str]) -> str:
     """
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def _of_faults(kind: type[OptipathError], faults: tuple[str, ...]) -> OptipathError:
+    error = kind.__new__(kind, *faults)
+    OptipathError.__init__(error, *faults)
+    return error
 
 
 def _shortened(fault: str) -> str:

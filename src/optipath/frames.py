@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import array_of
 from optipath.errors import FrameError
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
@@ -228,10 +229,10 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise FrameError(f"{what} must be numbers, not {shown(value)}") from None
+    array = array_of(what, value, FrameError)
+    if array.dtype.kind not in "iufb":
+        raise FrameError(f"{what} must be numbers, not {shown(value)}")
+    array = array.astype(np.float64, copy=False)
     if not np.all(np.isfinite(array)):
         raise FrameError(f"{what} must be finite; check for NaN and infinity")
     return array

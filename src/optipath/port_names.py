@@ -85,6 +85,6 @@ def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
     PathError
         If there is no such node.
     """
-    if name not in graph:
-        raise PathError(f"node '{name}' does not exist{did_you_mean(name, graph)}")
+    if not isinstance(name, str) or name not in graph:
+        raise PathError(f"node {shown(name)} does not exist{did_you_mean(name, graph)}")
     return graph.nodes[name]["element"]  # type: ignore[no-any-return]

@@ -52,8 +52,11 @@ def shown(value: object) -> str:
     >>> shown(1 << 20_000)
     'an integer of 20001 bits'
     """
-    # Arrays are written in rows.
-    return re.sub(r"\n\s*", " ", _SHORT.repr(value))
+    try:
+        # Arrays are written in rows.
+        return printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
+    except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
+        return f"something of type {type(value).__name__}"
 
 
 _SHORT = _Short()

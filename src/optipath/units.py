@@ -95,7 +95,8 @@ def dimension_of(unit: str) -> str:
     if unit == "":
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
-        raise UnitError(f"unit '{unit}' is unknown{did_you_mean(unit, UNITS)}")
+        word = unit if isinstance(unit, str) else shown(unit)
+        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
     return UNITS[unit].dimension
 
 

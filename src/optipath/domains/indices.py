@@ -49,7 +49,8 @@ class IndexDomain(Domain):
         """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
         bad = (array.real < 0.0) | (array.imag < 0.0)
         if np.any(bad):
             value = array[bad].ravel()[0]
@@ -95,10 +96,10 @@ class LitBehind(OutsideDomain):
             "'back'), and let a Medium absorb between"
         )
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         # A complex number without an imaginary part will do.
         real = array.real if array.dtype.kind == "c" and not np.any(array.imag) else array
-        super()._check_numbers(owner, real)
+        super()._check_numbers(owner, real, rounding)
 
 
 class InnerDomain(OutsideDomain):

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import array_of
 from optipath.errors import ValueFault
 from optipath.jax_values import check_known
 from optipath.kernels import FROM_MUELLER, TO_MUELLER
@@ -105,7 +106,7 @@ def _tolerance(given: Any, matrix: Array) -> float:
     if given is None:
         return tolerance_for(matrix)
     check_known("the tolerance of is_physical", given)
-    number = np.asarray(given)
+    number = array_of("the tolerance of is_physical", given)
     if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
         return float(number)
     raise ValueFault(
