@@ -27,8 +27,11 @@ if TYPE_CHECKING:
     from optipath.program import Loop, Program
 
 
-LITTLE = 1e-4
-"""What leaves a loop each time round where its sum takes a look, as a share."""
+LITTLE = 1e-2
+"""What of an unknown does not come back where its sum takes a closer look, as a share."""
+
+_ROUNDING = 1e-9
+"""How much light may gain by roundings of what leaves."""
 
 
 class Column(NamedTuple):
@@ -61,6 +64,8 @@ class Meeting:
         What is computed with.
     number : callable
         What is done to each number that comes of unit lights, which have no precision.
+    rounded : callable, optional
+        What is done to each number that is found, where that is something else.
 
     Attributes
     ----------
@@ -68,6 +73,8 @@ class Meeting:
         The knot and the part that each unknown is.
     columns : list of Column
         What becomes of a unit of each.
+    leaves : list
+        How much intensity of a unit of each leaves the loop.
     pivots : list
         As those of `Elimination`.
     found : list
@@ -81,8 +88,10 @@ class Meeting:
         numbers: Callable[[int], Numbers],
         xp: Primitives,
         number: Callable[[Any], Any],
+        rounded: Callable[[Any], Any] | None = None,
     ) -> None:
         self.number = number
+        self.rounded = rounded or number
         self.program = program
         self.loop = loop
         self.numbers = numbers
@@ -91,10 +100,11 @@ class Meeting:
         self._knots = frozenset(loop.knots)
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
+        self.leaves = [self._settled(column.leaves) for column in self.columns]
         self._system = Elimination(
             xp,
             [self.scattered(column.back) for column in self.columns],
-            [self._settled(column.leaves) for column in self.columns],
+            self.leaves,
             [part < 2 for _, part in self.unknowns],
         )
         self.pivots = self._system.pivots
@@ -108,16 +118,40 @@ class Meeting:
         """Return the parts of the light at each knot, for those of what arrives at some."""
         given = self.scattered(arriving)
         found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
-        self.found = found
+        self.found = [found if is_zero(found) else self.rounded(found) for found in found]
         lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())
-        for (knot, _), number in zip(self.unknowns, found, strict=True):
-            lights[knot] = (*lights[knot], self.number(number))
+        for (knot, _), number in zip(self.unknowns, self.found, strict=True):
+            lights[knot] = (*lights[knot], self.rounded(number))
         return lights
 
     @property
     def conditions(self) -> list[Any]:
         """Whether so much of each unknown leaves that nobody needs to look at it."""
-        return [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+        enough = [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+        return [*enough, *self.fading]
+
+    @property
+    def fading(self) -> list[Any]:
+        """Whether no light at any knot, however it is polarised, gains on the way to others.
+
+        Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
+        where l3^2 + l4^2 <= l1 l2.
+        """
+        found = []
+        for knot in self.loop.knots:
+            places = [self._place[knot, part] for part in range(self.count(knot))]
+            along, across = places[:2], [self.leaves[place] for place in places[2:]]
+            # What is a pivot is looked at in any case.
+            found += [
+                self.leaves[place] > -_ROUNDING
+                for place in along
+                if self.leaves[place] is not self.pivots[place]
+            ]
+            squares = [leaves * leaves for leaves in across if not is_zero(leaves)]
+            if squares:
+                most = self.leaves[along[0]] * self.leaves[along[1]] + _ROUNDING
+                found.append(sum(squares) <= most)
+        return found
 
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
         """Return the parts of the lights at some knots by their place among the unknowns."""
