@@ -7,6 +7,8 @@ intensities along x and y, S2 and S3 of all knots then gives the light at each.
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels import (
@@ -20,7 +22,7 @@ from optipath.kernels import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.kernels import Carried, Parts, Primitives
     from optipath.kernels.structures import Numbers
@@ -65,7 +67,8 @@ class Meeting:
     number : callable
         What is done to each number that comes of unit lights, which have no precision.
     rounded : callable, optional
-        What is done to each number that is found, where that is something else.
+        What is done to each number that is found, where what is computed with has so many
+        digits that a loop which gains is solved, too.
 
     Attributes
     ----------
@@ -106,6 +109,7 @@ class Meeting:
             [self.scattered(column.back) for column in self.columns],
             self.leaves,
             [part < 2 for _, part in self.unknowns],
+            None if rounded is None else reduce(and_, self.fading(), True),  # noqa: FBT003
         )
         self.pivots = self._system.pivots
         self.found: list[Any] = []
@@ -128,24 +132,22 @@ class Meeting:
     def conditions(self) -> list[Any]:
         """Whether so much of each unknown leaves that nobody needs to look at it."""
         enough = [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
-        return [*enough, *self.fading]
+        return [*enough, *self.fading(self.pivots)]
 
-    @property
-    def fading(self) -> list[Any]:
-        """Whether no light at any knot, however it is polarised, gains on the way to others.
+    def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:
+        """Return whether no light at any knot, however it is polarised, gains on the way to others.
 
         Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
-        where l3^2 + l4^2 <= l1 l2.
+        where l3^2 + l4^2 <= l1 l2. Numbers that are looked at in any case are left out.
         """
         found = []
         for knot in self.loop.knots:
             places = [self._place[knot, part] for part in range(self.count(knot))]
             along, across = places[:2], [self.leaves[place] for place in places[2:]]
-            # What is a pivot is looked at in any case.
             found += [
                 self.leaves[place] > -_ROUNDING
                 for place in along
-                if self.leaves[place] is not self.pivots[place]
+                if not any(self.leaves[place] is number for number in looked_at)
             ]
             squares = [leaves * leaves for leaves in across if not is_zero(leaves)]
             if squares:

@@ -106,7 +106,7 @@ class _Judged:
         # What no light ever gets to may keep all of it.
         self.lit = self._stacked(_lit(number, self.shape) for number in meeting.found) > 0.0
         self.pivots = np.where(self.lit, self._stacked(meeting.pivots), 1.0)
-        self.fades = self._picked(reduce(np.logical_and, meeting.fading, np.True_)) > 0.0
+        self.fades = self._picked(reduce(np.logical_and, meeting.fading(), np.True_)) > 0.0
 
     def worst(self) -> Worst | None:
         """Return the worst of them; None where one is no finite number."""
@@ -160,7 +160,7 @@ class _Judged:
         }
         with np.errstate(all="ignore"):
             lights = self.meeting.lights(unpolarised).values()
-        holds = np.full(len(self.where[0]), True)
+        holds = np.ones(len(self.where[0]), bool)
         for parts in lights:
             along, across = map(self._picked, parts[:2]), map(self._picked, parts[2:])
             x, *y = along

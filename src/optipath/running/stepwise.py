@@ -175,9 +175,7 @@ class Stepwise:
             part = given if np.all(doubtful) else given.part((doubtful,))
             leaves, meetings = self.leaves(part), []
             begin, closer = emitted and emitted(part), CloserLook(self, part)
-            again = walk(
-                self.program, leaves, way, begin, self.number, None, meetings, closer.meet
-            )
+            again = walk(self.program, leaves, way, begin, self.number, None, meetings, closer.meet)
             check_gains(meetings)
         return again if part is given else _instead(found, again, doubtful)
 
