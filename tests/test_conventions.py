@@ -31,6 +31,14 @@ def states(seed, count=20):
     return np.concatenate([np.ones((count, 1)), found], axis=-1)
 
 
+def test_the_s3_of_born_and_wolf_has_the_other_sign():
+    for state in states(1):
+        field = field_of(state)
+        # Sec. 1.4.2: E_i = a_i cos(w t - k z + delta_i), s3 = 2 a1 a2 sin(delta2 - delta1).
+        (a1, a2), (delta1, delta2) = abs(field[:2]), -np.angle(field[:2])
+        assert 2 * a1 * a2 * np.sin(delta2 - delta1) == pytest.approx(-state[3], abs=1e-14)
+
+
 @pytest.mark.parametrize("stokes", [[1, 0, 0, 1], [1, 0, 0.6, 0.8], [1, 0, 0, -1]])
 def test_s3_above_0_is_right_handed_to_ieee_and_left_handed_to_hecht(stokes):
     times = np.linspace(0.0, 2.0 * np.pi, 100)

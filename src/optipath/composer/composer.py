@@ -69,7 +69,8 @@ class Composer:
     tolerance : float, optional
         How large the error of an intensity may be, as a share of it; 0.01 is 1 %. Where a
         certificate keeps the scalar model (or one asked for by name) within it, that is run,
-        and the exact model elsewhere, path by path. By default every plan is exact.
+        and the exact model elsewhere, path by path. A path with a Mueller matrix that is
+        unphysical, which nothing bounds, is refused then. By default every plan is exact.
     loops : {"refuse", "sum"}, optional
         What becomes of light that goes round in a cycle: an error that names the cycle, or the
         sum of intensities over all rounds, found by solving for it. By default what the path

@@ -16,7 +16,8 @@ class Rotator(Element, kind="rotator"):
     angle : float, array_like or Parameter
         By how many radians the polarisation turns from x towards y: counter-clockwise to who
         looks at the source, so that what is dextrorotatory has a negative angle.
-        ``Medium(length, dextrorotation=...)`` takes the chemists' sign.
+        ``Medium(length, dextrorotation=...)`` takes the chemists' sign. Light that comes back
+        from a mirror meets the same angle again, but the opposite one in a Faraday rotator.
 
     Examples
     --------
