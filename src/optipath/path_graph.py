@@ -101,7 +101,7 @@ class PathGraph:
             raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
-        if loops not in LOOPS:
+        if not isinstance(loops, str) or loops not in LOOPS:
             raise PathError(f"loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
         self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
         self._plan: Plan | None = None

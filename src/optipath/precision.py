@@ -25,7 +25,7 @@ def precision(name: str) -> np.dtype[Any]:
     >>> precision("float32")
     dtype('float32')
     """
-    if name not in DTYPES:
+    if not isinstance(name, str) or name not in DTYPES:
         raise ComposerError(f"dtype {shown(name)} is unknown{did_you_mean(name, DTYPES)}")
     if name == "longdouble" and np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
         raise ComposerError("dtype 'longdouble' is no more than float64 here; use 'float64'")

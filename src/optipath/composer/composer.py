@@ -107,9 +107,15 @@ class Composer:
     keep: str = "ends"
 
     def __post_init__(self) -> None:
-        faults = []
+        words = {option: getattr(self, option) for option in (*CHOICES, "dtype")}
+        if faults := [
+            f"{option} must be a text, not {shown(word)}"
+            for option, word in words.items()
+            if not isinstance(word, str) and not (option == "loops" and word is None)
+        ]:
+            raise ComposerError(*faults)
         for option, choices in CHOICES.items():
-            value = getattr(self, option)
+            value = words[option]
             if value not in choices and not (option == "loops" and value is None):
                 faults.append(f"{option} {shown(value)} is unknown{did_you_mean(value, choices)}")
         try:
