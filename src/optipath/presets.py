@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,11 +68,12 @@ def load_preset(
     path = read_preset(locate(preset))
     given = dict(values)
     faults: list[str] = []
-    if case is not None and str(case) not in path.cases:
-        cure = did_you_mean(str(case), path.cases)
-        faults.append(f"case '{case}' is unknown in preset '{preset}'{cure}")
+    name = case if isinstance(case, str) else _number_of(case)
+    if case is not None and name not in path.cases:
+        cure = did_you_mean(name, path.cases)
+        faults.append(f"case '{name}' is unknown in preset '{preset}'{cure}")
     elif case is not None:
-        given = {**path.cases[str(case)].values, **values}
+        given = {**path.cases[name].values, **values}
     try:
         path = path.bind(**given) if given else path
     except OptipathError as error:
@@ -138,6 +140,10 @@ def read_preset(path: Path) -> PathGraph:
             return read(document)
     except OptipathError as error:
         raise PathError(*(f"{path.name}: {fault}" for fault in error.faults)) from None
+
+
+def _number_of(case: object) -> str:
+    return shown(int(case) if isinstance(case, Integral) else case)
 
 
 def _text(path: Path) -> str:
