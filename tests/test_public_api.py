@@ -13,6 +13,7 @@ ROOMS = [
     "jax_values",
     "array_likes",
     "frozen",
+    "memory",
     "shapes",
     "units",
     "angles",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import array_of
-from optipath.errors import FrameError, shown
+from optipath.errors import FrameError, ShapeError, shown
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
 from optipath.shapes import check_broadcast
@@ -56,10 +56,10 @@ class Frame:
             for name, axis in zip("xyz", (x, y, z), strict=True)
         }
         try:
-            together = np.broadcast_arrays(*axes.values())
-        except ValueError:
-            shapes = ", ".join(f"{name} {axis.shape}" for name, axis in axes.items())
-            raise FrameError(f"the axes of a frame do not broadcast: {shapes}") from None
+            check_broadcast({name: axis.shape[:-1] for name, axis in axes.items()})
+        except ShapeError as fault:
+            raise FrameError(f"axes of a frame: {fault}") from None
+        together = np.broadcast_arrays(*axes.values())
         for name, axis in zip(axes, together, strict=True):
             object.__setattr__(self, name, frozen(axis))
         self._check()
@@ -100,6 +100,7 @@ class Frame:
         """
         along = _unit("z", vectors("axis z of a frame", z))
         towards = _unit("x", vectors("axis x of a frame", x))
+        check_broadcast({"z": along.shape[:-1], "x": towards.shape[:-1]})
         across = towards
         for _ in range(2):  # The second time mends what the first rounds, where x is near z.
             across = across - np.sum(across * along, axis=-1, keepdims=True) * along

@@ -151,9 +151,13 @@ class Parameter:
         """Return a default with its texts read; words stay words."""
         if isinstance(value, str):
             return self.parse(value)
-        if isinstance(value, (list, tuple)):
-            return [self._as_number(entry) for entry in value]
-        return value
+        if not isinstance(value, (list, tuple)):
+            return value
+        array = as_given(f"parameter '{self.name}'", value, ParameterError)
+        if array.dtype.kind not in "UO":
+            return array
+        read = [self._as_number(entry) for entry in array.ravel().tolist()]
+        return np.array(read, object).reshape(array.shape).tolist()
 
     def __neg__(self) -> Parameter:
         return replace(self, negative=not self.negative)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import networkx as nx
 
+from optipath.array_likes import entries_of
 from optipath.binding import bind
 from optipath.cases import Case
 from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
@@ -102,7 +103,8 @@ class PathGraph:
         self.cases = dict(cases)
         if not isinstance(loops, str) or loops not in LOOPS:
             raise PathError(f"loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
-        self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
+        names = entries_of("declared", "names of parameters", declared, PathError)
+        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
         self._plan: Plan | None = None
         self._plan_of_all: Plan | None = None
 

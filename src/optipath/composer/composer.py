@@ -113,13 +113,15 @@ class Composer:
             known = isinstance(value, str) and value in choices
             if not known and not (option == "loops" and value is None):
                 faults.append(f"{option} {shown(value)} is unknown{did_you_mean(value, choices)}")
+        if faults and not all(isinstance(getattr(self, name), str) for name in ("engine", "model")):
+            raise ComposerError(*faults)
         try:
             precision(self.dtype)
         except ComposerError as fault:
             faults += fault.faults
         if self.engine in ENGINES and not is_installed(self.engine):
             faults += missing(self.engine).faults
-        if (self.engine, self.dtype) == ("jax", "longdouble"):
+        if self.engine == "jax" and isinstance(self.dtype, str) and self.dtype == "longdouble":
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
             faults.append(f"threads must be a whole number above 0, not {shown(self.threads)}")
@@ -161,7 +163,12 @@ class Composer:
             If an element may depolarise, and Jones columns are composed, or if the model is
             not exact for the path.
         """
-        graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
+        graph: Any = path
+        if not isinstance(path, nx.MultiDiGraph):
+            try:
+                graph = path.graph
+            except Exception:  # noqa: BLE001 - somebody else's attribute may raise anything
+                graph = None
         if not isinstance(graph, nx.MultiDiGraph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():

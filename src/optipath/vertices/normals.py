@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import as_given
-from optipath.errors import ValueFault, shown
-from optipath.shapes import broadcast_fault
+from optipath.errors import ShapeError, ValueFault, shown
+from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of
 
 if TYPE_CHECKING:
@@ -56,9 +56,10 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     if chains is None:
         return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
     shapes = {"vertices": chains.shape[:-2], "normals": given.shape[:-2]}
-    if faults := broadcast_fault(shapes):
-        return faults
-    batch = np.broadcast_shapes(*shapes.values())
+    try:
+        batch = check_broadcast(shapes)
+    except ShapeError as fault:
+        return list(fault.faults)
     chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
     given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
     doubted = [
