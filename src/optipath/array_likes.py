@@ -81,8 +81,8 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
     >>> as_given("a turn", [0.5, 1.0])
     array([0.5, 1. ])
     """
-    if type(value) is np.ndarray:
-        return value
+    if type(value) in _PLAIN:
+        return np.asarray(value)
     try:
         _refuse_endless(value)
         kinds = _kinds(value, set())
@@ -151,6 +151,8 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     True
     """
     kind = array.dtype.type
+    if kind is np.float64:
+        return array
     if kind is np.complex64:
         return array.astype(np.complex128)
     array = within(array, limits)

@@ -104,6 +104,8 @@ class PathGraph:
         if not isinstance(loops, str) or loops not in LOOPS:
             raise PathError(f"loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
         names = entries_of("declared", "names of parameters", declared, PathError)
+        if not all(isinstance(name, str) for name in names):
+            raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
         self._graph = nx.MultiDiGraph(declared=names, loops=loops)
         self._plan: Plan | None = None
         self._plan_of_all: Plan | None = None

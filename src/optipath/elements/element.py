@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
 
@@ -274,8 +274,10 @@ def _domains(element_class: type[Element]) -> dict[str, Domain]:
             f"the annotations of element class {element_class.__name__} cannot be read: {error}; "
             f"import it where the module runs, not for type checking alone"
         ) from None
-    domains = {}
-    for f in fields(element_class):  # type: ignore[arg-type]
+    domains: dict[str, Domain] = {}
+    if not is_dataclass(element_class):
+        return domains  # The base of all, which has no fields.
+    for f in fields(element_class):
         domains[f.name] = next(_annotated(hints[f.name]), REAL)
     return domains
 

@@ -183,7 +183,7 @@ class Sorter:
             value.dtype.char != "f" or is_beyond(value, self.inputs.limits[name])
         ):
             return False
-        return value.shape[value.ndim - len(tail) :] == tail
+        return bool(value.shape[value.ndim - len(tail) :] == tail)
 
     def _resolved(self, name: str, value: Any) -> Resolved:
         resolved = self.inputs.open[name].resolve(value, self.inputs.limits[name])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.array_likes import as_given
+from optipath.array_likes import as_given, rounding_of
 from optipath.errors import ShapeError, ValueFault, shown
 from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of
@@ -52,6 +52,7 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
         return [f"normals must be real numbers, not {shown(normals)}"]
     if given.shape[-2:] != (count, 3):
         return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(given))
     given = given.astype(np.float64, copy=False)
     if chains is None:
         return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
@@ -67,7 +68,7 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     ]
     if not doubted:
         return []
-    return _own_faults(given, batch) or _off_faults(chains, given, batch, doubted)
+    return _own_faults(given, batch) or _off_faults(chains, given, batch, doubted, tolerance)
 
 
 def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
@@ -84,10 +85,14 @@ def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
 
 
 def _off_faults(
-    chains: Floats, normals: Floats, batch: tuple[int, ...], doubted: list[slice]
+    chains: Floats,
+    normals: Floats,
+    batch: tuple[int, ...],
+    doubted: list[slice],
+    tolerance: float,
 ) -> list[str]:
     """Return the vertex whose normal is furthest off its bisector, if any is too far."""
-    worst, where = _TOLERANCE, ""
+    worst, where = tolerance, ""
     for piece in doubted:
         off = _off(chains[piece], normals[piece])
         chain, place = map(int, np.unravel_index(np.argmax(off), off.shape))
@@ -96,7 +101,7 @@ def _off_faults(
             where = _normal_of(place, piece.start + chain, batch)
     sentence = (
         f"{where} is off the bisector of its legs by {np.degrees(worst):.3g} deg; it must be "
-        f"along it to within {_TOLERANCE:g} rad, or be left out"
+        f"along it to within {tolerance:.2g} rad, or be left out"
     )
     return [sentence] if where else []
 
