@@ -91,7 +91,7 @@ def test_no_way_in_makes_what_does_not_fit(use):
 def test_a_batch_too_large_is_taken_part_by_part_and_counted():
     part = next(plan().stream(1000, **GOLD, **WIDE))
     expected = plan().run(**GOLD, delta=ACROSS[0], phi=ALONG[:1000])
-    np.testing.assert_array_equal(part.light.stokes[0], expected.stokes)
+    np.testing.assert_array_equal(part.light.stokes, expected.stokes)
     assert plan().evaluations(**GOLD, **WIDE)["X1.reflected"] == 10**6
     assert "none, since a batch of 1e+12 paths" in of_fields().compose().explain()
     frame = next(chain().compose().stream(100, a=ACROSS, b=ALONG)).light.frame
@@ -99,8 +99,8 @@ def test_a_batch_too_large_is_taken_part_by_part_and_counted():
 
 
 def test_what_fits_is_run():
-    found = plan().run(**GOLD, delta=ACROSS[:1000], phi=ALONG[:1000])
-    assert found.stokes.shape == (1000, 1000, 4)
+    found = plan(engine="numpy").run(**GOLD, delta=ACROSS[:300], phi=ALONG[:300])
+    assert found.stokes.shape == (300, 300, 4)
 
 
 def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_tell(monkeypatch):
@@ -112,9 +112,9 @@ def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_t
 
 
 def test_memory_that_runs_out_on_the_way_is_told_in_the_same_words():
-    with pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes"):
-        with memory.enough_for((3, 4), 32):
-            raise MemoryError
+    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
+    with told, memory.enough_for((3, 4), 32):
+        raise MemoryError
 
 
 @pytest.mark.parametrize("axes", [31, 33, 64])
@@ -133,9 +133,7 @@ def test_thirty_axes_are_run():
 
 
 def test_more_paths_than_can_be_counted_are_refused_even_in_parts():
-    values = {
-        n: np.linspace(0.1, 1.4, 1000).reshape(v.shape[0] and (-1, *v.shape[1:]))
-        for n, v in SIX.items()
-    }
+    thousand = np.linspace(0.1, 1.4, 1000)
+    values = {name: thousand.reshape(-1, *given.shape[1:]) for name, given in SIX.items()}
     with pytest.raises(op.ParameterError, match=r"9e\+15 paths at most, not 1e\+18"):
         next(plan().stream(10, k2=1.0, **values))

@@ -148,7 +148,7 @@ class Frame:
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
         axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
         frame = Frame.__new__(Frame)
-        frame._set(axes, rounding_of(given))
+        frame._set(axes, rounding_of(given))  # noqa: SLF001 - its own
         return frame
 
     def turn_to(self, other: Frame) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
