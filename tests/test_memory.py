@@ -95,7 +95,7 @@ def test_a_batch_too_large_is_taken_part_by_part_and_counted():
     assert plan().evaluations(**GOLD, **WIDE)["X1.reflected"] == 10**6
     assert "none, since a batch of 1e+12 paths" in of_fields().compose().explain()
     frame = next(chain().compose().stream(100, a=ACROSS, b=ALONG)).light.frame
-    assert frame == chain().trace(a=ACROSS[:1], b=ALONG[:100]).frame
+    assert frame == chain().trace(a=ACROSS[0], b=ALONG[:100]).frame
 
 
 def test_what_fits_is_run():

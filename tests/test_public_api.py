@@ -11,6 +11,7 @@ SOURCE = Path(op.__file__).parent
 ROOMS = [
     "errors",
     "jax_values",
+    "roundings",
     "array_likes",
     "frozen",
     "memory",

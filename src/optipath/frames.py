@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.array_likes import array_of, as_given, rounding_of
+from optipath.array_likes import array_of, as_given
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
+from optipath.roundings import rounding_of
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from optipath.array_likes import ENDLESS, as_given, doubles, within
+from optipath.array_likes import as_given
 from optipath.errors import OptipathError
 from optipath.jax_values import is_traced
+from optipath.roundings import ENDLESS, doubles, within
 
 _SCALARS = (str, bytes, int, float, complex, NoneType)
 

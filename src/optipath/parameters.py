@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.array_likes import array_of, as_given, doubles, within
+from optipath.array_likes import array_of, as_given
 from optipath.errors import ParameterError, UnitError, did_you_mean, shown
 from optipath.frozen import frozen, same
 from optipath.jax_values import is_traced
+from optipath.roundings import doubles, within
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.array_likes import is_beyond
 from optipath.errors import OptipathError, ParameterError, shown
+from optipath.roundings import is_beyond
 from optipath.running.layout import sliced
 from optipath.shapes import joint_shape
 from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.array_likes import as_given, rounding_of
+from optipath.array_likes import as_given
 from optipath.errors import ShapeError, ValueFault, shown
+from optipath.roundings import rounding_of
 from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of
 
