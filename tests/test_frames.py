@@ -91,7 +91,7 @@ def test_opposite_directions_are_refused():
         ({"x": (np.nan, 0, 0)}, "finite"),
         ({"x": (1, 0)}, r"shape \(\.\.\., 3\)"),
         ({"x": "abc"}, "numbers"),
-        ({"x": np.ones((2, 3)), "z": np.ones((4, 3))}, r"x \(2, 3\).*z \(4, 3\)"),
+        ({"x": np.ones((2, 3)), "z": np.ones((4, 3))}, r"x \(2,\).*z \(4,\)"),
     ],
 )
 def test_axes_that_are_no_frame_are_refused(axes, message):

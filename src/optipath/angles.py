@@ -6,14 +6,18 @@ from typing import Any
 
 import numpy as np
 
-from optipath.array_likes import as_given, doubles, rounding_of
+from optipath.array_likes import as_given
 from optipath.errors import ParameterError
 from optipath.frozen import same
 from optipath.jax_values import is_jax, namespace
+from optipath.memory import refuse_too_large
 from optipath.quoting import shown
-from optipath.shapes import broadcast_fault
+from optipath.roundings import doubles, rounding_of
+from optipath.shapes import broadcast_fault, joint_shape
 
 _APART = 1e-6
+_ANGLE = 8
+"""How many bytes an angle has."""
 
 
 class CosSin:
@@ -50,13 +54,14 @@ class CosSin:
         cos, sin = _numbers("cos", cos), _numbers("sin", sin)
         if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}):
             raise ParameterError(*faults)
+        refuse_too_large(joint_shape(np.shape(cos), np.shape(sin)), _ANGLE, error=ParameterError)
         object.__setattr__(self, "cos", within_right_angle(cos, sin))
         object.__setattr__(self, "sin", sin)
 
     @property
     def shape(self) -> tuple[int, ...]:
         """The shape that both broadcast to."""
-        return np.broadcast_shapes(np.shape(self.cos), np.shape(self.sin))
+        return joint_shape(np.shape(self.cos), np.shape(self.sin))
 
     @property
     def angle(self) -> Any:

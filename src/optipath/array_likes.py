@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from types import NoneType
@@ -12,15 +11,11 @@ import numpy as np
 
 from optipath.errors import OptipathError, ValueFault
 from optipath.quoting import shown
+from optipath.roundings import ENDLESS, NARROW, RIGHT_ANGLES, doubles, with_limits
 
 if TYPE_CHECKING:
     Array = np.ndarray[Any, Any]
 
-ENDLESS = (-math.inf, math.inf)
-_RIGHT_ANGLES = (-math.pi / 2.0, math.pi / 2.0)
-"""Limits of angles, which less precision than double rounds up."""
-
-_NARROW = (np.float16, np.float32)
 _PLAIN = frozenset(
     {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
 )
@@ -82,8 +77,8 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
     >>> as_given("a turn", [0.5, 1.0])
     array([0.5, 1. ])
     """
-    if type(value) is np.ndarray:
-        return value
+    if type(value) in _PLAIN:
+        return np.asarray(value)
     try:
         _refuse_endless(value)
         kinds = _kinds(value, set())
@@ -98,8 +93,8 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
         return np.asarray(value, dtype=object)
     if array.dtype.type is np.float64:
         # Among numbers of more precision, a right angle of less is a right angle all the same.
-        for kind in kinds.intersection(_NARROW):
-            array = _with_limits(array, kind, _RIGHT_ANGLES)
+        for kind in kinds.intersection(NARROW):
+            array = with_limits(array, kind, RIGHT_ANGLES)
     return array
 
 
@@ -138,71 +133,6 @@ def entries_of(
     except Exception:  # noqa: BLE001 - what is given may raise anything
         reason = f"must be a sequence of {each}, not {shown(value)}; for one, write [...]"
     raise error(f"{what} {reason}")
-
-
-def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
-    """Return numbers of less precision than double as doubles, and others as they are.
-
-    What is beyond a limit by its rounding becomes the limit, as `within` has it; so does what is
-    beyond a right angle, which limits angles of incidence.
-
-    Examples
-    --------
-    >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
-    True
-    """
-    kind = array.dtype.type
-    if kind is np.complex64:
-        return array.astype(np.complex128)
-    array = within(array, limits)
-    return within(array, _RIGHT_ANGLES).astype(np.float64) if kind in _NARROW else array
-
-
-def within(array: Array, limits: tuple[float, float]) -> Array:
-    """Return numbers; those beyond a limit by its rounding to their precision, as that limit.
-
-    Where there are such, they are doubles at least.
-
-    Examples
-    --------
-    >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
-    0.1
-    """
-    if is_beyond(array, limits):
-        return _with_limits(array.astype(np.float64), array.dtype.type, limits)
-    if array.dtype.type is np.longdouble and limits != ENDLESS:
-        beyond = (array < limits[0]) | (array > limits[1])
-        near = array.astype(np.float64)
-        return np.where(beyond & np.isin(near, limits), near, array)
-    return array
-
-
-def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
-    """Tell whether numbers of less precision than double are beyond a limit, rounded to that.
-
-    Examples
-    --------
-    >>> is_beyond(np.float32([0.5, np.pi / 2.0]), (0.0, np.pi / 2.0))
-    True
-    """
-    kind = array.dtype.type
-    if kind not in _NARROW or not array.size:
-        return False
-    low, high = _rounded(kind, limits)
-    return bool(
-        (low < limits[0] and array.min() == low) or (high > limits[1] and array.max() == high)
-    )
-
-
-def rounding_of(array: Array) -> float:
-    """Return the rounding of numbers of less precision than double; 0 for all others.
-
-    Examples
-    --------
-    >>> rounding_of(np.ones(3, np.float32)) == 2.0**-23, rounding_of(np.ones(3))
-    (True, 0.0)
-    """
-    return float(np.finfo(array.dtype).eps) if array.dtype.type in _NARROW else 0.0
 
 
 class _MoreThanNumbers(Exception):  # noqa: N818 - a reason, for the sentence around it
@@ -256,24 +186,6 @@ def _refuse_more(value: Any) -> None:
                 f"has a unit, {shown(unit)}, which nothing looks at; give plain numbers, in "
                 f"radians or metres"
             )
-
-
-def _rounded(kind: Any, limits: tuple[float, float]) -> tuple[float, float]:
-    """Return limits rounded to a precision; what is 0 or infinite in it says nothing."""
-    with np.errstate(over="ignore", under="ignore"):
-        low, high = (float(kind(limit)) for limit in limits)
-    return (
-        low if low and low > -math.inf else limits[0],
-        high if high and high < math.inf else limits[1],
-    )
-
-
-def _with_limits(array: Array, kind: Any, limits: tuple[float, float]) -> Array:
-    """Return doubles; those beyond a limit by its rounding to a precision, as the limit."""
-    low, high = _rounded(kind, limits)
-    if low < limits[0]:
-        array = np.where(array == low, limits[0], array)
-    return np.where(array == high, limits[1], array) if high > limits[1] else array
 
 
 def _reason(fault: Exception) -> str:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from optipath.array_likes import array_of
 from optipath.errors import ParameterError
 from optipath.frozen import frozen, same
 from optipath.quoting import shown
@@ -46,14 +47,7 @@ class Case:
         if faults:
             raise ParameterError(*faults)
         values = {str(name): frozen(value) for name, value in self.values.items()}
-        try:
-            published = {
-                str(name): tuple(map(float, stokes)) for name, stokes in self.published.items()
-            }
-        except (TypeError, ValueError, OverflowError):
-            raise ParameterError(
-                f"published must be a Stokes vector by detector, not {shown(self.published)}"
-            ) from None
+        published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)
 
@@ -67,3 +61,10 @@ class Case:
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _numbers(name: Any, stokes: Any) -> tuple[float, ...]:
+    array = array_of(f"what is published at {name}", stokes, ParameterError)
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
+        raise ParameterError(f"what is published at {name} must be numbers, not {shown(stokes)}")
+    return tuple(array.astype(float).tolist())

@@ -12,6 +12,7 @@ from optipath.array_likes import entries_of
 from optipath.domains import Domain
 from optipath.errors import ParameterError, ValueFault
 from optipath.faint import is_faint
+from optipath.frozen import same_fields
 from optipath.kernels import NUMPY, Boosts, boosted, largest_error, ratio_bounds
 from optipath.shapes import check_broadcast
 
@@ -40,6 +41,9 @@ class Certificate:
     scalar: npt.NDArray[Any]
     lower: npt.NDArray[Any]
     upper: npt.NDArray[Any]
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def error(self) -> npt.NDArray[Any]:

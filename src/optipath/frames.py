@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.array_likes import array_of
-from optipath.errors import FrameError
+from optipath.array_likes import array_of, as_given
+from optipath.errors import FrameError, ShapeError
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
 from optipath.quoting import shown
+from optipath.roundings import rounding_of
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -32,7 +33,8 @@ class Frame:
     Raises
     ------
     FrameError
-        If the axes are no right-handed set of orthogonal unit vectors (to 1e-8).
+        If the axes are no right-handed set of orthogonal unit vectors, to 1e-8, or to the
+        rounding of less precision than double, out of which they are made orthogonal again.
 
     Examples
     --------
@@ -52,18 +54,27 @@ class Frame:
         y: npt.ArrayLike = (0.0, 1.0, 0.0),
         z: npt.ArrayLike = (0.0, 0.0, 1.0),
     ) -> None:
-        axes = {
-            name: vectors(f"axis {name} of a frame", axis)
+        given = {
+            name: as_given(f"axis {name} of a frame", axis, FrameError)
             for name, axis in zip("xyz", (x, y, z), strict=True)
         }
+        rounding = max(map(rounding_of, given.values()))
+        self._set([vectors(f"axis {name} of a frame", a) for name, a in given.items()], rounding)
+
+    def _set(self, axes: list[npt.NDArray[np.float64]], rounding: float) -> None:
+        """Check axes and keep them; those of less precision than double are made orthogonal."""
         try:
-            together = np.broadcast_arrays(*axes.values())
-        except ValueError:
-            shapes = ", ".join(f"{name} {axis.shape}" for name, axis in axes.items())
-            raise FrameError(f"the axes of a frame do not broadcast: {shapes}") from None
-        for name, axis in zip(axes, together, strict=True):
+            check_broadcast({n: axis.shape[:-1] for n, axis in zip("xyz", axes, strict=True)})
+        except ShapeError as fault:
+            raise FrameError(f"axes of a frame: {fault}") from None
+        x, y, z = np.broadcast_arrays(*axes)
+        _check(np.stack([x, y, z], axis=-2), max(_TOLERANCE, 2.0 * rounding))
+        if rounding:
+            z = _unit("z", z)
+            x = _across(z, x)
+            y = np.cross(z, x)
+        for name, axis in zip("xyz", (x, y, z), strict=True):
             object.__setattr__(self, name, frozen(axis))
-        self._check()
 
     @classmethod
     def trusted(
@@ -101,12 +112,8 @@ class Frame:
         """
         along = _unit("z", vectors("axis z of a frame", z))
         towards = _unit("x", vectors("axis x of a frame", x))
-        across = towards
-        for _ in range(2):  # The second time mends what the first rounds, where x is near z.
-            across = across - np.sum(across * along, axis=-1, keepdims=True) * along
-            if np.any(np.max(np.abs(across), axis=-1) < _PARALLEL):
-                raise FrameError("x has no part perpendicular to z; give an x that is not along z")
-            across = _unit("x", across)
+        check_broadcast({"z": along.shape[:-1], "x": towards.shape[:-1]})
+        across = _across(along, towards)
         return cls(across, np.cross(along, across), along)
 
     def turned(self, angle: npt.ArrayLike) -> Frame:
@@ -136,12 +143,15 @@ class Frame:
         >>> Frame().rotated([[0, -1, 0], [1, 0, 0], [0, 0, 1]]).x
         array([0., 1., 0.])
         """
-        matrix = _floats("a rotation", rotation)
+        given = as_given("a rotation", rotation, FrameError)
+        matrix = _floats("a rotation", given)
         if matrix.shape[-2:] != (3, 3):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
-        axes = (np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z))
-        return Frame(*axes)
+        axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
+        frame = Frame.__new__(Frame)
+        frame._set(axes, rounding_of(given))  # noqa: SLF001 - its own
+        return frame
 
     def turn_to(self, other: Frame) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Return (cos 2a, sin 2a) of the turn a about z that takes this frame to another.
@@ -193,21 +203,6 @@ class Frame:
             return f"<Frame batch of shape {self.z.shape[:-1]}>"
         return f"Frame(x={_text(self.x)}, y={_text(self.y)}, z={_text(self.z)})"
 
-    def _check(self) -> None:
-        axes = np.stack([self.x, self.y, self.z], axis=-2)
-        if np.any(np.abs(axes) > 2.0):
-            raise FrameError("the axes of a frame must be unit vectors; use Frame.from_direction")
-        off = np.abs(axes @ np.swapaxes(axes, -1, -2) - np.eye(3)).max(axis=(-1, -2), initial=0.0)
-        left = np.linalg.det(axes) < 0.0
-        if np.all(off <= _TOLERANCE) and not np.any(left):
-            return
-        if np.any(~(off <= _TOLERANCE)):
-            raise FrameError(
-                f"the axes of a frame must be orthogonal unit vectors; these are off by "
-                f"{np.max(off):.2g}: use Frame.from_direction(z, x) to make them so"
-            )
-        raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
-
 
 def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return vectors of three finite components.
@@ -236,6 +231,33 @@ def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     if not np.all(np.isfinite(array)):
         raise FrameError(f"{what} must be finite; check for NaN and infinity")
     return array
+
+
+def _check(axes: npt.NDArray[np.float64], tolerance: float) -> None:
+    """Refuse axes, shape (..., 3, 3), that are no right-handed set of unit vectors."""
+    if np.any(np.abs(axes) > 2.0):
+        raise FrameError("the axes of a frame must be unit vectors; use Frame.from_direction")
+    off = np.abs(axes @ np.swapaxes(axes, -1, -2) - np.eye(3)).max(axis=(-1, -2), initial=0.0)
+    if np.any(~(off <= tolerance)):
+        raise FrameError(
+            f"the axes of a frame must be orthogonal unit vectors; these are off by "
+            f"{np.max(off):.2g}: use Frame.from_direction(z, x) to make them so"
+        )
+    if np.any(np.linalg.det(axes) < 0.0):
+        raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
+
+
+def _across(
+    along: npt.NDArray[np.float64], towards: npt.NDArray[np.float64]
+) -> npt.NDArray[np.float64]:
+    """Return the unit vectors across some that are nearest to others."""
+    across = towards
+    for _ in range(2):  # The second time mends what the first rounds, where x is near z.
+        across = across - np.sum(across * along, axis=-1, keepdims=True) * along
+        if np.any(np.max(np.abs(across), axis=-1) < _PARALLEL):
+            raise FrameError("x has no part perpendicular to z; give an x that is not along z")
+        across = _unit("x", across)
+    return across
 
 
 def _unit(name: str, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:

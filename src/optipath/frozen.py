@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from types import NoneType
 from typing import Any
 
 import numpy as np
 
-from optipath.array_likes import ENDLESS, as_given, doubles, within
+from optipath.array_likes import as_given
 from optipath.errors import OptipathError
 from optipath.jax_values import is_traced
+from optipath.roundings import ENDLESS, doubles, within
 
 _SCALARS = (str, bytes, int, float, complex, NoneType)
 
@@ -57,9 +59,25 @@ def same(first: Any, second: Any) -> bool:
         return True
     if isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(map(same, first, second))
+    if isinstance(first, dict) and isinstance(second, dict):
+        return first.keys() == second.keys() and all(same(first[key], second[key]) for key in first)
     try:
         if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
             return np.array_equal(np.asarray(first), np.asarray(second))
         return bool(first == second)
     except Exception:  # noqa: BLE001 - what cannot be compared is not the same
         return False
+
+
+def same_fields(first: Any, second: Any) -> Any:
+    """Tell whether two values of one dataclass have the same fields; for its ``__eq__``.
+
+    Examples
+    --------
+    >>> from optipath.materials import Material
+    >>> same_fields(Material(1.5), Material(1.5, 0.1))
+    False
+    """
+    if type(second) is not type(first):
+        return NotImplemented
+    return all(same(getattr(first, f.name), getattr(second, f.name)) for f in fields(first))

@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.array_likes import array_of, as_given, doubles, within
+from optipath.array_likes import array_of, as_given
 from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import frozen, same
 from optipath.jax_values import is_traced
 from optipath.quoting import shown
+from optipath.roundings import doubles, within
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -152,9 +153,13 @@ class Parameter:
         """Return a default with its texts read; words stay words."""
         if isinstance(value, str):
             return self.parse(value)
-        if isinstance(value, (list, tuple)):
-            return [self._as_number(entry) for entry in value]
-        return value
+        if not isinstance(value, (list, tuple)):
+            return value
+        array = as_given(f"parameter '{self.name}'", value, ParameterError)
+        if array.dtype.kind not in "UO":
+            return array
+        read = [self._as_number(entry) for entry in array.ravel().tolist()]
+        return np.array(read, object).reshape(array.shape).tolist()
 
     def __neg__(self) -> Parameter:
         return replace(self, negative=not self.negative)

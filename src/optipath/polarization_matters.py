@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.composer import Composer
 from optipath.errors import ParameterError, listed
+from optipath.frozen import same_fields
 from optipath.kernels import DEPOLARIZING_BLOCK, Kernel
 from optipath.program import Evaluation
 from optipath.quoting import shown
@@ -49,6 +50,9 @@ class Polarization:
     exact: npt.NDArray[Any]
     certificate: Certificate
     elements: Mapping[str, npt.NDArray[Any]]
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def scalar(self) -> npt.NDArray[Any]:

@@ -92,7 +92,7 @@ def dimension_of(unit: str) -> str:
     >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
     ('angle', 'inverse length', '')
     """
-    if unit == "":
+    if isinstance(unit, str) and unit == "":
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
         word = unit if isinstance(unit, str) else shown(unit)

@@ -45,7 +45,7 @@ def path_from_vertices(
         The index of refraction behind each surface, in order from the light.
     normals : array_like, shape (..., m, 3), optional
         The normals of the surfaces, of any length and to either side, to be checked: each is to
-        be along the bisector to within 1e-6 rad.
+        be along the bisector to within 1e-6 rad, or the rounding of half precision.
     intensity : float, array_like or Parameter, optional
         Of the unpolarised light.
 

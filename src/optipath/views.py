@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.array_likes import doubles
 from optipath.frozen import same
 from optipath.jax_values import is_traced
 from optipath.kernels import FLOAT, NUMPY, cosine, sine
 from optipath.parameters import Parameter, Resolved
+from optipath.roundings import doubles
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping

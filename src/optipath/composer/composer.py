@@ -165,7 +165,12 @@ class Composer:
             If an element may depolarise, and Jones columns are composed, or if the model is
             not exact for the path.
         """
-        graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
+        graph: Any = path
+        if not isinstance(path, nx.MultiDiGraph):
+            try:
+                graph = path.graph
+            except Exception:  # noqa: BLE001 - somebody else's attribute may raise anything
+                graph = None
         if not isinstance(graph, nx.MultiDiGraph):
             raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():

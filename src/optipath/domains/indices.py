@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from optipath.array_likes import entries_of
 from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
@@ -118,9 +119,13 @@ class IndicesDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return the indices one by one, since each may be an array of its own."""
-        if not isinstance(value, (list, tuple, np.ndarray)) or not np.iterable(value):
+        if not isinstance(value, (list, tuple, np.ndarray)):
             return value
-        return tuple(_plain_index(frozen(index)) for index in value)
+        try:
+            entries = entries_of("", "indices", value)
+        except ValueFault:
+            return value  # For validation to name.
+        return tuple(_plain_index(frozen(index)) for index in entries)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return the numbers of each index, with what it may be."""
@@ -141,6 +146,7 @@ class IndicesDomain(Domain):
         ValueFault
             Always, since good lists are checked by their parts.
         """
+        entries_of(owner, "indices", value)
         raise ValueFault(
             f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
             f"first and the substrate last"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.frozen import frozen
+from optipath.frozen import frozen, same_fields
 from optipath.kernels import NUMPY, TURN, TURN_BACK
 from optipath.materials import Material
 from optipath.mueller import stacked
@@ -25,6 +25,9 @@ class Operation:
     kernel: Kernel | KernelFamily
     arguments: tuple[Any, ...]
 
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Coupling:
@@ -37,6 +40,9 @@ class Coupling:
     leaves: str
     operations: tuple[Operation, ...]
     reflects: bool = False
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
 
     def matrix(self, method: str) -> np.ndarray[Any, Any]:
         """Return the Mueller matrix of shape (..., 4, 4); every value must be a number.

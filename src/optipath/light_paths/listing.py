@@ -50,12 +50,13 @@ def light_paths(
         cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
         raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
     whole.refuse_traced(parameters, "light paths are listed")
-    whole.inputs.resolve(parameters)
-    # Refuses light that never fades.
-    whole.stepwise.lights(whole.sorter.sort(parameters))
+    _, batch = whole.inputs.resolve(parameters)
     found: list[LightPath] = []
-    for path in Search(whole, parameters, framed).paths(bounces):
-        if len(found) == limit:
-            break
-        found.append(path)
+    with whole.enough_for(batch, 2 * len(whole.program.readings) + 8, twice=True):
+        # Refuses light that never fades.
+        whole.stepwise.lights(whole.sorter.sort(parameters))
+        for path in Search(whole, parameters, framed).paths(bounces):
+            if len(found) == limit:
+                break
+            found.append(path)
     return found

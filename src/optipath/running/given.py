@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.array_likes import is_beyond
 from optipath.errors import OptipathError, ParameterError
 from optipath.quoting import shown
+from optipath.roundings import is_beyond
 from optipath.running.layout import sliced
+from optipath.shapes import joint_shape
 from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class Sorter:
         self._plain |= {name for name, raws in self.raws.items() if raws and shows[name]}
         self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
         self._angles -= {name for name, p in inputs.open.items() if p.optional}
-        self._known = np.broadcast_shapes(*inputs.shapes.values())
+        self._known = joint_shape(*inputs.shapes.values())
 
     def sort(self, parameters: Mapping[str, Any]) -> Given:
         """Return the numbers that are given.
@@ -149,7 +150,7 @@ class Sorter:
                         shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
                     for raw in self.raws[name]:
                         numbers[raw] = self._number(self._part(raw, real, present))
-                return Given(numbers, np.broadcast_shapes(*shapes))
+                return Given(numbers, joint_shape(*shapes))
             except (OptipathError, ArithmeticError, ValueError, TypeError) as fault:
                 self.inputs.resolve(parameters)  # Tells all faults.
                 raise ParameterError(*getattr(fault, "faults", [shown(fault)])) from None

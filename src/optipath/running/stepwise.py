@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import reduce
+from math import prod
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -15,6 +16,7 @@ from optipath.precision import wide
 from optipath.running.closer import CloserLook
 from optipath.running.gains import check_gains
 from optipath.running.physical import what_matrices_lack
+from optipath.shapes import joint_shape
 from optipath.walk import evaluated, walk, whole_matrices
 
 if TYPE_CHECKING:
@@ -116,7 +118,7 @@ class Stepwise:
             for index, evaluation in enumerate(self.program.evaluations):
                 shapes = [leaves[leaf].shape for leaf in evaluation.arguments]
                 shapes += [] if evaluation.presence is None else [leaves[evaluation.presence].shape]
-                size = 16 * int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+                size = 16 * prod(joint_shape(*shapes))
                 if size <= min(left, given.paths):
                     found[index] = evaluated(evaluation, leaves, way, self.number)
                     left -= size

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import as_given
-from optipath.errors import ValueFault
+from optipath.errors import ShapeError, ValueFault
 from optipath.quoting import shown
-from optipath.shapes import broadcast_fault
+from optipath.roundings import rounding_of
+from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of
 
 if TYPE_CHECKING:
@@ -53,13 +54,15 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
         return [f"normals must be real numbers, not {shown(normals)}"]
     if given.shape[-2:] != (count, 3):
         return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(given))
     given = given.astype(np.float64, copy=False)
     if chains is None:
         return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
     shapes = {"vertices": chains.shape[:-2], "normals": given.shape[:-2]}
-    if faults := broadcast_fault(shapes):
-        return faults
-    batch = np.broadcast_shapes(*shapes.values())
+    try:
+        batch = check_broadcast(shapes)
+    except ShapeError as fault:
+        return list(fault.faults)
     chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
     given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
     doubted = [
@@ -67,7 +70,7 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     ]
     if not doubted:
         return []
-    return _own_faults(given, batch) or _off_faults(chains, given, batch, doubted)
+    return _own_faults(given, batch) or _off_faults(chains, given, batch, doubted, tolerance)
 
 
 def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
@@ -84,10 +87,14 @@ def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
 
 
 def _off_faults(
-    chains: Floats, normals: Floats, batch: tuple[int, ...], doubted: list[slice]
+    chains: Floats,
+    normals: Floats,
+    batch: tuple[int, ...],
+    doubted: list[slice],
+    tolerance: float,
 ) -> list[str]:
     """Return the vertex whose normal is furthest off its bisector, if any is too far."""
-    worst, where = _TOLERANCE, ""
+    worst, where = tolerance, ""
     for piece in doubted:
         off = _off(chains[piece], normals[piece])
         chain, place = map(int, np.unravel_index(np.argmax(off), off.shape))
@@ -96,7 +103,7 @@ def _off_faults(
             where = _normal_of(place, piece.start + chain, batch)
     sentence = (
         f"{where} is off the bisector of its legs by {np.degrees(worst):.3g} deg; it must be "
-        f"along it to within {_TOLERANCE:g} rad, or be left out"
+        f"along it to within {tolerance:.2g} rad, or be left out"
     )
     return [sentence] if where else []
 

@@ -12,6 +12,8 @@ from optipath.quoting import shown
 from optipath.vertices.by_angles import VerticesByAngles
 from optipath.vertices.coordinates import Coordinates, coordinates
 
+_MANY = 1 << 31
+
 
 @dataclass(frozen=True, eq=False)
 class PlaceInChain:
@@ -97,4 +99,4 @@ def is_count(value: Any) -> bool:
     >>> is_count(2), is_count(0), is_count(True), is_count(2.0)
     (True, False, False, False)
     """
-    return isinstance(value, int) and not isinstance(value, bool) and value > 0
+    return isinstance(value, int) and not isinstance(value, bool) and 0 < value < _MANY

@@ -1,0 +1,334 @@
+"""What a user may give as numbers, in every place that takes some."""
+
+import operator
+from decimal import Decimal
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+CORNER = [[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]]
+
+
+class Labelled:
+    """An array with names for its axes, as xarray has them."""
+
+    dims, coords = ("x",), {}
+
+    def __init__(self, values):
+        self.values = np.asarray(values)
+
+    def __array__(self, dtype=None, copy=None):
+        return self.values
+
+
+class Column:
+    """A column of a table, as pandas has it."""
+
+    index = range(2)
+
+    def __init__(self, values):
+        self.numbers = np.asarray(values)
+
+    def to_numpy(self):
+        return self.numbers
+
+    def __array__(self, dtype=None, copy=None):
+        return self.numbers
+
+
+class Quantity(np.ndarray):
+    """Numbers with a unit, as astropy has them."""
+
+    unit = "deg"
+
+
+class Magnitude:
+    """Numbers with a unit, as pint has them."""
+
+    units = "degree"
+
+    def __init__(self, values):
+        self.numbers = np.asarray(values)
+
+    def __array__(self, dtype=None, copy=None):
+        return self.numbers
+
+
+class Raises:
+    """Raises whatever is asked of it."""
+
+    def __array__(self, dtype=None, copy=None):
+        raise OSError("the file is gone")
+
+    def _raise(self, *_):
+        raise RuntimeError("no")
+
+    __len__ = __iter__ = __getitem__ = __float__ = __index__ = __int__ = __bool__ = _raise
+    __eq__ = __lt__ = __repr__ = __str__ = __neg__ = __getattr__ = _raise
+    __hash__ = None
+
+
+def masked(values):
+    array = np.ma.masked_array(np.asarray(values, float))
+    array.mask = np.zeros(array.shape, bool)
+    array.mask[..., -1:] = True
+    return array
+
+
+def endless():
+    within = []
+    within.extend([within, within])
+    return within
+
+
+MORE_THAN_NUMBERS = {
+    "a masked array": masked,
+    "a masked entry": lambda values: [np.ma.masked, values],
+    "a list of masked arrays": lambda values: [masked(values), masked(values)],
+    "an array with dimensions": Labelled,
+    "a list of such": lambda values: [Labelled(values), Labelled(values)],
+    "a column of a table": Column,
+    "a quantity": lambda values: np.asarray(values, float).view(Quantity),
+    "a list of quantities": lambda values: [np.asarray(values, float).view(Quantity)] * 2,
+    "a magnitude": Magnitude,
+}
+CURES = {
+    "mask": ".compressed()",
+    "dimension": ".values",
+    "such": ".values",
+    "column": ".to_numpy()",
+    "quantit": "in radians or metres",
+    "magnitude": "in radians or metres",
+}
+NO_NUMBERS = {
+    "what raises": Raises(),
+    "a list of what raises": [0.5, Raises()],
+    "times": np.array(["2020-01-01"], "M8[D]"),
+    "lengths of time": np.array([1], "m8[s]"),
+    "records": np.zeros(2, [("a", float)]),
+    "a set": {0.5},
+    "a dict": {"a": 0.5},
+    "a generator": (x for x in [0.5]),
+    "a decimal": Decimal("0.5"),
+    "a fraction": Fraction(1, 2),
+    "a complex nan": complex(np.nan, 1.0),
+    "objects": np.array([0.5, None]),
+    "bytes": b"0.5",
+    "texts of bytes": np.array([b"0.5"]),
+    "a type": float,
+    "a number too long to be written": 10**5000,
+    "a list in itself": endless(),
+    "rows of unequal lengths": [[0.5], [0.5, 0.5]],
+    "more axes than a batch has": np.full((1,) * 40, 0.5),
+}
+
+
+def path():
+    graph = op.PathGraph()
+    lamp = graph.add("lamp", op.Source(op.Parameter("intensity", 1.0)))
+    glass = graph.add("glass", op.Interface(op.Parameter("m", 1.5), op.Parameter("theta", 0.1)))
+    turn = graph.add("turn", op.Rotator(op.Parameter("angle", 0.1)))
+    lamp >> glass >> turn >> graph.add("eye", op.Detector())
+    return graph
+
+
+def linked(azimuth):
+    graph = op.PathGraph()
+    graph.add("lamp", op.Source())
+    graph.add("eye", op.Detector())
+    graph.connect("lamp.out", "eye.in", azimuth)
+    return graph.trace()
+
+
+def lit(**state):
+    graph = op.PathGraph()
+    graph.add("lamp", op.Source(**state)) >> graph.add("eye", op.Detector())
+    return graph.trace()
+
+
+SCALARS = {
+    "a field": lambda v: op.Interface(1.5, v).mueller(),
+    "an index": lambda v: op.Interface(v, 0.1).mueller(),
+    "a material": lambda v: op.Interface(op.Material(v, 0.1), 0.1).mueller(),
+    "an absorbing material": lambda v: op.Interface(op.Material(1.5, v), 0.1).mueller(),
+    "a layer": lambda v: op.LayerStack([1.0, v, 1.5], 0.1).mueller(),
+    "a length": lambda v: op.Medium(v, 0.1).mueller(),
+    "an extinction": lambda v: op.Medium.from_extinction(1e-6, v, 500e-9).mueller(),
+    "the azimuth of a link": linked,
+    "an intensity": lambda v: lit(intensity=v),
+    "trace": lambda v: path().trace(theta=v),
+    "trace of an index": lambda v: path().trace(m=v),
+    "trace of an angle": lambda v: path().trace(angle=v),
+    "trace on every link": lambda v: path().trace(keep="all", theta=v),
+    "a stream": lambda v: list(path().compose().stream(10, theta=v)),
+    "a matrix": lambda v: path().mueller(theta=v),
+    "a certificate": lambda v: path().compose().certificate(theta=v),
+    "light paths": lambda v: path().paths(theta=v),
+    "polarization": lambda v: op.polarization(path(), theta=v),
+    "evaluations": lambda v: path().compose().evaluations(theta=v),
+    "bind": lambda v: path().bind(theta=v).trace(),
+    "a preset": lambda v: op.load_preset("malus", angle=v).trace(),
+    "a default": lambda v: op.Parameter("a", v),
+    "a limit": lambda v: op.Parameter("a", minimum=v),
+    "a word": lambda v: op.Parameter("a", words={"up": v}),
+    "a cosine": lambda v: op.CosSin(v, 0.5),
+    "fresnel_reflection": lambda v: op.fresnel_reflection(v, 0.6, 0.8),
+    "fresnel_transmission": lambda v: op.fresnel_transmission(1.5, v, v),
+    "refraction_angle": lambda v: op.refraction_angle(1.5, v),
+    "intensity_bounds": lambda v: op.intensity_bounds(v, [0.1]),
+    "a diattenuation": lambda v: op.intensity_bounds(0.1, [v]),
+    "vertices_from_angles": lambda v: op.vertices_from_angles([v]),
+    "a material of a chain": lambda v: op.path_from_vertices(CORNER, [v]),
+    "a turn of a frame": lambda v: op.Frame().turned(v),
+}
+VECTORS = {
+    "a state": (lambda v: lit(stokes=v), [1.0, 0.0, 0.0, 0.0]),
+    "Light": (op.Light, [1.0, 0.0, 0.0, 0.0]),
+    "Mueller": (op.Mueller, np.eye(4)),
+    "MuellerElement": (lambda v: op.MuellerElement(v).mueller(), np.eye(4)),
+    "Frame": (op.Frame, [1.0, 0.0, 0.0]),
+    "from_direction": (lambda v: op.Frame.from_direction(v, [0, 1, 0]), [1.0, 0.0, 0.0]),
+    "rotated": (lambda v: op.Frame().rotated(v), np.eye(3)),
+    "plane_of_incidence": (lambda v: op.plane_of_incidence(v, [0, 0, 1]), [1.0, 0.0, -1.0]),
+    "path_from_vertices": (lambda v: op.path_from_vertices(v, [1.5]), CORNER),
+    "normals": (lambda v: op.path_from_vertices(CORNER, [1.5], v), [[0.0, 1.0, 1.0]]),
+    "materials": (lambda v: op.path_from_vertices(CORNER, v), [1.5]),
+    "indices of a stack": (lambda v: op.LayerStack(v, 0.1).mueller(), [1.0, 1.3, 1.5]),
+    "incidences": (op.vertices_from_angles, [0.1]),
+    "diattenuations": (lambda v: op.intensity_bounds(0.1, v), [0.1]),
+}
+PLACES = {**{name: (use, [0.5, 0.25]) for name, use in SCALARS.items()}, **VECTORS}
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_masks_labels_and_units_are_refused_with_the_cure(place):
+    use, values = PLACES[place]
+    for given, made in MORE_THAN_NUMBERS.items():
+        if place == "incidences" and given.startswith(("a list", "a masked entry")):
+            continue  # Two incidences ask for a turn first.
+        with pytest.raises(op.OptipathError) as error:
+            use(made(values))
+        cure = next(cure for word, cure in CURES.items() if word in given)
+        assert cure in str(error.value), given
+
+
+FITTING = {
+    ("a default", "more axes than a batch has"),  # Told when the path is composed.
+    ("indices of a stack", "rows of unequal lengths"),  # Each is an array of its own.
+    ("diattenuations", "rows of unequal lengths"),
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_whatever_is_no_number_is_refused_in_words(place):
+    for given, value in NO_NUMBERS.items():
+        if (place, given) not in FITTING:
+            with pytest.raises(op.OptipathError) as error:
+                PLACES[place][0](value)
+            assert all(c.isprintable() or c == "\n" for c in str(error.value)), given
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        np.ma.masked_array([0.5, 0.25]),
+        np.array([0.5, 0.25]).view(np.recarray),
+        memoryview(np.array([0.5, 0.25])),
+        np.array([0.5, 0.25], ">f8"),
+        np.array([0.5, 0.25], np.float16),
+        np.array([0.5, 0.25], np.longdouble),
+        (0.5, 0.25),
+        [np.float32(0.5), 0.25],
+    ],
+    ids=lambda given: type(given).__name__,
+)
+def test_arrays_that_say_no_more_than_their_numbers_are_taken_for_them(given):
+    for name, use in SCALARS.items():
+        if name not in ("a limit", "a word", "a cosine", "fresnel_transmission"):
+            use(given)
+    fixed = op.Interface(1.5, given)
+    assert np.array_equal(path().trace(theta=given).stokes, path().trace(theta=[0.5, 0.25]).stokes)
+    assert fixed == op.Interface(1.5, [0.5, 0.25])
+
+
+def test_a_matrix_of_numpy_is_an_array_of_two_axes():
+    given = np.array([[0.5, 0.25]]).view(np.matrix)
+    assert path().trace(theta=given).stokes.shape == (1, 2, 4)
+
+
+def test_an_array_that_is_made_of_something_else_does_not_change_with_it():
+    class Changing:
+        numbers = np.array([0.5, 0.25])
+
+        def __array__(self, dtype=None, copy=None):
+            return self.numbers
+
+    element = op.Interface(1.5, Changing())
+    before = element.mueller().matrix.copy()
+    Changing.numbers[:] = 1.0
+    assert np.array_equal(element.mueller().matrix, before)
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda v: op.Composer(method=v),
+        lambda v: op.Composer(engine=v),
+        lambda v: op.Composer(dtype=v),
+        lambda v: op.Composer(tolerance=v),
+        lambda v: op.Composer(threads=v),
+        lambda v: op.Composer().compose(v),
+        lambda v: op.load_preset("npgr026", case=v),
+        op.load_preset,
+        op.Parameter,
+        lambda v: op.Parameter("a", unit=v),
+        lambda v: op.Parameter("a", words=v),
+        lambda v: op.PathGraph(loops=v),
+        lambda v: op.PathGraph(declared=v),
+        lambda v: op.PathGraph().add(v, op.Source()),
+        lambda v: op.PathGraph().add("a", v),
+        lambda v: op.PathGraph().add("a", op.Source(), frames=v),
+        lambda v: op.PathGraph().connect(v, v),
+        lambda v: path().element(v),
+        lambda v: path().trace(keep=v),
+        lambda v: path().paths(limit=v),
+        lambda v: path().mueller(v),
+        lambda v: list(path().compose().stream(v)),
+        lambda v: path().compose().engine_for(v),
+        lambda v: path().reading(v),
+        lambda v: op.polarization(path(), v),
+        op.polarization,
+        op.Case,
+        lambda v: op.Case({}, {"eye": [v]}),
+        lambda v: op.Polarizer().mueller(v),
+        lambda v: op.Polarizer().mueller("in", v),
+        lambda v: op.Polarizer().mueller(frame_in=v),
+        lambda v: op.Polarizer().mueller(method=v),
+        lambda v: op.Light([1, 0, 0, 0], v),
+        lambda v: op.Light([1, 0, 0, 0], exponent=v),
+        lambda v: op.Light([1, 0, 0, 0]).in_frame(v),
+        lambda v: op.Mueller(np.eye(4)).is_physical(v),
+        lambda v: op.fresnel_reflection(1.5, 0.6, 0.8, v),
+        lambda v: op.SpecularVertex(1.5, CORNER, v).mueller("in", "reflected"),
+    ],
+)
+def test_options_that_raise_when_they_are_looked_at_are_refused(use):
+    for value in (Raises(), np.array([1.0, 2.0]), np.zeros(2, [("a", float)])):
+        with pytest.raises(op.OptipathError):
+            use(value)
+
+
+def test_the_user_may_interrupt_an_array_of_his_own():
+    class Slow:
+        def __array__(self, dtype=None, copy=None):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        path().trace(theta=Slow())
+
+
+def test_what_cannot_be_compared_is_not_equal():
+    assert not operator.eq(op.Rotator(Raises()), op.Rotator(0.5))

@@ -1,0 +1,83 @@
+"""Every public class: pickled, copied, or copied deeply, it is what it was."""
+
+import copy
+import inspect
+import pickle
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+CORNER = np.array([[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]])
+PATH = op.load_preset("npgr026")
+CHAIN = op.path_from_vertices(op.VerticesByAngles((op.Parameter("a"),)), [1.5])
+GIVEN = {
+    "Attenuator": (0.5,),
+    "BeamSplitter": (0.3,),
+    "Case": ({"a": [1.0, 2.0]},),
+    "CosSin": (0.6, 0.8),
+    "Depolarizer": (0.2,),
+    "Diattenuator": (0.5, 0.2),
+    "Interface": (1.5, [0.1, 0.2]),
+    "LayerStack": ([1.0, 1.3, 1.5], 0.1),
+    "Light": ([1.0, 0.2, 0.0, 0.0],),
+    "Material": (1.5, np.array([0.1, 0.2])),
+    "Medium": (1.0, 0.1),
+    "Mueller": (np.eye(4),),
+    "MuellerElement": (np.eye(4),),
+    "Parameter": ("a", np.ones(3, np.float32)),
+    "Retarder": (0.1, 0.2),
+    "Rotator": (0.1,),
+    "SpecularVertex": (1.5, CORNER, 1),
+    "VerticesByAngles": ((0.1,),),
+}
+FOUND = {
+    "Certificate": PATH.compose().certificate(),
+    "Coupling": op.Rotator([0.1, 0.2]).couplings()[0],
+    "Frame": op.Frame(),
+    "LightPath": PATH.paths()[0],
+    "LuChipman": op.Mueller(np.eye(4)).lu_chipman(),
+    "Operation": op.Retarder(0.1, 0.2).couplings()[0].operations[0],
+    "PathGraph": PATH,
+    "Plan": PATH.compose(),
+    "PlaneOfIncidence": op.plane_of_incidence((1.0, 0.0, -1.0), (0.0, 0.0, 1.0)),
+    "Polarization": op.polarization(PATH),
+}
+CLASSES = [
+    name
+    for name in op.__all__
+    if inspect.isclass(getattr(op, name)) and not issubclass(getattr(op, name), BaseException)
+]
+COPIES = [lambda made: pickle.loads(pickle.dumps(made)), copy.copy, copy.deepcopy]
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_an_object_of_a_public_class_equals_its_copies(name):
+    made = FOUND[name] if name in FOUND else getattr(op, name)(*GIVEN.get(name, ()))
+    for copied in COPIES:
+        again = copied(made)
+        assert type(again) is type(made)
+        assert again == made
+
+
+@pytest.mark.parametrize(
+    "light",
+    [
+        PATH.trace(),
+        PATH.trace(delta=[0.1, 0.2]),
+        CHAIN.trace(a=0.1),
+        CHAIN.trace(a=[0.1, 0.2]),
+        op.Light([1.0, 0.5, 0.0, 0.0], exponent=-5000),
+    ],
+    ids=["one", "several", "one in space", "several in space", "faint"],
+)
+def test_light_that_was_traced_equals_its_copies(light):
+    for copied in COPIES:
+        assert copied(light) == light
+
+
+def test_pairs_of_cosine_and_sine_are_equal_by_their_numbers():
+    assert op.CosSin(0.6, 0.8) == op.CosSin(0.6, 0.8)
+    assert op.CosSin(0.6, 0.8) != op.CosSin(0.8, 0.6)
+    assert op.CosSin(0.6, 0.8) != (0.6, 0.8)
