@@ -15,10 +15,10 @@ from optipath.jax_values import is_jax, is_traced
 from optipath.kernels import Linear, Primitives, cosine, sine
 from optipath.kernels.primitives import is_hidden, product_and_rest
 from optipath.views import part_of
-from optipath.walk import walk
+from optipath.walk import evaluated, walk
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.kernels import Way
     from optipath.parameters import Resolved
@@ -46,6 +46,46 @@ def _ldexp(number: Any, power: Any) -> Any:
     return number * jnp.ldexp(one, half) * jnp.ldexp(one, power - half)
 
 
+def _apart(function: Callable[..., tuple[Any, ...]]) -> Callable[..., tuple[Any, ...]]:
+    """Make a kernel a function of its own for XLA, too, and not a part of whatever calls it.
+
+    On a CPU, XLA fuses all that comes before a result into its loop, again for each result: its
+    time grows with the square of what is in one piece. Numbers that are known stay so.
+    """
+
+    def called(*given: Any) -> tuple[Any, ...]:
+        known: dict[int, Any] = {}
+
+        def of_arrays(arrays: dict[int, Any]) -> dict[int, Any]:
+            found, plain = _parted(function(*(arrays.get(i, n) for i, n in enumerate(given))))
+            known.update(plain)
+            return found
+
+        with _not_inlined():
+            found = jax.jit(of_arrays)(_parted(given)[0])
+        together = found | known
+        return tuple(together[place] for place in range(len(together)))
+
+    return called
+
+
+def _parted(numbers: Sequence[Any]) -> tuple[dict[int, Any], dict[int, Any]]:
+    """Return numbers by their places: those that are JAX's, and those that are not."""
+    places = dict(enumerate(numbers))
+    arrays = {place: number for place, number in places.items() if is_jax(number)}
+    return arrays, {place: number for place, number in places.items() if place not in arrays}
+
+
+def _not_inlined() -> Any:
+    if jax.default_backend() != "cpu":
+        return nullcontext()
+    try:
+        from jax.experimental.xla_metadata import set_xla_metadata  # noqa: PLC0415 - newer versions
+    except ImportError:
+        return nullcontext()
+    return set_xla_metadata(inlineable="false")
+
+
 JAX = Primitives(
     where=jnp.where,
     sqrt=_sqrt,
@@ -61,6 +101,7 @@ JAX = Primitives(
     two_product=product_and_rest,
     hidden=is_hidden,
     fixed=jax.lax.stop_gradient,
+    apart=_apart,
 )
 
 
@@ -106,11 +147,12 @@ class JaxPath:
     def _traced_lights(
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
     ) -> tuple[Any, ...]:
-        leaves = self._leaves(values, absent)
-        found = walk(self.program, leaves, self.way, number=self._number)
+        numbers = self._numbers(values, absent)
         # Where the smaller of two intensities changes, the light that is carried has no slope,
         # but what matrices make of it has: light comes from the one, its slope from the other.
-        smooth = walk(self.program, leaves, Linear(JAX), number=self._number)
+        fixed = jax.lax.stop_gradient(numbers)
+        found = walk(self.program, (), self.way, number=self._number, shared=fixed)
+        smooth = walk(self.program, (), Linear(JAX), number=self._number, shared=numbers)
         stokes = []
         for reading in self.program.readings.values():
             components, exponent = found[reading.light]
@@ -131,7 +173,7 @@ class JaxPath:
         source: str,
         reading: str,
     ) -> Any:
-        leaves = self._leaves(values, absent)
+        numbers = self._numbers(values, absent)
         end = self.program.readings[reading]
         columns = []
         for column in np.eye(4, dtype=self.dtype):
@@ -139,7 +181,7 @@ class JaxPath:
                 step: tuple(map(self._number, column if name == source else 0.0 * column))
                 for name, (step, _) in self.program.sources.items()
             }
-            found = walk(self.program, leaves, Linear(JAX), emitted, self._number)
+            found = walk(self.program, (), Linear(JAX), emitted, self._number, numbers)
             columns.append(self._stacked(found[end.light][0], end, batch))
         return jnp.stack(columns, axis=-1)
 
@@ -153,6 +195,14 @@ class JaxPath:
         unread = [jnp.nan] * (4 - reading.components)
         parts = (*components[: reading.components], *unread)
         return jnp.stack([jnp.broadcast_to(self._number(p), batch) for p in parts], axis=-1)
+
+    def _numbers(self, values: Mapping[str, Any], absent: frozenset[str]) -> dict[int, Any]:
+        """Return what each evaluation comes to, computed once for all ways of carrying light."""
+        leaves = self._leaves(values, absent)
+        return {
+            place: evaluated(evaluation, leaves, self.way, self._number)
+            for place, evaluation in enumerate(self.program.evaluations)
+        }
 
     def _leaves(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
         return [self._leaf(view, values, absent) for view in self.program.leaves]

@@ -28,7 +28,8 @@ class Primitives:
     slope, where an engine takes gradients, and the value itself elsewhere.
     ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
     a small number is no more than the rounding of a larger one, in double precision at most.
-    ``multiply_add`` is a b + c, rounded once where that costs no more than twice.
+    ``multiply_add`` is a b + c, rounded once where that costs no more than twice. ``apart`` is a
+    function as a piece of its own, where an engine would compile one large piece too slowly.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -46,6 +47,7 @@ class Primitives:
     hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
+    apart: Callable[[Any], Any] = lambda function: function
 
 
 @cache
