@@ -29,6 +29,9 @@ class Primitives:
     ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
     a small number is no more than the rounding of a larger one, in double precision at most.
     ``multiply_add`` is a b + c, rounded once where that costs no more than twice.
+    ``within`` is 0 but where numbers are computed for the sake of their slopes, their values
+    being known: forms that have the right slopes then take the place of those that have the right
+    digits, and at an edge of a domain slopes are those so far within it.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -46,6 +49,7 @@ class Primitives:
     hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
+    within: float = 0.0
 
 
 @cache
