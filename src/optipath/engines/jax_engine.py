@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -15,21 +16,15 @@ from optipath.jax_values import is_jax, is_traced
 from optipath.kernels import Linear, Primitives, cosine, sine
 from optipath.kernels.primitives import is_hidden, product_and_rest
 from optipath.views import part_of
-from optipath.walk import evaluated, walk
+from optipath.walk import walk
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from optipath.kernels import Way
+    from optipath.kernels import Components, Way
     from optipath.parameters import Resolved
     from optipath.program import Program, Reading
     from optipath.views import View
-
-
-def _sqrt(number: Any) -> Any:
-    # With a slope of 0 at 0, in place of one that is not finite.
-    there = number > 0.0
-    return jnp.where(there, jnp.sqrt(jnp.where(there, number, 1.0)), 0.0)
 
 
 def _frexp(number: Any) -> tuple[Any, Any]:
@@ -88,7 +83,7 @@ def _not_inlined() -> Any:
 
 JAX = Primitives(
     where=jnp.where,
-    sqrt=_sqrt,
+    sqrt=jnp.sqrt,
     absolute=jnp.abs,
     maximum=jnp.maximum,
     minimum=jnp.minimum,
@@ -103,6 +98,30 @@ JAX = Primitives(
     fixed=jax.lax.stop_gradient,
     apart=_apart,
 )
+
+
+@cache
+def sloped(dtype: np.dtype[Any]) -> Primitives:
+    """Return the primitives for slopes in a precision."""
+    # So near to an edge no slope has changed yet, but its sixth power is still a number.
+    within = 2.0**-60 if dtype == np.float64 else 2.0**-20
+
+    def root(number: Any) -> Any:
+        # At 0 as well with the slope that it has there within: at 0 itself it has none.
+        raised = jnp.where(number > 0.0, 0.0, within**2 - JAX.fixed(number))
+        return jnp.sqrt(number + raised)
+
+    return replace(JAX, sqrt=root, within=within)
+
+
+@jax.custom_jvp
+def _with_slopes(value: Any, of: Any) -> Any:
+    """Return a value with the slopes of another number."""
+    del of
+    return value
+
+
+_with_slopes.defjvps(None, lambda tangent, *_: tangent)
 
 
 class JaxPath:
@@ -147,22 +166,8 @@ class JaxPath:
     def _traced_lights(
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
     ) -> tuple[Any, ...]:
-        numbers = self._numbers(values, absent)
-        # Where the smaller of two intensities changes, the light that is carried has no slope,
-        # but what matrices make of it has: light comes from the one, its slope from the other.
-        fixed = jax.lax.stop_gradient(numbers)
-        found = walk(self.program, (), self.way, number=self._number, shared=fixed)
-        smooth = walk(self.program, (), Linear(JAX), number=self._number, shared=numbers)
-        stokes = []
-        for reading in self.program.readings.values():
-            components, exponent = found[reading.light]
-            if not isinstance(exponent, int):
-                components = tuple(_ldexp(part, exponent) for part in components)
-            slopes, _ = smooth[reading.light]
-            both = zip(components, slopes, strict=True)
-            parts = [slope + jax.lax.stop_gradient(part - slope) for part, slope in both]
-            stokes.append(self._stacked(parts, reading, batch))
-        return tuple(stokes)
+        leaves = self._leaves(values, absent)
+        return tuple(self._stokes(leaves, self.way, batch).values())
 
     def _traced_matrix(
         self,
@@ -173,17 +178,36 @@ class JaxPath:
         source: str,
         reading: str,
     ) -> Any:
-        numbers = self._numbers(values, absent)
-        end = self.program.readings[reading]
+        leaves = self._leaves(values, absent)
         columns = []
         for column in np.eye(4, dtype=self.dtype):
             emitted = {
                 step: tuple(map(self._number, column if name == source else 0.0 * column))
                 for name, (step, _) in self.program.sources.items()
             }
-            found = walk(self.program, (), Linear(JAX), emitted, self._number, numbers)
-            columns.append(self._stacked(found[end.light][0], end, batch))
+            columns.append(self._stokes(leaves, Linear(JAX), batch, emitted)[reading])
         return jnp.stack(columns, axis=-1)
+
+    def _stokes(
+        self,
+        leaves: Sequence[Any],
+        way: Way,
+        batch: tuple[int, ...],
+        emitted: Mapping[int, Components] | None = None,
+    ) -> dict[str, Any]:
+        """Return the Stokes vector of every reading."""
+        found = walk(self.program, JAX.fixed(leaves), way, emitted, self._number)
+        # Where the smaller of two intensities changes, the light that is carried has no slope,
+        # but what matrices make of it has: light comes from the one, its slope from the other.
+        smooth = walk(self.program, leaves, Linear(sloped(self.dtype)), emitted, self._number)
+        stokes = {}
+        for name, reading in self.program.readings.items():
+            components, exponent = found[reading.light]
+            if not isinstance(exponent, int):
+                components = tuple(_ldexp(part, exponent) for part in components)
+            both = components, smooth[reading.light][0]
+            stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
+        return stokes
 
     def _number(self, number: Any) -> Any:
         if isinstance(number, jax.Array):
@@ -195,14 +219,6 @@ class JaxPath:
         unread = [jnp.nan] * (4 - reading.components)
         parts = (*components[: reading.components], *unread)
         return jnp.stack([jnp.broadcast_to(self._number(p), batch) for p in parts], axis=-1)
-
-    def _numbers(self, values: Mapping[str, Any], absent: frozenset[str]) -> dict[int, Any]:
-        """Return what each evaluation comes to, computed once for all ways of carrying light."""
-        leaves = self._leaves(values, absent)
-        return {
-            place: evaluated(evaluation, leaves, self.way, self._number)
-            for place, evaluation in enumerate(self.program.evaluations)
-        }
 
     def _leaves(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
         return [self._leaf(view, values, absent) for view in self.program.leaves]
@@ -226,6 +242,7 @@ class JaxPath:
     def _done(self, view: View, value: Any) -> Any:
         value = self._number(value)
         if view.part in ("cos", "sin"):
+            # 0 at a right angle, but with its slope.
             return (cosine if view.part == "cos" else sine)(JAX)(value)
         return value
 

@@ -9,6 +9,7 @@ digits however little that is, and no energy gets lost.
 from __future__ import annotations
 
 from functools import reduce
+from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,6 +18,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from optipath.kernels.primitives import Primitives
+
+
+_LITTLE = 2.0**-26
+"""A difference of 1 and a gain that has lost half of its digits."""
 
 
 class Elimination:
@@ -58,6 +63,7 @@ class Elimination:
         intensities: Sequence[bool],
     ) -> None:
         self._quotient = _quotient(xp)
+        self._difference = _difference(xp)
         self._back = [{to: g for to, g in column.items() if not is_zero(g)} for column in back]
         self._leaves = list(leaves)
         self._intensities = intensities
@@ -94,8 +100,10 @@ class Elimination:
         if self._intensities[unknown]:
             others = (gain for to, gain in onwards if self._intensities[to])
             pivot = reduce(_add, others, self._leaves[unknown])
+        elif unknown in self._back[unknown]:
+            pivot = self._difference(1.0 - self._back[unknown][unknown])
         else:
-            pivot = 1.0 - self._back[unknown].get(unknown, 0.0)
+            pivot = 1.0
         for source in sorted(self._feeds[unknown]):
             if source > unknown:
                 column = self._back[source]
@@ -116,6 +124,13 @@ def _quotient(xp: Primitives) -> Callable[..., Any]:
         return number / xp.where(closed & (number == 0.0) if of_light else closed, 1.0, pivot)
 
     return quotient
+
+
+def _difference(xp: Primitives) -> Callable[[Any], Any]:
+    if not xp.within:
+        return lambda difference: difference
+    # What has all but cancelled next to an edge says nothing of the slope.
+    return lambda left: xp.where(xp.absolute(left) > _LITTLE, left, nan)
 
 
 def is_zero(number: Any) -> bool:

@@ -30,6 +30,9 @@ class Primitives:
     a small number is no more than the rounding of a larger one, in double precision at most.
     ``multiply_add`` is a b + c, rounded once where that costs no more than twice. ``apart`` is a
     function as a piece of its own, where an engine would compile one large piece too slowly.
+    ``within`` is 0 but where numbers are computed for the sake of their slopes, their values
+    being known: forms that have the right slopes then take the place of those that have the right
+    digits, and at an edge of a domain slopes are those so far within it.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -47,7 +50,10 @@ class Primitives:
     hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
+<<<<<<< HEAD
     apart: Callable[[Any], Any] = lambda function: function
+=======
+    within: float = 0.0
 
 
 @cache
