@@ -63,6 +63,7 @@ from optipath.kernels.structures import (
     turn_linear,
 )
 from optipath.kernels.textbook import textbook_reflection, textbook_transmission
+from optipath.kernels.twice import twice
 from optipath.kernels.vertices import LONGEST, SHORTEST
 
 
@@ -264,6 +265,7 @@ __all__ = [
     "sine",
     "stokes_of",
     "turn_linear",
+    "twice",
     "unit_light",
     "without_rounding",
 ]

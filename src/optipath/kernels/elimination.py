@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _LITTLE = 2.0**-26
 """A difference of 1 and a gain that has lost half of its digits."""
 
+_LEAST = 2.0**-53
+"""What a pivot is at least that may be 0 by chance."""
+
 
 class Elimination:
     """A system of unknowns, eliminated one after the other, and what its solutions are.
@@ -38,6 +41,10 @@ class Elimination:
         none, such as S2, may take some from others all the same.
     intensities : sequence of bool
         Which unknowns are intensities.
+    fading : bool or array, optional
+        Where no light gains on its way. Elsewhere a pivot that is 0 by chance says nothing and
+        is moved by the rounding of a float, which takes numbers of more digits; not given, no
+        pivot is moved.
 
     Attributes
     ----------
@@ -61,7 +68,10 @@ class Elimination:
         back: Sequence[dict[int, Any]],
         leaves: Sequence[Any],
         intensities: Sequence[bool],
+        fading: Any = None,
     ) -> None:
+        self._xp = xp
+        self._fading = fading
         self._quotient = _quotient(xp)
         self._difference = _difference(xp)
         self._back = [{to: g for to, g in column.items() if not is_zero(g)} for column in back]
@@ -100,10 +110,15 @@ class Elimination:
         if self._intensities[unknown]:
             others = (gain for to, gain in onwards if self._intensities[to])
             pivot = reduce(_add, others, self._leaves[unknown])
-        elif unknown in self._back[unknown]:
-            pivot = self._difference(1.0 - self._back[unknown][unknown])
+            if self._fading is not None:
+                pivot, more = self._moved(pivot)
+                self._leaves[unknown] = self._leaves[unknown] + more
         else:
             pivot = 1.0
+            if unknown in self._back[unknown]:
+                pivot = self._difference(1.0 - self._back[unknown][unknown])
+            if self._fading is not None:
+                pivot, _ = self._moved(pivot)
         for source in sorted(self._feeds[unknown]):
             if source > unknown:
                 column = self._back[source]
@@ -113,6 +128,12 @@ class Elimination:
                     self._feeds[to].add(source)
                 self._leaves[source] = self._leaves[source] + share * self._leaves[unknown]
         return pivot
+
+    def _moved(self, pivot: Any) -> tuple[Any, Any]:
+        """Return a pivot that is not 0 by chance, and by how much it has been moved."""
+        there = self._fading | (self._xp.absolute(pivot) > _LEAST)
+        moved = self._xp.where(there, pivot, _LEAST)
+        return moved, moved - pivot
 
 
 def _quotient(xp: Primitives) -> Callable[..., Any]:
