@@ -6,15 +6,17 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from optipath.array_likes import as_given
 from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean
+from optipath.jax_values import is_traced
 from optipath.parameters import Parameter
-from optipath.shapes import broadcast_fault
+from optipath.shapes import broadcast_fault, joint_shape
 from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    import numpy as np
 
     from optipath.domains import Domain
     from optipath.parameters import Resolved
@@ -47,10 +49,13 @@ class Use:
         """Return the shape of numbers for this place, the axes of one value left out."""
         if type(numbers) is float:
             return ()
-        try:
-            shape: tuple[int, ...] = np.shape(numbers)
-        except ValueError:
-            return ()  # Rows of unequal lengths are a fault of their own.
+        if is_traced(numbers):
+            shape: tuple[int, ...] = numbers.shape
+        else:
+            try:
+                shape = as_given("", numbers).shape
+            except OptipathError:
+                return ()  # What is no array is a fault of its own.
         return shape[: len(shape) - len(self.domain.tail)]
 
     def known_shape(self) -> tuple[int, ...]:
@@ -128,7 +133,7 @@ class Inputs:
                 faults.append(f"parameter '{name}' has no value; give one, {name}=...")
                 continue
             try:
-                resolved[name] = parameter.resolve(value)
+                resolved[name] = parameter.resolve(value, self.limits[name])
             except OptipathError as fault:
                 faults += fault.faults
         shapes = dict(self.shapes)
@@ -148,7 +153,7 @@ class Inputs:
         faults += broadcast_fault(shapes)
         if faults:
             raise ParameterError(*faults)
-        return resolved, np.broadcast_shapes(*shapes.values())
+        return resolved, joint_shape(*shapes.values())
 
     @cached_property
     def limits(self) -> dict[str, tuple[float, float]]:
@@ -180,7 +185,7 @@ class Inputs:
     __hash__ = None  # type: ignore[assignment]
 
     def _batch(self) -> tuple[int, ...]:
-        return np.broadcast_shapes(*self.shapes.values())
+        return joint_shape(*self.shapes.values())
 
     def _unknown(self, name: str) -> str:
         if name in self.bound:

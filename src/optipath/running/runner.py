@@ -11,6 +11,7 @@ from optipath.engines import compile_array_path, engine_for, jax_path
 from optipath.errors import ParameterError
 from optipath.formulas import lights_formula
 from optipath.jax_values import is_jax, is_traced
+from optipath.memory import CURE, enough_for
 from optipath.running.given import Given, Sorter
 from optipath.running.layout import Layout
 from optipath.running.many import Many, known_arrays
@@ -20,6 +21,7 @@ from optipath.views import ONE
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
+    from contextlib import AbstractContextManager
 
     from optipath.formulas import Formula
     from optipath.inputs import Inputs
@@ -169,6 +171,19 @@ class Runner:
             given, layout, known, lambda: self.inputs.resolve(parameters), careful
         )
         return found, failed or many.has_exponents
+
+    def enough_for(
+        self, batch: tuple[int, ...], numbers: int, *, twice: bool, cure: str = CURE
+    ) -> AbstractContextManager[None]:
+        """Return a context for so many numbers a path; for twice as many, where they are copied.
+
+        Raises
+        ------
+        ParameterError
+            If the machine has no memory for them.
+        """
+        each = self.dtype.itemsize * numbers * (2 if twice else 1)
+        return enough_for(batch, each, cure, ParameterError)
 
     def parts(self, given: Given) -> Iterator[Given]:
         """Return what is given in parts that stay in the cache, step after step."""
