@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from dataclasses import replace
-from functools import cache
+from functools import cache, reduce
+from operator import and_
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from optipath.kernels import Components, Way
+    from optipath.loops import Meeting
     from optipath.parameters import Resolved
     from optipath.program import Program, Reading
     from optipath.views import View
@@ -147,17 +149,23 @@ class JaxPath:
         )
         self._known_traced = any(view.traced for view in program.leaves)
 
-    def lights(self, resolved: Mapping[str, Resolved], batch: tuple[int, ...]) -> list[Any]:
-        """Return Stokes vectors (..., 4) at every end; a component that is not read is NaN."""
+    def lights(
+        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...]
+    ) -> tuple[list[Any], Any]:
+        """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
+
+        A component that is not read is NaN, and so is light that gains going round.
+        """
         values, absent = _split(resolved)
         with self._precision(values):
             run = self._traced_lights if self._known_traced else self._lights
-            return list(run(values, batch=batch, absent=absent))
+            found, sound = run(values, batch=batch, absent=absent)
+        return list(found), sound
 
     def matrix(
         self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], source: str, reading: str
     ) -> Any:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading."""
+        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
         values, absent = _split(resolved)
         with self._precision(values):
             run = self._traced_matrix if self._known_traced else self._matrix
@@ -165,9 +173,11 @@ class JaxPath:
 
     def _traced_lights(
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
-    ) -> tuple[Any, ...]:
+    ) -> tuple[tuple[Any, ...], Any]:
         leaves = self._leaves(values, absent)
-        return tuple(self._stokes(leaves, self.way, batch).values())
+        found, meetings = self._stokes(leaves, self.way, batch)
+        factor = self._factor(meetings, batch)[..., np.newaxis]
+        return tuple(factor * stokes for stokes in found.values()), _are_sound(meetings)
 
     def _traced_matrix(
         self,
@@ -179,14 +189,26 @@ class JaxPath:
         reading: str,
     ) -> Any:
         leaves = self._leaves(values, absent)
-        columns = []
+        columns: list[Any] = []
+        meetings: list[Meeting] = []
         for column in np.eye(4, dtype=self.dtype):
             emitted = {
                 step: tuple(map(self._number, column if name == source else 0.0 * column))
                 for name, (step, _) in self.program.sources.items()
             }
-            columns.append(self._stokes(leaves, Linear(JAX), batch, emitted)[reading])
-        return jnp.stack(columns, axis=-1)
+            found, others = self._stokes(leaves, Linear(JAX), batch, emitted)
+            columns.append(found[reading])
+            # All light gains no more than unpolarised light does, which has some of each.
+            meetings = meetings or others
+        factor = self._factor(meetings, batch)[..., np.newaxis, np.newaxis]
+        return factor * jnp.stack(columns, axis=-1), _are_sound(meetings)
+
+    def _factor(self, meetings: Sequence[Meeting], batch: tuple[int, ...]) -> Any:
+        """Return 1 where light that goes round adds up, and NaN where it gains."""
+        slack = float(np.sqrt(np.finfo(self.dtype).eps))
+        holds = reduce(and_, (meeting.adds_up(slack) for meeting in meetings), True)  # noqa: FBT003
+        # As a factor it makes slopes NaN as well, and those of light that fades stay as they are.
+        return self._number(jnp.broadcast_to(jnp.where(holds, 1.0, jnp.nan), batch))
 
     def _stokes(
         self,
@@ -194,9 +216,11 @@ class JaxPath:
         way: Way,
         batch: tuple[int, ...],
         emitted: Mapping[int, Components] | None = None,
-    ) -> dict[str, Any]:
-        """Return the Stokes vector of every reading."""
-        found = walk(self.program, JAX.fixed(leaves), way, emitted, self._number)
+    ) -> tuple[dict[str, Any], list[Meeting]]:
+        """Return the Stokes vector of every reading, and what has been solved for loops."""
+        meetings: list[Meeting] = []
+        fixed = JAX.fixed(leaves)
+        found = walk(self.program, fixed, way, emitted, self._number, None, meetings)
         # Where the smaller of two intensities changes, the light that is carried has no slope,
         # but what matrices make of it has: light comes from the one, its slope from the other.
         smooth = walk(self.program, leaves, Linear(sloped(self.dtype)), emitted, self._number)
@@ -207,7 +231,7 @@ class JaxPath:
                 components = tuple(_ldexp(part, exponent) for part in components)
             both = components, smooth[reading.light][0]
             stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
-        return stokes
+        return stokes, meetings
 
     def _number(self, number: Any) -> Any:
         if isinstance(number, jax.Array):
@@ -263,6 +287,12 @@ class JaxPath:
                 "with dtype='float32'"
             )
         return _double()(True)  # noqa: FBT003 - as JAX has it
+
+
+def _are_sound(meetings: Sequence[Meeting]) -> Any:
+    """Return whether so much light leaves every loop that nobody needs to look at it."""
+    conditions = [condition for meeting in meetings for condition in meeting.conditions]
+    return jnp.all(jnp.stack([jnp.all(holds) for holds in conditions])) if conditions else True
 
 
 @cache

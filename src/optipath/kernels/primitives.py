@@ -50,9 +50,7 @@ class Primitives:
     hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
-<<<<<<< HEAD
     apart: Callable[[Any], Any] = lambda function: function
-=======
     within: float = 0.0
 
 
