@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import reduce
-from operator import add
+from operator import add, sub
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optipath.kernels.elimination import Elimination, is_zero
@@ -28,11 +28,14 @@ class Boundaries(NamedTuple):
         The same from either side.
     intensity : bool
         Whether the part is an intensity, of which nothing gets lost.
+    lost : list, optional
+        What is not sent back of S2 as S2 itself, and of S3 as S3.
     """
 
     reflected: list[Rows]
     transmitted: list[Rows]
     intensity: bool
+    lost: Sequence[Any] = ()
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ class Stack:
                 absorbs = k if place == len(indices) - 2 else 0.0
                 media = (*indices[place : place + 2], absorbs)
                 numbers.append(self._boundary(xp, *media, *before, c, s))
-            channels = (self._came_out(xp, _channel(numbers, rows)) for rows in _CHANNELS)
+            channels = (self._came_out(xp, _channel(xp, numbers, rows)) for rows in _CHANNELS)
             (Fs,), (Fp,), (C, minus_s) = channels
             return Fs, Fp, 0.5 * (Fs - Fp), C, -minus_s
 
@@ -93,7 +96,7 @@ class Stack:
             xp,
             [back for back, _ in columns],
             [leaves for _, leaves in columns],
-            [at.intensity] * len(columns),
+            [at.intensity or bool(at.lost)] * len(columns),
         )
         lights = system.solved([*first, *[0.0] * (len(columns) - width)])
         down, up = lights[-2 * width : -width], lights[width : 2 * width]
@@ -113,9 +116,20 @@ _CHANNELS: tuple[Callable[[Any], Rows], ...] = (
 """The parts of light that boundaries keep apart: along s, along p, and (S2, S3)."""
 
 
-def _channel(numbers: Sequence[Any], rows: Callable[[Any], Rows]) -> Boundaries:
+def _channel(xp: Primitives, numbers: Sequence[Any], rows: Callable[[Any], Rows]) -> Boundaries:
     reflected, transmitted = ([rows(pair[side]) for pair in numbers] for side in (0, 1))
-    return Boundaries(reflected, transmitted, len(reflected[0]) == 1)
+    if len(reflected[0]) == 1:
+        return Boundaries(reflected, transmitted, intensity=True)
+    # Next to an edge, where all is sent back, 1 - C would have no digits.
+    lost = [_lost(xp, *pair) for pair in numbers] if xp.within else ()
+    return Boundaries(reflected, transmitted, intensity=False, lost=lost)
+
+
+def _lost(xp: Primitives, reflected: Sequence[Any], transmitted: Sequence[Any]) -> Any:
+    """Return 1 - C, from C^2 + S^2 = Fs Fp where C is not negative."""
+    (*_, C, S), (Ts, Tp, *_) = reflected, transmitted
+    there = C > 0.0
+    return xp.where(there, (Ts + Tp - Ts * Tp + S * S) / xp.where(there, 1.0 + C, 1.0), 1.0 - C)
 
 
 def _columns(at: Boundaries) -> list[tuple[dict[int, Any], Any]]:
@@ -139,6 +153,9 @@ def _columns(at: Boundaries) -> list[tuple[dict[int, Any], Any]]:
                 if onwards is not None:
                     back |= {onwards + i: number for i, number in enumerate(passed)}
                 leaves = passed[0] if onwards is None and at.intensity else 0.0
+                if at.lost:
+                    others = (number for to, number in back.items() if to != turned + part)
+                    leaves = reduce(sub, others, at.lost[boundary])
                 columns.append((back, leaves))
     return columns
 
