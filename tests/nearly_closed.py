@@ -55,7 +55,8 @@ class Network:
             self.path.add(f"d{i}", op.Detector())
             self.path.connect(f"s{i}.out", enters[i])
             self.path.connect(leaves[i], f"d{i}.in")
-        for i, (before, end) in enumerate(zip(leaves[sources:], enters[sources:], strict=True)):
+        for i, (start, end) in enumerate(zip(leaves[sources:], enters[sources:], strict=True)):
+            before = start
             for j in range(self.rng.integers(0, 3)):
                 self.path.add(f"w{i}-{j}", self.plate())
                 self.path.connect(before, f"w{i}-{j}.in")

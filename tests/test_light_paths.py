@@ -156,17 +156,17 @@ def test_a_ring_without_reflections_needs_a_limit():
     np.testing.assert_allclose([way.light.intensity for way in found], [0.25, 0.0625, 0.015625])
 
 
+@pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
 def test_a_search_ends_though_roundings_make_gains_of_reflections():
     # Of these faces, `amplitude` makes more light than there was, by the last digit.
     path, rng = op.load_preset("coated-metal"), np.random.default_rng(0)
     plan = op.Composer(method="amplitude").compose(path)
-    for _ in range(60):
-        given = {"theta": float(rng.uniform(0, np.pi / 2)), "k_metal": float(rng.uniform(0, 9))}
+    for apart in 10.0 ** rng.uniform(-10, -1, 12):
+        given = {"theta": float(np.pi / 2 - apart), "k_metal": float(rng.choice([0.0, 5.0]))}
         given["n_metal"] = float(rng.choice([0.0, rng.uniform(0, 2)]))
         ways = plan.paths(limit=4, n=float(rng.uniform(1, 3)), **given)
-        assert [way.intensity for way in ways] == sorted(
-            (way.intensity for way in ways), reverse=True
-        )
+        intensities = np.array([way.intensity for way in ways])
+        assert np.all(np.diff(intensities) <= 1e-14 * intensities[0])
 
 
 def test_a_search_ends_though_an_element_amplifies_in_a_loop():
