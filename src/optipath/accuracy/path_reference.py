@@ -73,7 +73,8 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     >>> [float(component) for component in lights["eye"].stokes]
     [0.5, 0.5, 0.0, 0.0]
     """
-    return _exact(Wiring(path.graph), _single(path, parameters), (), ())
+    given = _single(path, parameters)
+    return _exact(Wiring(path.graph), given, (), ())
 
 
 def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
@@ -87,7 +88,8 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
     >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]
     [0.5, 0.5, 0.0, 0.0]
     """
-    given, wiring = _single(path, parameters), Wiring(path.graph)
+    given = _single(path, parameters)
+    wiring = Wiring(path.graph)
     scout = Reader(given, (), ())
     _Walk(wiring, scout).stokes()
     with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):

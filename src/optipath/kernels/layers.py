@@ -112,7 +112,8 @@ class Stack:
 
 def _intensity(numbers: Sequence[Any], part: int) -> Boundaries:
     """Return what boundaries do to the intensity along s, or along p."""
-    reflected, transmitted = ([((pair[side][part],),) for pair in numbers] for side in (0, 1))
+    reflected: list[Rows] = [((pair[0][part],),) for pair in numbers]
+    transmitted: list[Rows] = [((pair[1][part],),) for pair in numbers]
     leaves: list[Any] = [((pair[1][part],), (0.0,)) for pair in numbers]
     return Boundaries(reflected, transmitted, leaves)
 
