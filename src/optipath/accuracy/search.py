@@ -91,7 +91,7 @@ def worst(
     kernel = _FAMILIES[what].by_method(method)
     # Twice the precision tells nothing of numbers that are computed with twice the precision.
     kind = np.longdouble if method == "compensated" else np.float64
-    units = rng.random((region.dimensions, _CHILDREN))
+    units: Floats = rng.random((region.dimensions, _CHILDREN))
     kept, known = units[:, :0], np.empty(0)
     for _ in range(generations):
         samples = region.at(units, dtype)
@@ -127,7 +127,8 @@ def _scores(
         condition = np.abs((moved[place] - exact).high / exact.high) / _STEP
         condition = np.where((samples.cos > 0.0) & (samples.sin > 0.0), condition, 0.0)
         off = np.abs((found[:, place] - exact.high) - exact.low)
-        near = is_near_double_zero(A, exact.high, condition) & (component[0] == "C")
+        has_zeros = component[0] == "C" and family is REFLECTION
+        near = is_near_double_zero(A, exact.high, condition) & has_zeros
         unit = A if component == "C near 0" else exact.high
         score = off / _ulp(unit, found.dtype)
         if component != "C near 0":
@@ -143,7 +144,7 @@ def is_near_double_zero(A: Any, C: Any, condition: Any) -> Any:
 def _ulp(number: Floats, dtype: Any) -> Floats:
     kind = np.finfo(dtype)
     exponent = np.maximum(np.frexp(number)[1] - 1, kind.minexp)
-    return np.ldexp(np.ones((), number.dtype), exponent - kind.nmant)
+    return np.asarray(np.ldexp(np.ones((), number.dtype), exponent - kind.nmant))
 
 
 def _doubled(family: KernelFamily, numbers: list[Floats], step: float) -> list[DoubleDouble]:
@@ -163,11 +164,12 @@ def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype:
     with mpmath.workdps(WORKING_DIGITS):
         exact = _REFERENCES[what](*map(exactly, given))
         value, condition = exact.values[place], exact.conditions[place]
-        near = is_near_double_zero(exact.values[0], value, condition)
+        has_zeros = component[0] == "C" and what == "reflection"
+        near = has_zeros and is_near_double_zero(exact.values[0], value, condition)
         if component == "C near 0":
             off = in_ulp(abs(exactly(found[0, place]) - value), exact.values[0], dtype)
         else:
             off = float(errors(found, [exact], dtype).componentwise[0, place])
-        if component[0] == "C" and near != (component == "C near 0"):
+        if near != (component == "C near 0"):
             off = 0.0
     return Worst(off, *map(float, given))

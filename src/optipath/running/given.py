@@ -55,7 +55,7 @@ class Given(NamedTuple):
     def part(self, where: tuple[Any, ...]) -> Given:
         """Return a part of what is given: an index for each axis, or a mask of the paths."""
         numbers = {
-            raw: sliced(n, self.batch, where) if isinstance(n, np.ndarray) else n
+            raw: _one_number(sliced(n, self.batch, where)) if isinstance(n, np.ndarray) else n
             for raw, n in self.numbers.items()
         }
         return Given(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
@@ -167,7 +167,7 @@ class Sorter:
         array = np.asarray(value)
         if array.dtype.char not in "fd?" or not array.dtype.isnative:
             array = array.astype(self._widest)
-        return array if array.size != 1 or array.dtype.char == "g" else array.item()
+        return _one_number(array)
 
     def _resolved(self, name: str, value: Any) -> Resolved:
         resolved = self.inputs.open[name].resolve(value)
@@ -175,6 +175,11 @@ class Sorter:
             if use.value.name == name:
                 use.check_given(resolved.value)
         return resolved
+
+
+def _one_number(array: np.ndarray[Any, Any]) -> Any:
+    """Return an array of one number as that number."""
+    return array if array.size != 1 or array.dtype.char == "g" else array.item()
 
 
 def _is_plain(value: Any, tail: tuple[int, ...]) -> bool:
