@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 import optipath as op
+from optipath.accuracy.regions import REGIONS
+from optipath.accuracy.tables import SEARCHED
 from optipath.cli import main
 
 
@@ -336,6 +338,18 @@ def test_accuracy_prints_its_tables_and_writes_them_into_their_place(tmp_path, c
     assert "| exactly 90 deg | 0 | 0 | 0 |" in text
     assert main(["accuracy", "--samples", "1"]) == 0
     assert "exactly 90 deg" in capsys.readouterr().out
+
+
+def test_accuracy_searches_for_worst_cases_and_writes_them_into_their_place(tmp_path, monkeypatch):
+    monkeypatch.setattr("optipath.accuracy.tables.REGIONS", REGIONS[:1])
+    document = tmp_path / "accuracy.md"
+    begin, end = SEARCHED
+    document.write_text(f"a {begin} b {end} c", "utf-8")
+    assert main(["accuracy", "--search", "1", "--write", str(document)]) == 0
+    text = document.read_text("utf-8")
+    assert text.startswith(f"a {begin}")
+    assert "Worst cases found of compensated, float64" in text
+    assert text.count("| generic |") == 3
 
 
 def test_a_feature_whose_extra_is_missing_says_which(monkeypatch, capsys):
