@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -48,7 +48,7 @@ class Primitives:
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
 
 
-@cache
+@lru_cache(4096)
 def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
     """Return what a factory makes of primitives, made once and kept."""
     return factory(primitives)
