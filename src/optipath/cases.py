@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from optipath.errors import ParameterError
 from optipath.frozen import frozen, same
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
+from optipath.quoting import shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +23,11 @@ class Case:
         The published Stokes vector for each detector, as printed.
     note : str
         What a reader should know about it.
+
+    Raises
+    ------
+    ParameterError
+        If they are no mappings, or what is published are no numbers.
     """
 
     values: Mapping[str, Any]
@@ -30,10 +35,25 @@ class Case:
     note: str = ""
 
     def __post_init__(self) -> None:
+        given = {"values": self.values, "published": self.published}
+        faults = [
+            f"{name} of a case must be a mapping by names, not {shown(one)}"
+            for name, one in given.items()
+            if not isinstance(one, Mapping)
+        ]
+        if not isinstance(self.note, str):
+            faults.append(f"the note of a case must be a text, not {shown(self.note)}")
+        if faults:
+            raise ParameterError(*faults)
         values = {str(name): frozen(value) for name, value in self.values.items()}
-        published = {
-            str(name): tuple(map(float, stokes)) for name, stokes in self.published.items()
-        }
+        try:
+            published = {
+                str(name): tuple(map(float, stokes)) for name, stokes in self.published.items()
+            }
+        except (TypeError, ValueError, OverflowError):
+            raise ParameterError(
+                f"published must be a Stokes vector by detector, not {shown(self.published)}"
+            ) from None
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)
 

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import math
+from contextlib import contextmanager
+from contextvars import ContextVar
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from numbers import Integral
+from typing import TYPE_CHECKING, Any
+
+from optipath.quoting import printable, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
 
 _LONGEST = 600
+_MOST_NAMES = 1000
+_MOST_LISTED = 30
+_LONGEST_NAME = 100
+
+_looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 
 
 class OptipathError(Exception):
@@ -18,7 +29,8 @@ class OptipathError(Exception):
     Parameters
     ----------
     *faults : str
-        One sentence for each fault: the thing, the value, and the cure.
+        One sentence for each fault: the thing, the value, and the cure. Control characters
+        that it quotes are shown by their codes.
 
     Examples
     --------
@@ -29,9 +41,13 @@ class OptipathError(Exception):
     """
 
     def __init__(self, *faults: str) -> None:
-        short = tuple(map(_shortened, faults))
+        short = tuple(printable(_shortened(fault)) for fault in faults)
         super().__init__(*short)
         self.faults = short
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Whatever a subclass is made of, its sentences are what it is.
+        return _of_faults, (type(self), self.faults), self.__dict__
 
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
@@ -108,7 +124,8 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     Returns
     -------
     str
-        ``"; did you mean 'x'?"``, or the list of what there is.
+        ``"; did you mean 'x'?"``, or the list of what there is; nothing where `few_suggestions`
+        has no look left.
 
     Examples
     --------
@@ -117,12 +134,69 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    names, word = list(known), str(word)
-    by_lower = {name.lower(): name for name in reversed(names)}
-    close = get_close_matches(word.lower(), by_lower, n=1)
+    left = _looks_left.get()
+    if left <= 0:
+        return ""
+    _looks_left.set(left - 1)
+    names = list(known)
+    text = word if isinstance(word, str) else shown(word)
+    # The time of a comparison grows with the product of the lengths.
+    by_lower = {
+        name.lower(): name
+        for name in reversed(names[:_MOST_NAMES])
+        if len(name) <= _LONGEST_NAME >= len(text)
+    }
+    close = get_close_matches(text.lower(), by_lower, n=1)
     if close:
         return f"; did you mean '{by_lower[close[0]]}'?"
+    if len(names) > _MOST_LISTED:
+        return (
+            f"; there are: {', '.join(names[:_MOST_LISTED])} and {len(names) - _MOST_LISTED} more"
+        )
     return f"; there are: {', '.join(names)}" if names else "; there are none"
+
+
+@contextmanager
+def few_suggestions(most: int = 20) -> Iterator[None]:
+    """Let `did_you_mean` look for so many words inside, and no more: each look takes its time.
+
+    Examples
+    --------
+    >>> with few_suggestions(1):
+    ...     [did_you_mean(word, ["in", "out"]) for word in ("ou", "inn")]
+    ["; did you mean 'out'?", '']
+    """
+    token = _looks_left.set(most)
+    try:
+        yield
+    finally:
+        _looks_left.reset(token)
+
+
+def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
+    """Return the sentence for a word that is none of those there are; none for one that is.
+
+    Examples
+    --------
+    >>> unknown("engine", "nunpy", ("numpy", "jax")), unknown("engine", "jax", ("numpy", "jax"))
+    (["engine 'nunpy' is unknown; did you mean 'numpy'?"], [])
+    """
+    if isinstance(word, str) and word in known:
+        return []
+    return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
+
+
+def whole_number(what: str, number: object, least: int = 1) -> list[str]:
+    """Return the sentence for what is no whole number, or too small; none for one that serves.
+
+    Examples
+    --------
+    >>> whole_number("threads", 1.5), whole_number("threads", 2)
+    (['threads must be a whole number of 1 or more, not 1.5'], [])
+    """
+    if isinstance(number, Integral) and not isinstance(number, bool) and int(number) >= least:
+        return []
+    return [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
 
 
 def listed(words: Sequence[str]) -> str:
@@ -135,6 +209,12 @@ def listed(words: Sequence[str]) -> str:
     """
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def _of_faults(kind: type[OptipathError], faults: tuple[str, ...]) -> OptipathError:
+    error = kind.__new__(kind, *faults)
+    OptipathError.__init__(error, *faults)
+    return error
 
 
 def _shortened(fault: str) -> str:

@@ -58,7 +58,7 @@ class Execution(Runner):
             return self._named(lights)
         if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
-            found = self.jax.lights(resolved, batch)
+            found = self.jax.lights(resolved, batch, parameters)
             for stokes, reading in zip(found, self.program.readings.values(), strict=True):
                 self.refuse_infinite(stokes[..., : reading.components])
             return {n: Found(s, 0) for n, s in zip(self.program.readings, found, strict=True)}

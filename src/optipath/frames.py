@@ -6,9 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import array_of
 from optipath.errors import FrameError
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
+from optipath.quoting import shown
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -156,7 +158,7 @@ class Frame:
         (True, 1.0)
         """
         if not isinstance(other, Frame):
-            raise FrameError(f"a frame is aligned with a Frame, not with {other!r}")
+            raise FrameError(f"a frame is aligned with a Frame, not with {shown(other)}")
         check_broadcast({"frame": self.z.shape[:-1], "other frame": other.z.shape[:-1]})
         apart = np.linalg.norm(self.z - other.z, axis=-1)
         if np.any(apart > _TOLERANCE):
@@ -227,10 +229,10 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise FrameError(f"{what} must be numbers, not {value!r}") from None
+    array = array_of(what, value, FrameError)
+    if array.dtype.kind not in "iufb":
+        raise FrameError(f"{what} must be numbers, not {shown(value)}")
+    array = array.astype(np.float64, copy=False)
     if not np.all(np.isfinite(array)):
         raise FrameError(f"{what} must be finite; check for NaN and infinity")
     return array

@@ -128,7 +128,7 @@ class Inputs:
                 faults.append(f"parameter '{name}' has no value; give one, {name}=...")
                 continue
             try:
-                resolved[name] = parameter.resolve(value)
+                resolved[name] = parameter.resolve(value, self.limits[name])
             except OptipathError as fault:
                 faults += fault.faults
         shapes = dict(self.shapes)

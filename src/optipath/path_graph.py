@@ -13,10 +13,11 @@ from optipath.cases import Case
 from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Detector, Element
-from optipath.errors import ParameterError, PathError, did_you_mean
+from optipath.errors import ParameterError, PathError, unknown
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
 from optipath.port_names import check_port, element_at, find_port
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -94,14 +95,20 @@ class PathGraph:
         loops: str = "refuse",
     ) -> None:
         if not isinstance(description, str):
-            raise PathError(f"the description of a path must be a text, not {description!r}")
+            raise PathError(f"the description of a path must be a text, not {shown(description)}")
         cases = {} if cases is None else cases
         if not isinstance(cases, Mapping) or not all(isinstance(c, Case) for c in cases.values()):
-            raise PathError(f"cases of a path must be a Case for each name, not {cases!r}")
+            raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
-        if loops not in LOOPS:
-            raise PathError(f"loops {loops!r} is unknown{did_you_mean(str(loops), LOOPS)}")
+        if faults := unknown("loops", loops, LOOPS):
+            raise PathError(*faults)
+        if not isinstance(declared, (tuple, list)) or not all(
+            isinstance(name, str) for name in declared
+        ):
+            raise PathError(
+                f"declared must be a list of names of parameters, not {shown(declared)}"
+            )
         self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
         self._plan: Plan | None = None
         self._plan_of_all: Plan | None = None
@@ -156,12 +163,12 @@ class PathGraph:
             does not exist.
         """
         if not isinstance(name, str) or not name or "." in name:
-            raise PathError(f"node name {name!r} must be a text without a dot; choose another")
+            raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
         if name in self._graph:
             raise PathError(f"node '{name}' is there already; choose another name")
         if not isinstance(element, Element):
             raise PathError(
-                f"node '{name}' must be an element such as Polarizer(), not {element!r}"
+                f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"
             )
         frames = {} if frames is None else frames
         if not isinstance(frames, Mapping) or not all(
@@ -169,7 +176,7 @@ class PathGraph:
         ):
             raise PathError(
                 f"frames of '{name}' must be a Frame for each port, such as "
-                f"{{'in': Frame()}}, not {frames!r}"
+                f"{{'in': Frame()}}, not {shown(frames)}"
             )
         frames = dict(frames)
         for port in frames:
@@ -269,8 +276,8 @@ class PathGraph:
             return plan.run(keep=keep, **parameters)
         if _is(keep, KEPT[0]):
             return plan.run(**parameters)
-        if not _is(keep, KEPT[1]):
-            raise ParameterError(f"keep {keep!r} is unknown{did_you_mean(str(keep), KEPT)}")
+        if faults := unknown("keep", keep, KEPT):
+            raise ParameterError(*faults)
         if self._plan_of_all is None:
             self._plan_of_all = Composer(keep="all").compose(self._graph)
         return self._plan_of_all.run_all(**parameters)

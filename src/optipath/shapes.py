@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import as_given
 from optipath.errors import ShapeError
+from optipath.jax_values import is_jax
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -44,7 +46,7 @@ def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
 
 
 def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
-    """Return an array of real numbers whose last axes are given.
+    """Return an array of real numbers whose last axes are given; what is JAX's stays so.
 
     Raises
     ------
@@ -56,10 +58,7 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
     >>> real_array("a Stokes vector", [1, 0, 0, 0], (4,))
     array([1., 0., 0., 0.])
     """
-    try:
-        array = np.asarray(value)
-    except ValueError:
-        raise ShapeError(f"{what} has rows of unequal lengths") from None
+    array = value if is_jax(value) else as_given(what, value, ShapeError)
     if array.dtype.kind in "iub":
         array = array.astype(np.float64)
     if array.dtype.kind != "f" or array.shape[-len(tail) :] != tail:

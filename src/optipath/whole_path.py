@@ -37,7 +37,7 @@ class WholePath(Runner):
         if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
             name = next(n for n, end in self.program.readings.items() if end is reading)
-            found = self.jax.matrix(resolved, batch, source, name)
+            found = self.jax.matrix(resolved, batch, parameters, source, name)
             self.refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
         given = self.sorter.sort(parameters)
@@ -89,7 +89,7 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            If a value is out of its range.
+            If a value is out of its range, or a Mueller matrix unphysical.
         """
         ends = self.program.readings
         if self.engine_for(given.paths) not in COMPILED:
@@ -112,7 +112,7 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            If a value is out of its range.
+            If a value is out of its range, or a Mueller matrix unphysical.
         """
         ends = self.program.readings
 

@@ -39,7 +39,8 @@ def told(caplog):
     return [record.message for record in caplog.records]
 
 
-def test_what_is_kept_is_found_again(kept):
+@pytest.mark.usefixtures("kept")
+def test_what_is_kept_is_found_again():
     assert CodeCache().load(TEXT) == CODE
     assert CodeCache().load(TEXT + " ") is None
 
@@ -94,19 +95,22 @@ def makers():
         yield sources, packages, python, other
 
 
+@pytest.mark.usefixtures("kept")
 @pytest.mark.parametrize("made_by", [*makers()], ids=lambda _: "")
-def test_code_by_other_sources_versions_or_processors_is_not_used(kept, monkeypatch, made_by):
+def test_code_by_other_sources_versions_or_processors_is_not_used(monkeypatch, made_by):
     monkeypatch.setattr(code_cache, "_maker", lambda: made_by)
     assert CodeCache().load(TEXT) is None
     monkeypatch.undo()
 
 
-def test_code_by_other_settings_of_numba_is_not_used(kept, monkeypatch):
+@pytest.mark.usefixtures("kept")
+def test_code_by_other_settings_of_numba_is_not_used(monkeypatch):
     monkeypatch.setenv("NUMBA_LOOP_VECTORIZE", "0")
     assert CodeCache().load(TEXT) is None
 
 
-def test_the_folder_of_numba_is_not_ours(folder, tmp_path, monkeypatch):
+@pytest.mark.usefixtures("folder")
+def test_the_folder_of_numba_is_not_ours(tmp_path, monkeypatch):
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "numba"))
     CodeCache().keep(TEXT, CODE)
     assert CodeCache().load(TEXT) == CODE
@@ -220,7 +224,7 @@ def of_all():
     shutil.rmtree(place)
 
 
-def test_what_another_user_owns_is_neither_used_nor_changed(of_all, monkeypatch, caplog):
+def test_what_another_user_owns_is_neither_used_nor_changed(of_all, monkeypatch):
     monkeypatch.setenv("OPTIPATH_CACHE", str(of_all / "cache"))
     CodeCache().keep(TEXT, CODE)
     first, *messages, last = as_other()
@@ -341,7 +345,8 @@ def test_a_home_that_is_nowhere_is_told(monkeypatch, caplog):
     assert "there is no home folder" in refused(CodeCache(), caplog)
 
 
-def test_a_file_removed_between_look_and_load_is_compiled_anew(kept, monkeypatch, caplog):
+@pytest.mark.usefixtures("kept")
+def test_a_file_removed_between_look_and_load_is_compiled_anew(monkeypatch, caplog):
     read = code_cache._read
 
     def removed(file):
@@ -367,12 +372,12 @@ BESIDE = """
 import sys
 sys.path[:0] = {path!r}
 from optipath.engines.code_cache import CodeCache
-for number in range(300):
+for number in range(60):
     text, cache = f"text {{number % 7}}", CodeCache()
     found = cache.load(text)
     assert found in (None, text.encode() * 50), found
     cache.keep(text, text.encode() * 50)
-    if number % 50 == 49:
+    if number % 20 == 19:
         cache.clear()
 """
 

@@ -9,10 +9,12 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from optipath.array_likes import as_given, doubles, rounding_of
 from optipath.errors import ValueFault
-from optipath.frozen import array_of, frozen
+from optipath.frozen import frozen
 from optipath.jax_values import is_traced
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.units import USUAL_UNITS, format_quantity
 
 
@@ -60,21 +62,19 @@ class Domain:
         """
         if self.quickly_allows(value) or is_traced(value):
             return value if is_traced(value) else np.array(value)
-        try:
-            array = array_of(value)
-        except ValueError:
-            raise ValueFault(f"{owner} has rows of unequal lengths; make it one shape") from None
+        given = as_given(owner, value)
+        array = doubles(given, (self.minimum, self.maximum))
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         if array.dtype.kind not in "fc":
-            raise ValueFault(f"{owner} must be {self.described()}, not {value!r}")
+            raise ValueFault(f"{owner} must be {self.described()}, not {shown(value)}")
         if self.tail and array.shape[-len(self.tail) :] != self.tail:
             wanted = ", ".join(map(str, ("...", *self.tail)))
             raise ValueFault(f"{owner} must have shape ({wanted}), not {array.shape}")
         if not np.all(np.isfinite(array)):
             found = array[~np.isfinite(array)].ravel()[0]
             raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
-        self._check_numbers(owner, array)
+        self._check_numbers(owner, array, rounding_of(given))
         return array
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
@@ -101,7 +101,7 @@ class Domain:
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
-        return frozen(value)
+        return frozen(value, (self.minimum, self.maximum))
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -124,12 +124,15 @@ class Domain:
     def _text(self, value: float) -> str:
         return format_quantity(value, self.unit)
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
         if array.dtype.kind == "c":
             raise ValueFault(f"{owner} is complex; give {self.described()}")
         if np.isinf(self.minimum) and np.isinf(self.maximum):
             return
-        bad = (array < self.minimum) | (array > self.maximum)
+        # Limits are doubles, and what rounds to one of them is inside.
+        rounded = array.astype(np.float64, copy=False)
+        bad = (rounded < self.minimum) | (rounded > self.maximum)
         if np.any(bad):
             value = self._text(float(array[bad].ravel()[0]))
             raise ValueFault(f"{owner} is {value}; give {self.described()}")

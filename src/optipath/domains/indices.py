@@ -12,6 +12,7 @@ from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
 from optipath.materials import Material
+from optipath.quoting import shown
 
 _N = Domain("index of refraction", minimum=0.0)
 _K = Domain("extinction coefficient", minimum=0.0)
@@ -48,7 +49,8 @@ class IndexDomain(Domain):
         """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
         bad = (array.real < 0.0) | (array.imag < 0.0)
         if np.any(bad):
             value = array[bad].ravel()[0]
@@ -94,10 +96,10 @@ class LitBehind(OutsideDomain):
             "'back'), and let a Medium absorb between"
         )
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         # A complex number without an imaginary part will do.
         real = array.real if array.dtype.kind == "c" and not np.any(array.imag) else array
-        super()._check_numbers(owner, real)
+        super()._check_numbers(owner, real, rounding)
 
 
 class InnerDomain(OutsideDomain):
@@ -140,8 +142,8 @@ class IndicesDomain(Domain):
             Always, since good lists are checked by their parts.
         """
         raise ValueFault(
-            f"{owner} is {value!r}; give a list of two indices or more, the medium in front first "
-            f"and the substrate last"
+            f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
+            f"first and the substrate last"
         )
 
     def check_parameter(self, owner: str, parameter: Any) -> None:

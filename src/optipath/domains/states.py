@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
+from optipath.frozen import frozen
 
 _ROUNDING = 1e-12
 _SINGLE_ROUNDING = 1e-6
@@ -33,7 +34,8 @@ class AmplitudeDomain(Domain):
         """Say in words which values are allowed."""
         return f"a real or complex {self.name} of a size of 1 or less"
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
         # Cut off, so that squares of what is far too much do not overflow.
         parts = (np.minimum(np.abs(part), 2.0) for part in (array.real, array.imag))
         bad = np.hypot(*parts) > 1.0 + _SINGLE_ROUNDING
@@ -48,8 +50,12 @@ class StokesDomain(Domain):
         """Return the vector, if there is one."""
         return [] if value is None else super().parts(name, value)
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
-        super()._check_numbers(owner, array)
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change, in the precision by which it is judged."""
+        return frozen(value, widened=False)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        super()._check_numbers(owner, array, rounding)
         negative = array[..., 0] < 0.0
         if np.any(negative):
             value = array[..., 0][negative].ravel()[0]
@@ -58,7 +64,8 @@ class StokesDomain(Domain):
         shares = np.abs(array[..., 1:]) / np.where(dark, 1.0, array[..., :1])
         # Cut off, so that squares of what is far too much do not overflow.
         polarised = np.linalg.norm(np.minimum(shares, 2.0), axis=-1)
-        bad = polarised > np.where(dark[..., 0], 0.0, 1.0 + _ROUNDING)
+        most = 1.0 + max(_ROUNDING, rounding * (1.0 + rounding))
+        bad = polarised > np.where(dark[..., 0], 0.0, most)
         if np.any(bad):
             state = array[bad].reshape(-1, 4)[0].tolist()
             raise ValueFault(

@@ -9,6 +9,7 @@ import platform
 import stat
 import tempfile
 from collections import OrderedDict
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from importlib.resources import files
@@ -258,10 +259,8 @@ class CodeCache:
     @staticmethod
     def _used(file: Path) -> None:
         """Note when an entry was used, where that can be noted."""
-        try:
+        with suppress(OSError):
             os.utime(file)
-        except OSError:
-            pass
 
     def _shrink(self) -> None:
         """Remove the entries that have not been used for longest, down to the limit."""

@@ -6,11 +6,13 @@ import ctypes
 import json
 from functools import cache
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import llvmlite
 import llvmlite.binding as llvm
-import numpy as np
+
+if TYPE_CHECKING:
+    import numpy as np
 
 _PLAIN = {"int64": ctypes.c_int64, "float64": ctypes.c_double}
 """What is given by its value; all else is the address of an array."""

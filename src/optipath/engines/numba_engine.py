@@ -10,8 +10,9 @@ import numpy as np
 from optipath.engines import numpy_engine
 from optipath.engines.code_cache import CODE
 from optipath.engines.expressions import assignments
-from optipath.engines.machine_code import address, compiled as compiled_text
-from optipath.formulas import Symbol
+from optipath.engines.machine_code import address
+from optipath.engines.machine_code import compiled as compiled_text
+from optipath.formulas import Symbol, left_formula
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
@@ -79,10 +80,11 @@ def source(formula: Formula) -> str:
         cuts.append(f"o{row} = {row} * paths + at + first + begin")
         inside.append(f"out[o{row} + i] = {written(result)}")
     inside.append(f"good = good & {written(formula.holds)}")
-    splits = _splits(formula)[1]
+    rooms, splits = _splits(formula)
     lines = [
         *(f"{name} = T({number})" for number, name in constants.items()),
         *before,
+        *(f"{name} = {place * _BLOCK}" for place, name in enumerate(rooms)),
         "good = True",
         "width = stop - start",
         "for row in range(top, bottom):",
@@ -117,12 +119,7 @@ _STARTS = {"column": "x{0} = start + begin", "cell": "x{0} = first + begin"}
 
 def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]]:
     """Return what is read before the loops, in a row, at a block, and in the inner loop."""
-    before, in_row, starts = [], [], []
-    split = {name: place for place, name in enumerate(_splits(formula)[0])}
-    inside = [
-        f"t{rest.index} = own[{split[f'l{formula.whole_of(rest).index}'] * _BLOCK} + i]"
-        for rest in formula.rests
-    ]
+    before, in_row, starts, inside = [], [], [], []
     for symbol in formula.inputs:
         n, place = symbol.index, formula.place_of(symbol)
         form = "t{0} = T({1})" if symbol.kind == "float" else "t{0} = {1} != 0"
@@ -133,35 +130,52 @@ def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]
         else:
             starts.append(_STARTS[place].format(n))
             wide = formula.name_of(symbol) in formula.wide
-            read = f"own[{split[f'h{n}'] * _BLOCK} + i]" if wide else f"a{n}[x{n} + i]"
-            inside.append(form.format(n, read))
+            inside.append(form.format(n, f"own[h{n} + i]" if wide else f"a{n}[x{n} + i]"))
+    for left in formula.lefts:
+        if left.uniform:
+            lines = _left(left, f"a{formula.whole_of(left).index}")
+            before += [*lines, f"t{left.index} = T({lines[-1].split()[0]})"]
+        else:
+            inside.append(f"t{left.index} = own[l{left.index} + i]")
     return before, in_row, starts, inside
 
 
 def _splits(formula: Formula) -> tuple[list[str], list[str]]:
-    """Return the rooms for numbers of more digits, and the lines that split them.
+    """Return the rooms for numbers of more digits, and the lines that make them.
 
     In loops of their own, since the widest number in a loop says how many fit at a time.
     """
-    with_rest = {formula.whole_of(rest).index for rest in formula.rests}
-    rooms: list[str] = []
-    loops: list[str] = []
+    rooms, loops = [], []
     for symbol in formula.inputs:
         n = symbol.index
         if formula.name_of(symbol) in formula.wide:
+            rooms.append(f"h{n}")
             low, most = formula.wide[formula.name_of(symbol)]
             lines = [
                 f"given = a{n}[x{n} + i]",
                 f"good = good & ({low!r} <= given) & (given <= {most!r})",
-                "high = T(given)",
-                f"own[{len(rooms) * _BLOCK} + i] = high",
+                f"own[h{n} + i] = T(given)",
             ]
-            rooms.append(f"h{n}")
-            if n in with_rest:
-                lines.append(f"own[{len(rooms) * _BLOCK} + i] = T(given - high)")
-                rooms.append(f"l{n}")
+            for left in formula.lefts:
+                if formula.whole_of(left) is symbol:
+                    rooms.append(f"l{left.index}")
+                    lines += _left(left, "given")
+                    lines.append(f"own[l{left.index} + i] = T({lines[-1].split()[0]})")
             loops += ["for i in range(end - begin):", *_indented(*lines)]
     return rooms, loops
+
+
+def _left(left: Symbol, angle: str) -> list[str]:
+    """Return the lines that compute what is left of an angle, in double precision."""
+    formula = left_formula(left.operation)
+    (given,) = formula.inputs
+
+    def written(operand: Any) -> str:
+        if not isinstance(operand, Symbol):
+            return repr(operand.item())
+        return f"d{left.index}_{operand.index}" if operand is not given else angle
+
+    return assignments(formula.steps, written)
 
 
 def _indented(*lines: str) -> list[str]:

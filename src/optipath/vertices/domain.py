@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
 
+from optipath.array_likes import array_of
 from optipath.domains import Domain, Quantity
 from optipath.errors import ValueFault
-from optipath.frozen import array_of, frozen
+from optipath.frozen import frozen
 from optipath.kernels import LONGEST, SHORTEST
 from optipath.vertices.by_angles import VerticesByAngles
 from optipath.vertices.naming import of_chain, pieces_of
@@ -69,8 +70,8 @@ class VerticesDomain(Domain):
 
     def _not_finite(self, owner: str, value: Any) -> str:
         try:
-            array = array_of(value)
-        except ValueError:
+            array = array_of(owner, value)
+        except ValueFault:
             return ""
         if array.dtype.kind not in "fc" or array.shape[-2:] != self.tail[-2:] or array.ndim < 2:
             return ""
@@ -82,8 +83,8 @@ class VerticesDomain(Domain):
         where, given = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
         return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {given}; give finite coordinates"
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
-        super()._check_numbers(owner, array)
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        super()._check_numbers(owner, array, rounding)
         chains = array.reshape(-1, *array.shape[-2:])
         for piece in pieces_of(len(chains)):
             some = chains[piece]

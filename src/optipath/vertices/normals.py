@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.frozen import array_of
+from optipath.array_likes import as_given
+from optipath.errors import ValueFault
+from optipath.quoting import shown
 from optipath.shapes import broadcast_fault
 from optipath.vertices.naming import of_chain, pieces_of
 
@@ -44,11 +46,11 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     ['the normal of vertex 1 has no length; give one with a direction of its own']
     """
     try:
-        given = array_of(normals)
-    except ValueError:
-        return ["normals have rows of unequal lengths; make them one shape"]
+        given = as_given("the array of normals", normals)
+    except ValueFault as fault:
+        return list(fault.faults)
     if given.dtype.kind not in "iuf":
-        return [f"normals must be real numbers, not {normals!r}"]
+        return [f"normals must be real numbers, not {shown(normals)}"]
     if given.shape[-2:] != (count, 3):
         return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
     given = given.astype(np.float64, copy=False)

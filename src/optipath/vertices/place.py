@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.vertices.by_angles import VerticesByAngles
 from optipath.vertices.coordinates import Coordinates, coordinates
 
@@ -65,7 +66,7 @@ class PlaceInChain:
         found = []
         if self.reflections is not None and not is_count(self.reflections):
             found.append(
-                f"{owner}.reflections must be a whole number above 0, not {self.reflections!r}"
+                f"{owner}.reflections must be a whole number above 0, not {shown(self.reflections)}"
             )
         elif not self.count and isinstance(self.vertices, Parameter):
             found.append(
@@ -74,7 +75,7 @@ class PlaceInChain:
             )
         if not is_count(self.number) or self.number > (self.count or np.inf):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
-            given = "a parameter" if isinstance(self.number, Parameter) else repr(self.number)
+            given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
             found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
         return found
 
