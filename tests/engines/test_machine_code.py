@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 pytest.importorskip("numba")
-from optipath.engines import machine_code  # noqa: E402 - needs numba
-from optipath.engines.code_cache import CodeCache  # noqa: E402
-from optipath.engines.machine_code import MachineCode, address, compiled  # noqa: E402
+from optipath.engines import code_cache, machine_code
+from optipath.engines.code_cache import CodeCache
+from optipath.engines.machine_code import MachineCode, address, compiled
 
 TEXT = """
 def path(count: 'int64', factor: 'float64', given: '*float64', flags: '*uint8', out: '*float64'):
@@ -116,8 +116,6 @@ def test_altered_helpers_are_compiled_anew(code, monkeypatch, tmp_path):
     package = Path(machine_code.__file__).parent
     for name in ("numba_helpers.py", "machine_code.py"):
         (tmp_path / name).write_text((package / name).read_text("utf-8") + "\n", "utf-8")
-    from optipath.engines import code_cache
-
     code_cache._maker.cache_clear()
     monkeypatch.setattr(code_cache, "files", lambda _: tmp_path)
     assert CodeCache().load("a text") is None

@@ -6,13 +6,10 @@ import ctypes
 import json
 from functools import cache
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import llvmlite
 import llvmlite.binding as llvm
-
-if TYPE_CHECKING:
-    import numpy as np
 
 _PLAIN = {"int64": ctypes.c_int64, "float64": ctypes.c_double}
 """What is given by its value; all else is the address of an array."""
@@ -28,7 +25,7 @@ def compiled(text: str) -> bytes:
     module = llvm.parse_assembly(library.get_llvm_str())
     needs = [f.name for f in module.functions if f.is_declaration and "llvm." not in f.name]
     header = json.dumps({"name": name, "kinds": kinds, "needs": needs})
-    return header.encode() + b"\n" + library.emit_native_object()
+    return header.encode() + b"\n" + bytes(library.emit_native_object())
 
 
 def assembly(text: str) -> str:
@@ -39,38 +36,48 @@ def assembly(text: str) -> str:
 
 def _library(text: str) -> tuple[Any, str, list[str]]:
     """Return the code of a text as Numba has it, the name of its function, and its types."""
-    from numba.core import codegen, compiler, registry, types  # noqa: PLC0415 - not to load code
+    from numba.core import compiler, registry, types  # noqa: PLC0415 - not to load code
     from numba.core.compiler_lock import global_compiler_lock  # noqa: PLC0415
-
-    class Codegen(codegen.JITCPUCodegen):  # type: ignore[misc] # numba has no types
-        """For this processor, but not into the engine of Numba, which never frees code."""
-
-        _library_class = codegen.AOTCodeLibrary
-
-        def _add_module(self, module: Any) -> None:
-            del module
 
     space: dict[str, Any] = {"__name__": __name__}
     exec(compile(text, "<formula>", "exec", dont_inherit=True), space)  # noqa: S102 - our own
     path = space["path"]
     kinds = list(path.__annotations__.values())
-    flags = compiler.Flags()
+    flags: Any = compiler.Flags()
     flags.error_model = "numpy"
     # Nothing is written where something is read, which spares the loops looking.
     flags.noalias = True
     flags.no_compile = flags.no_cpython_wrapper = flags.no_cfunc_wrapper = True
+    pointer: Any = types.CPointer  # type: ignore[attr-defined,unused-ignore] # as it has no types
     arguments = tuple(
-        types.CPointer(getattr(types, kind[1:])) if kind[0] == "*" else getattr(types, kind)
+        pointer(getattr(types, kind[1:])) if kind[0] == "*" else getattr(types, kind)
         for kind in kinds
     )
     with global_compiler_lock:
         target = registry.cpu_target
-        context = target.target_context.subtarget(_internal_codegen=Codegen("optipath"))
+        context = target.target_context.subtarget(_internal_codegen=_codegen()("optipath"))
         made = compiler.compile_extra(
             target.typing_context, context, path, arguments, types.int64, flags, {}
         )
         made.library.finalize()
     return made.library, made.fndesc.llvm_func_name, kinds
+
+
+@cache
+def _codegen() -> Any:
+    """Return what makes code for this processor.
+
+    Not into the engine of Numba, which never frees what it holds.
+    """
+    from numba.core import codegen  # noqa: PLC0415 - not to load code
+
+    class Codegen(codegen.JITCPUCodegen):  # type: ignore[misc] # numba has no types
+        _library_class = codegen.AOTCodeLibrary
+
+        def _add_module(self, module: Any) -> None:
+            del module
+
+    return Codegen
 
 
 class MachineCode:
@@ -103,7 +110,7 @@ class MachineCode:
         self._engine.finalize_object()
         self._room = ctypes.c_void_p()
         self._raised = ctypes.addressof(self._room)
-        kinds = (_PLAIN.get(kind, ctypes.c_void_p) for kind in about["kinds"])
+        kinds: Any = (_PLAIN.get(kind, ctypes.c_void_p) for kind in about["kinds"])
         # As Numba calls functions: first where the result goes, and what would be raised.
         self._function = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, *kinds)(
             self._engine.get_function_address(about["name"])
@@ -126,7 +133,7 @@ def _begin() -> None:
     llvm.initialize_native_asmprinter()
 
 
-def address(array: np.ndarray[Any, Any]) -> int:
+def address(array: Any) -> int:
     """Return where the numbers of an array are."""
     try:
         return ctypes.addressof(ctypes.c_char.from_buffer(array))
