@@ -413,3 +413,27 @@ def test_complex_numbers_are_read_and_told_as_what_they_are(capsys, tmp_path):
     _, out, _ = run(capsys, "run", str(file), "--r=-0.3+0.2j", "--json")
     told = json.loads(out)["parameters"]
     assert told == {"r": {"re": -0.3, "im": 0.2}, "m": {"n": 0.2, "k": 3.0}}
+
+
+def test_the_cache_of_compiled_code_is_shown_and_cleared(capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("OPTIPATH_CACHE_BYTES", "5000")
+    (tmp_path / "cache").mkdir(mode=0o700)
+    (tmp_path / "cache" / "one.code").write_bytes(bytes(1234))
+    shown = {"folder": str(tmp_path / "cache"), "entries": 1, "bytes": 1234, "limit": 5000}
+    assert json.loads(run(capsys, "cache", "--json")[1]) == shown
+    _, out, _ = run(capsys, "cache")
+    assert str(tmp_path / "cache") in out
+    assert "1,234" in out
+    assert "removed 1 " in run(capsys, "cache", "--clear")[1]
+    assert json.loads(run(capsys, "cache", "--json")[1])["entries"] == 0
+
+
+def test_trouble_with_the_cache_is_one_line(capsys, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "file"))
+    for arguments in (["cache"], ["cache", "--clear"], ["cache", "--json"]):
+        status, out, err = run(capsys, *arguments)
+        assert (status, out) == (2, "")
+        assert "is no folder" in err
+        assert err.count("\n") == 1
