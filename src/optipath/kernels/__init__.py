@@ -30,7 +30,7 @@ from optipath.kernels.compensated import (
     compensated_transmission,
 )
 from optipath.kernels.composed import Composed, composed
-from optipath.kernels.double_double import DoubleDouble, twice
+from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.elimination import Elimination, is_zero
 from optipath.kernels.jones import Jones
 from optipath.kernels.kernel import Factory, Kernel, KernelFamily
