@@ -110,10 +110,10 @@ def twice(xp: Primitives) -> Primitives:
         frexp=lambda number: (number, xp.frexp(number.high)[1]),
         ldexp=ldexp,
         fixed=lambda number: number,
-        **{
-            name: partial(_missing, name)
+        **dict[str, Any](
+            (name, partial(_missing, name))
             for name in ("sin", "cos", "exp", "atan2", "two_product", "hidden")
-        },
+        ),
     )
 
 
