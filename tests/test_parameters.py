@@ -35,7 +35,7 @@ def test_words_stand_for_values_and_none_for_absence():
         ({"name": "a", "unit": None}, "'None' is unknown"),
         ({"name": "a", "help": 3}, "must be a text"),
         ({"name": "a", "optional": "yes"}, "True or False"),
-        ({"name": "a", "default": 10**400}, "must be numbers"),
+        ({"name": "a", "default": 10**400}, "must be a number"),
     ],
 )
 def test_a_parameter_that_cannot_be_is_refused(keywords, message):

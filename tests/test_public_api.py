@@ -11,7 +11,9 @@ SOURCE = Path(op.__file__).parent
 ROOMS = [
     "errors",
     "jax_values",
+    "array_likes",
     "frozen",
+    "memory",
     "shapes",
     "units",
     "angles",

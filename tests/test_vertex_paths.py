@@ -258,7 +258,7 @@ def test_a_normal_off_the_bisector_is_named_with_its_angle():
         (({}, [1.5]), ["not {}"]),
         (((point for point in CORNER), [1.5]), ["not <generator"]),
         ((CORNER, [1.5], [[0, 1j, 1]]), ["normals must be real numbers, not"]),
-        ((CORNER, [1.5], [[0, 1], [1]]), ["normals have rows of unequal lengths"]),
+        ((CORNER, [1.5], [[0, 1], [1]]), ["the array of normals has rows of unequal lengths"]),
         ((CORNER, [1.5], [[0, np.nan, 1]]), ["the normal of vertex 1 is not finite"]),
         (([[CORNER] * 3] * 2, [1.5], [[[0, 1, 1]]] * 2), ["vertices (2, 3), normals (2,)"]),
         (

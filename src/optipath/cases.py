@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from optipath.array_likes import array_of
+from optipath.errors import ParameterError, shown
 from optipath.frozen import frozen, same
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,6 +23,11 @@ class Case:
         The published Stokes vector for each detector, as printed.
     note : str
         What a reader should know about it.
+
+    Raises
+    ------
+    ParameterError
+        If values are no mapping, or what is published is no sequence of numbers.
     """
 
     values: Mapping[str, Any]
@@ -30,10 +35,11 @@ class Case:
     note: str = ""
 
     def __post_init__(self) -> None:
+        for what, given in (("values", self.values), ("published", self.published)):
+            if not isinstance(given, Mapping):
+                raise ParameterError(f"{what} of a case must be a mapping, not {shown(given)}")
         values = {str(name): frozen(value) for name, value in self.values.items()}
-        published = {
-            str(name): tuple(map(float, stokes)) for name, stokes in self.published.items()
-        }
+        published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)
 
@@ -47,3 +53,10 @@ class Case:
         )
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _numbers(name: Any, stokes: Any) -> tuple[float, ...]:
+    array = array_of(f"what is published at {name}", stokes, ParameterError)
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
+        raise ParameterError(f"what is published at {name} must be numbers, not {shown(stokes)}")
+    return tuple(array.astype(float).tolist())

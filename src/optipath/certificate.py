@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import entries_of
 from optipath.domains import Domain
 from optipath.errors import ParameterError, ValueFault
 from optipath.faint import is_faint
@@ -16,6 +16,8 @@ from optipath.kernels import NUMPY, Boosts, boosted, largest_error, ratio_bounds
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
 
@@ -87,10 +89,9 @@ def intensity_bounds(
     >>> print(lower, upper)
     0.0 2.0
     """
-    if isinstance(diattenuations, str) or not isinstance(diattenuations, (Sequence, np.ndarray)):
-        raise ParameterError(f"diattenuations must be a sequence, not {diattenuations!r}")
+    several = entries_of("diattenuations", "numbers", diattenuations, ParameterError)
     given = {"source_dop": (source_dop, _DOP)}
-    given |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(diattenuations)}
+    given |= {f"diattenuations[{i}]": (d, _DIATTENUATION) for i, d in enumerate(several)}
     numbers: dict[str, npt.NDArray[Any]] = {}
     faults: list[str] = []
     for name, (value, domain) in given.items():

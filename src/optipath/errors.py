@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from difflib import get_close_matches
-from typing import TYPE_CHECKING
+from reprlib import Repr
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
 
 _LONGEST = 600
+_SHORT = Repr()
+_SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxlong, _SHORT.maxother = 4, 80, 40, 200
 
 
 class OptipathError(Exception):
@@ -32,6 +35,10 @@ class OptipathError(Exception):
         short = tuple(map(_shortened, faults))
         super().__init__(*short)
         self.faults = short
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Whatever a subclass is made of, its sentences are what it is.
+        return _of_faults, (type(self), self.faults), self.__dict__
 
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
@@ -113,12 +120,27 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    names, word = list(known), str(word)
+    names, word = list(known), word if type(word) is str else shown(word)
     by_lower = {name.lower(): name for name in reversed(names)}
     close = get_close_matches(word.lower(), by_lower, n=1)
     if close:
         return f"; did you mean '{by_lower[close[0]]}'?"
     return f"; there are: {', '.join(names)}" if names else "; there are none"
+
+
+def shown(value: object) -> str:
+    """Return what somebody has given as a sentence quotes it: in one short line, whatever it is.
+
+    Examples
+    --------
+    >>> shown([1.0, "a"]), shown("a" * 1000)[-10:], shown(10**400)[:10]
+    ("[1.0, 'a']", "aaaaaaaaa'", '1000000000')
+    """
+    try:
+        text = " ".join(_SHORT.repr(value).split())
+    except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
+        text = f"something of type {type(value).__name__}"
+    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def listed(words: Sequence[str]) -> str:
@@ -131,6 +153,12 @@ def listed(words: Sequence[str]) -> str:
     """
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last
+
+
+def _of_faults(kind: type[OptipathError], faults: tuple[str, ...]) -> OptipathError:
+    error = kind.__new__(kind, *faults)
+    OptipathError.__init__(error, *faults)
+    return error
 
 
 def _shortened(fault: str) -> str:

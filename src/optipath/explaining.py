@@ -90,7 +90,10 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     whole = plan.whole_path
     if whole.has_traced:
         return {"text": "depends on values that JAX traces"}
-    found = whole.certificates(whole.given({}), {})
+    try:
+        found = whole.certificates(whole.given({}), {})
+    except ParameterError as fault:
+        return {"text": f"none, since {fault}"}
     bounds = {name: _extremes(one) for name, one in found.items()}
     if len(bounds) > _FEW:
         return {"bounds": bounds, "text": f"for {len(bounds)} ends; see plan.certificate(...)"}

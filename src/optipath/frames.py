@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import FrameError
+from optipath.array_likes import array_of
+from optipath.errors import FrameError, ShapeError, shown
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
 from optipath.shapes import check_broadcast
@@ -55,10 +56,10 @@ class Frame:
             for name, axis in zip("xyz", (x, y, z), strict=True)
         }
         try:
-            together = np.broadcast_arrays(*axes.values())
-        except ValueError:
-            shapes = ", ".join(f"{name} {axis.shape}" for name, axis in axes.items())
-            raise FrameError(f"the axes of a frame do not broadcast: {shapes}") from None
+            check_broadcast({name: axis.shape[:-1] for name, axis in axes.items()})
+        except ShapeError as fault:
+            raise FrameError(f"axes of a frame: {fault}") from None
+        together = np.broadcast_arrays(*axes.values())
         for name, axis in zip(axes, together, strict=True):
             object.__setattr__(self, name, frozen(axis))
         self._check()
@@ -99,6 +100,7 @@ class Frame:
         """
         along = _unit("z", vectors("axis z of a frame", z))
         towards = _unit("x", vectors("axis x of a frame", x))
+        check_broadcast({"z": along.shape[:-1], "x": towards.shape[:-1]})
         across = towards
         for _ in range(2):  # The second time mends what the first rounds, where x is near z.
             across = across - np.sum(across * along, axis=-1, keepdims=True) * along
@@ -156,7 +158,7 @@ class Frame:
         (True, 1.0)
         """
         if not isinstance(other, Frame):
-            raise FrameError(f"a frame is aligned with a Frame, not with {other!r}")
+            raise FrameError(f"a frame is aligned with a Frame, not with {shown(other)}")
         check_broadcast({"frame": self.z.shape[:-1], "other frame": other.z.shape[:-1]})
         apart = np.linalg.norm(self.z - other.z, axis=-1)
         if np.any(apart > _TOLERANCE):
@@ -227,10 +229,10 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 
 def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise FrameError(f"{what} must be numbers, not {value!r}") from None
+    array = array_of(what, value, FrameError)
+    if array.dtype.kind not in "iufb":
+        raise FrameError(f"{what} must be numbers, not {shown(value)}")
+    array = array.astype(np.float64, copy=False)
     if not np.all(np.isfinite(array)):
         raise FrameError(f"{what} must be finite; check for NaN and infinity")
     return array

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.angles import is_angle, within_right_angle
+from optipath.array_likes import as_given
 from optipath.domains import INCIDENCE, INDEX, OUTSIDE, Domain
 from optipath.errors import ValueFault
 from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION, cosine, refraction, sine
@@ -110,11 +112,12 @@ def _fresnel(
 ) -> tuple[npt.NDArray[Any], ...]:
     kernel, kind = family.by_method(method), precision(dtype)
     m = INDEX.check("index", index)
-    c = _COSINE.check("cos_incidence", cos)
+    cos, sin = as_given("cos_incidence", cos), as_given("sin_incidence", sin)
+    c = _COSINE.check("cos_incidence", within_right_angle(cos, sin))
     s = _COSINE.check("sin_incidence", sin)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
     shape = check_broadcast(shapes)
-    if np.any(np.abs(np.hypot(c, s) - 1.0) > 1e-6):
+    if not is_angle(cos, sin):
         raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
     # Adding 0 turns -0 into 0.
     given = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))

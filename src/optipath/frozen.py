@@ -2,44 +2,39 @@
 
 from __future__ import annotations
 
+from types import NoneType
 from typing import Any
 
 import numpy as np
 
+from optipath.array_likes import ENDLESS, as_given, doubles, within
+from optipath.errors import OptipathError
+from optipath.jax_values import is_traced
 
-def array_of(value: Any) -> np.ndarray[Any, Any]:
-    """Return an array of a value, of float64 at least; words beside numbers stay words.
-
-    Examples
-    --------
-    >>> array_of([0.5, "none"]).tolist()
-    [0.5, 'none']
-    """
-    array = np.asarray(value)
-    if array.dtype.kind == "U" and not isinstance(value, (str, np.ndarray)):
-        return np.asarray(value, dtype=object)
-    if array.dtype in (np.float16, np.float32):
-        # The precision of a plan is the composer's to choose, not that of what it is given.
-        return array.astype(np.float64)
-    return array.astype(np.complex128) if array.dtype == np.complex64 else array
+_SCALARS = (str, bytes, int, float, complex, NoneType)
 
 
-def frozen(value: Any) -> Any:
-    """Return a value that nobody can change: arrays and lists become read-only copies.
+def frozen(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
+    """Return a value that nobody can change: whatever is an array becomes a read-only copy.
 
-    What is a read-only array of its own already stays what it is.
+    What is a read-only array of its own already stays what it is, and what is no array of
+    numbers or words is kept as given, for validation to name. Numbers become doubles at least,
+    as `doubles` has it, unless arrays are not to be widened.
 
     Examples
     --------
     >>> frozen([1.0, 2.0]).flags.writeable
     False
     """
-    if isinstance(value, (list, tuple, np.ndarray)):
-        try:
-            array = array_of(value)
-        except ValueError:
-            # Rows of unequal lengths: kept as given, for validation to name.
-            return tuple(value)
+    if type(value) in _SCALARS or is_traced(value):
+        return value
+    try:
+        array = as_given("", value)
+        array = within(array, limits) if array.ndim and not widened else doubles(array, limits)
+    except OptipathError:
+        # A list is copied all the same.
+        return tuple(value) if type(value) is list else value
+    if isinstance(value, (list, tuple, np.ndarray)) or array.dtype.kind != "O":
         if array is value and array.ndim and array.flags.owndata and not array.flags.writeable:
             return array
         array = array.copy()
@@ -47,8 +42,6 @@ def frozen(value: Any) -> Any:
             return array.item()
         array.flags.writeable = False
         return array
-    if isinstance(value, np.generic):
-        return value.item()
     return value
 
 
@@ -64,6 +57,9 @@ def same(first: Any, second: Any) -> bool:
         return True
     if isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(map(same, first, second))
-    if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
-        return np.array_equal(np.asarray(first), np.asarray(second))
-    return bool(first == second)
+    try:
+        if isinstance(first, np.ndarray) or isinstance(second, np.ndarray):
+            return np.array_equal(np.asarray(first), np.asarray(second))
+        return bool(first == second)
+    except Exception:  # noqa: BLE001 - what cannot be compared is not the same
+        return False

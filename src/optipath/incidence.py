@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import FrameError
+from optipath.errors import FrameError, shown
 from optipath.faint import near_one
 from optipath.frames import Frame, vectors
 from optipath.kernels import NUMPY, DoubleDouble
@@ -81,7 +81,7 @@ def plane_of_incidence(
     sin, cos = _length(across) / lengths, np.abs(along) / lengths
     parallel = sin < _PARALLEL
     if keep is not None and not isinstance(keep, Frame):
-        raise FrameError(f"keep must be the Frame that the light has, not {keep!r}")
+        raise FrameError(f"keep must be the Frame that the light has, not {shown(keep)}")
     x = _axis(across, k, parallel, keep)
     z = k / _length(k)[..., np.newaxis]
     unit = n / _length(n)[..., np.newaxis]

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import and_
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
+from optipath.array_likes import as_given
 from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean
+from optipath.jax_values import is_traced
 from optipath.parameters import Parameter
-from optipath.shapes import broadcast_fault
+from optipath.shapes import broadcast_fault, joint_shape
 from optipath.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    import numpy as np
 
     from optipath.domains import Domain
     from optipath.parameters import Resolved
@@ -43,20 +46,42 @@ class Use:
         """Whether the value is a parameter that is given when the plan runs."""
         return isinstance(self.value, Parameter) and not self.value.bound
 
+    @property
+    def is_traced(self) -> bool:
+        """Whether the value is known, but to JAX alone, which traces it."""
+        value = self.value
+        known = value.default if isinstance(value, Parameter) and value.bound else value
+        return is_traced(known)
+
     def batch_shape(self, numbers: Any) -> tuple[int, ...]:
         """Return the shape of numbers for this place, the axes of one value left out."""
         if type(numbers) is float:
             return ()
-        try:
-            shape: tuple[int, ...] = np.shape(numbers)
-        except ValueError:
-            return ()  # Rows of unequal lengths are a fault of their own.
+        if is_traced(numbers):
+            shape: tuple[int, ...] = numbers.shape
+        else:
+            try:
+                shape = as_given("", numbers).shape
+            except OptipathError:
+                return ()  # What is no array is a fault of its own.
         return shape[: len(shape) - len(self.domain.tail)]
 
     def known_shape(self) -> tuple[int, ...]:
         """Return the batch shape of a value that is known."""
         value = self.value
         return self.batch_shape(value.default if isinstance(value, Parameter) else value)
+
+    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
+        """Return for which paths a value that JAX traces is allowed; True for any other."""
+        value, parameter = self.value, isinstance(self.value, Parameter)
+        numbers = resolved[value.name].value if self.is_open else value
+        numbers = numbers.default if parameter and value.bound else numbers
+        if not is_traced(numbers):
+            return True
+        signed = -numbers if parameter and value.negative else numbers
+        found = [self.domain.allows(signed), *([value.allows(numbers)] if parameter else [])]
+        batch = len(self.batch_shape(numbers))
+        return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
 
     def check(self) -> None:
         """Check what is known of the value: all of it, or a parameter's unit and default.
@@ -105,12 +130,15 @@ class Inputs:
         Where the open parameters stand.
     shapes : mapping of str to tuple of int
         The batch shapes of arrays that are known, by owner.
+    known : tuple of Use
+        Where values stand that are known, but to JAX alone.
     """
 
     open: Mapping[str, Parameter]
     bound: Mapping[str, Parameter]
     uses: tuple[Use, ...]
     shapes: Mapping[str, tuple[int, ...]]
+    known: tuple[Use, ...] = ()
 
     def resolve(self, given: Mapping[str, Any]) -> tuple[dict[str, Resolved], tuple[int, ...]]:
         """Return the numbers of every open parameter, and the shape of the batch.
@@ -128,7 +156,7 @@ class Inputs:
                 faults.append(f"parameter '{name}' has no value; give one, {name}=...")
                 continue
             try:
-                resolved[name] = parameter.resolve(value)
+                resolved[name] = parameter.resolve(value, self.limits[name])
             except OptipathError as fault:
                 faults += fault.faults
         shapes = dict(self.shapes)
@@ -148,7 +176,11 @@ class Inputs:
         faults += broadcast_fault(shapes)
         if faults:
             raise ParameterError(*faults)
-        return resolved, np.broadcast_shapes(*shapes.values())
+        return resolved, joint_shape(*shapes.values())
+
+    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
+        """Return for which paths all values that JAX traces are allowed; True where it has none."""
+        return reduce(and_, (use.inside(resolved) for use in (*self.uses, *self.known)), True)  # noqa: FBT003
 
     @cached_property
     def limits(self) -> dict[str, tuple[float, float]]:
@@ -180,7 +212,7 @@ class Inputs:
     __hash__ = None  # type: ignore[assignment]
 
     def _batch(self) -> tuple[int, ...]:
-        return np.broadcast_shapes(*self.shapes.values())
+        return joint_shape(*self.shapes.values())
 
     def _unknown(self, name: str) -> str:
         if name in self.bound:

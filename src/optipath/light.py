@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import FrameError, ShapeError
+from optipath.array_likes import as_given
+from optipath.errors import FrameError, ShapeError, shown
 from optipath.faint import times_two_to
 from optipath.frames import Frame
 from optipath.frozen import same
-from optipath.jax_values import check_known, is_jax, is_traced, known, namespace
+from optipath.jax_values import check_known, is_traced, known, namespace
 from optipath.kernels import turn_linear
 from optipath.polarization_state import (
     amplitude_angle,
@@ -74,13 +75,14 @@ class Light:
     def __init__(self, stokes: Any, frame: Frame | None = None, exponent: Any = 0) -> None:
         frame = Frame() if frame is None else frame
         if not isinstance(frame, Frame):
-            raise FrameError(f"the frame of a light must be a Frame, not {frame!r}")
-        mantissa = stokes if is_jax(stokes) else real_array("a Stokes vector", stokes, (4,))
+            raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
+        mantissa = real_array("a Stokes vector", stokes, (4,))
         check_known("the exponent of a light", exponent)
-        given, exponent = exponent, np.asarray(exponent)
+        given, exponent = exponent, as_given("the exponent of a light", exponent, ShapeError)
         if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
             raise ShapeError(
-                f"the exponent of a light must be an integer within -2^40 .. 2^40, not {given!r}"
+                f"the exponent of a light must be an integer within -2^40 .. 2^40, "
+                f"not {shown(given)}"
             )
         batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
         exponent = np.broadcast_to(exponent.astype(np.int64), batch)

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.errors import ParameterError, UnitError, did_you_mean
-from optipath.frozen import array_of, frozen, same
-from optipath.jax_values import is_traced
+from optipath.array_likes import array_of, as_given, doubles, within
+from optipath.errors import ParameterError, UnitError, did_you_mean, shown
+from optipath.frozen import frozen, same
+from optipath.jax_values import is_traced, namespace
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -85,7 +86,7 @@ class Parameter:
     def __post_init__(self) -> None:
         if not isinstance(self.name, str) or not self.name.isidentifier():
             raise ParameterError(
-                f"parameter name {self.name!r} must be letters, digits and underscores, "
+                f"parameter name {shown(self.name)} must be letters, digits and underscores, "
                 f"not starting with a digit"
             )
         dimension_of(self.unit)
@@ -104,7 +105,8 @@ class Parameter:
                 f"plan runs, or give an angle"
             )
         if self.default is not None:
-            object.__setattr__(self, "default", frozen(self._as_number(self.default)))
+            default = frozen(self._as_number(self.default), (low, high), widened=False)
+            object.__setattr__(self, "default", default)
             self.resolve(self.default)
         elif self.bound:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
@@ -121,36 +123,41 @@ class Parameter:
             value = getattr(self, name)
             if not isinstance(value, kind):
                 raise ParameterError(
-                    f"{name} of parameter '{self.name}' must be {described}, not {value!r}"
+                    f"{name} of parameter '{self.name}' must be {described}, not {shown(value)}"
                 )
 
     def _limit(self, value: Any) -> float:
-        try:
-            return float(value)
-        except (TypeError, ValueError, OverflowError):
+        array = array_of(f"the range of parameter '{self.name}'", value, ParameterError)
+        if array.ndim or array.dtype.kind not in "iuf":
             raise ParameterError(
-                f"the range of parameter '{self.name}' must be numbers, not {value!r}"
-            ) from None
+                f"the range of parameter '{self.name}' must be numbers, not {shown(value)}"
+            )
+        return float(array)
 
     def _word(self, word: Any, value: Any) -> float:
         if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
             raise ParameterError(
-                f"parameter '{self.name}' cannot have the word {word!r}; begin with a letter, "
+                f"parameter '{self.name}' cannot have the word {shown(word)}; begin with a letter, "
                 f"and keep '{ABSENT}' for an element that is left out"
             )
-        if isinstance(value, str) or np.ndim(value) or isinstance(value, complex):
+        number = self.resolve(value).value
+        if isinstance(value, str) or number.ndim or number.dtype.kind == "c":
             raise ParameterError(
-                f"the word '{word}' of parameter '{self.name}' must be a number, not {value!r}"
+                f"the word '{word}' of parameter '{self.name}' must be a number, not {shown(value)}"
             )
-        return float(self.resolve(value).value)
+        return float(number)
 
     def _as_number(self, value: Any) -> Any:
         """Return a default with its texts read; words stay words."""
         if isinstance(value, str):
             return self.parse(value)
-        if isinstance(value, (list, tuple)):
-            return [self._as_number(entry) for entry in value]
-        return value
+        if not isinstance(value, (list, tuple)):
+            return value
+        array = as_given(f"parameter '{self.name}'", value, ParameterError)
+        if array.dtype.kind not in "UO":
+            return array
+        read = [self._as_number(entry) for entry in array.ravel().tolist()]
+        return np.array(read, object).reshape(array.shape).tolist()
 
     def __neg__(self) -> Parameter:
         return replace(self, negative=not self.negative)
@@ -168,7 +175,7 @@ class Parameter:
     def __hash__(self) -> int:
         return hash(self.name)
 
-    def resolve(self, raw: Any) -> Resolved:
+    def resolve(self, raw: Any, limits: tuple[float, float] | None = None) -> Resolved:
         """Return the numbers that a given value stands for, sign aside.
 
         Parameters
@@ -176,6 +183,8 @@ class Parameter:
         raw : float, complex, str or array_like
             Numbers in radians or metres, words of this parameter, texts with a
             unit (``"30 deg"``), or an array or list of any of these.
+        limits : tuple of float, optional
+            The least and the largest number allowed where it stands; by default its own.
 
         Returns
         -------
@@ -191,24 +200,21 @@ class Parameter:
             raw = self._angle(raw)
         if is_traced(raw):
             return Resolved(raw, np.ones((), dtype=bool))
-        try:
-            array = array_of(raw)
-        except ValueError:
-            raise ParameterError(
-                f"parameter '{self.name}' has rows of unequal lengths; make it one shape"
-            ) from None
+        limits = limits or (self.minimum, self.maximum)
+        # Arrays stay in the precision in which they are given, by which some are judged.
+        array = within(as_given(f"parameter '{self.name}'", raw, ParameterError), limits)
         present = np.ones(array.shape, dtype=bool)
         if array.dtype.kind in "USO":
-            entries = [self._entry(entry) for entry in array.ravel().tolist()]
+            entries = [self._entry(entry, limits) for entry in array.ravel().tolist()]
             present = np.array([entry is not None for entry in entries], bool).reshape(array.shape)
             numbers = [0.0 if entry is None else entry for entry in entries]
             array = np.array(numbers).reshape(array.shape)
         elif array.dtype.kind not in "iufc":
-            raise ParameterError(f"parameter '{self.name}' must be a number, not {raw!r}")
+            raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(raw)}")
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         self._check_range(array)
-        return Resolved(array, present)
+        return Resolved(array if array.ndim else doubles(array), present)
 
     def _angle(self, given: CosSin) -> Any:
         if dimension_of(self.unit) != "angle":
@@ -216,7 +222,7 @@ class Parameter:
                 f"parameter '{self.name}' is no angle, but a cosine and a sine are given; "
                 f"give a number"
             )
-        if not is_traced(given.cos) and not is_traced(given.sin):
+        if not given.is_traced:
             given.check(f"parameter '{self.name}'")
         return given.angle
 
@@ -276,23 +282,27 @@ class Parameter:
             return f"{self.text(high)} or less"
         return f"{self.text(low)} .. {self.text(high)}"
 
-    def _entry(self, entry: Any) -> Any:
+    def _entry(self, entry: Any, limits: tuple[float, float]) -> Any:
         if not isinstance(entry, str):
-            if isinstance(entry, int) and not isinstance(entry, bool):
-                return self._limit(entry)
-            if isinstance(entry, (float, complex)):
-                return entry
-            raise ParameterError(f"parameter '{self.name}' must be a number, not {entry!r}")
+            number = array_of(f"parameter '{self.name}'", entry, ParameterError, limits)
+            if number.ndim or number.dtype.kind not in "iufc":
+                wrong = f"parameter '{self.name}' must be a number, not {shown(entry)}"
+                raise ParameterError(wrong)
+            return number[()]
         value = self.parse(entry)
         return {**self.words, ABSENT: None}[value] if isinstance(value, str) else value
 
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array, JAX's as well, are finite and within the range."""
+        inside = namespace(numbers).isfinite(numbers)
+        if numbers.dtype.kind == "c":
+            return inside & (self.minimum == -np.inf) & (self.maximum == np.inf)
+        return inside & (numbers >= self.minimum) & (numbers <= self.maximum)
+
     def _check_range(self, array: npt.NDArray[Any]) -> None:
-        bad = ~np.isfinite(array)
-        if array.dtype.kind == "c":
-            if np.isfinite([self.minimum, self.maximum]).any():
-                raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
-        else:
-            bad |= (array < self.minimum) | (array > self.maximum)
+        if array.dtype.kind == "c" and np.isfinite([self.minimum, self.maximum]).any():
+            raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
+        bad = ~self.allows(array)
         if not np.any(bad):
             return
         value = array[bad].ravel()[0]

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import networkx as nx
 
+from optipath.array_likes import entries_of
 from optipath.binding import bind
 from optipath.cases import Case
 from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Detector, Element
-from optipath.errors import ParameterError, PathError, did_you_mean
+from optipath.errors import ParameterError, PathError, did_you_mean, shown
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
 from optipath.port_names import check_port, element_at, find_port
@@ -94,15 +95,16 @@ class PathGraph:
         loops: str = "refuse",
     ) -> None:
         if not isinstance(description, str):
-            raise PathError(f"the description of a path must be a text, not {description!r}")
+            raise PathError(f"the description of a path must be a text, not {shown(description)}")
         cases = {} if cases is None else cases
         if not isinstance(cases, Mapping) or not all(isinstance(c, Case) for c in cases.values()):
-            raise PathError(f"cases of a path must be a Case for each name, not {cases!r}")
+            raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
-        if loops not in LOOPS:
-            raise PathError(f"loops {loops!r} is unknown{did_you_mean(str(loops), LOOPS)}")
-        self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
+        if not isinstance(loops, str) or loops not in LOOPS:
+            raise PathError(f"loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
+        names = entries_of("declared", "names of parameters", declared, PathError)
+        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
         self._plan: Plan | None = None
         self._plan_of_all: Plan | None = None
 
@@ -156,12 +158,12 @@ class PathGraph:
             does not exist.
         """
         if not isinstance(name, str) or not name or "." in name:
-            raise PathError(f"node name {name!r} must be a text without a dot; choose another")
+            raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
         if name in self._graph:
             raise PathError(f"node '{name}' is there already; choose another name")
         if not isinstance(element, Element):
             raise PathError(
-                f"node '{name}' must be an element such as Polarizer(), not {element!r}"
+                f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"
             )
         frames = {} if frames is None else frames
         if not isinstance(frames, Mapping) or not all(
@@ -169,7 +171,7 @@ class PathGraph:
         ):
             raise PathError(
                 f"frames of '{name}' must be a Frame for each port, such as "
-                f"{{'in': Frame()}}, not {frames!r}"
+                f"{{'in': Frame()}}, not {shown(frames)}"
             )
         frames = dict(frames)
         for port in frames:
@@ -270,7 +272,7 @@ class PathGraph:
         if _is(keep, KEPT[0]):
             return plan.run(**parameters)
         if not _is(keep, KEPT[1]):
-            raise ParameterError(f"keep {keep!r} is unknown{did_you_mean(str(keep), KEPT)}")
+            raise ParameterError(f"keep {shown(keep)} is unknown{did_you_mean(keep, KEPT)}")
         if self._plan_of_all is None:
             self._plan_of_all = Composer(keep="all").compose(self._graph)
         return self._plan_of_all.run_all(**parameters)

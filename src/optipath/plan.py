@@ -6,8 +6,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from optipath.engines import LARGE
-from optipath.errors import ParameterError, did_you_mean
+from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.frames import Frame
 from optipath.light import Light
 from optipath.mueller import Mueller
@@ -109,6 +111,10 @@ class Plan:
         >>> plan.engine, plan.engine_for(10)
         ('numpy', 'numpy, step by step')
         """
+        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 0:
+            raise ParameterError(
+                f"the number of paths must be a whole number of 0 or more, not {shown(count)}"
+            )
         return self.execution.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
@@ -185,7 +191,9 @@ class Plan:
         """
         name, _, _ = self._detector
         if isinstance(size, bool) or not isinstance(size, int) or size < 1:
-            raise ParameterError(f"the size of a part must be a whole number above 0, not {size!r}")
+            raise ParameterError(
+                f"the size of a part must be a whole number above 0, not {shown(size)}"
+            )
         for where, lights in self._runner.stream(size, parameters):
             yield Part(where, self._in_frames(lights, parameters, where)[name])
 
@@ -229,7 +237,7 @@ class Plan:
         """
         program = self.whole
         begin = self._only("source", tuple(program.sources), "mueller(source, detector)", source)
-        ends = tuple(program.readings if detector else program.detectors)
+        ends = tuple(program.detectors if detector is None else program.readings)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
         matrix = self.whole_path.matrix(begin, reading, parameters)
@@ -260,7 +268,7 @@ class Plan:
         >>> print(found.error.round(5))
         [3.00e-05 1.27e-03]
         """
-        ends = tuple(self.whole.readings if detector else self.whole.detectors)
+        ends = tuple(self.whole.detectors if detector is None else self.whole.readings)
         end = self._only("detector", ends, "certificate(detector)", detector)
         whole = self.whole_path
         return whole.certificates(whole.given(parameters), parameters)[end]
@@ -400,8 +408,9 @@ class Plan:
     @staticmethod
     def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
         if name is not None:
-            if name not in names:
-                raise ParameterError(f"{what} '{name}' does not exist{did_you_mean(name, names)}")
+            if not isinstance(name, str) or name not in names:
+                cure = did_you_mean(name, names)
+                raise ParameterError(f"{what} {shown(name)} does not exist{cure}")
             return name
         if len(names) != 1:
             raise ParameterError(

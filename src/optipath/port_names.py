@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError, did_you_mean, shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,7 +57,7 @@ def split_port(text: Any, *, out: bool) -> tuple[str, str]:
     """
     if not isinstance(text, str) or text.count(".") != 1:
         way = "out" if out else "in"
-        raise PathError(f"{text!r} is no {way}-port; write it as 'node.{way}'")
+        raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
     name, _, port = text.partition(".")
     return name, port
 
@@ -84,6 +84,6 @@ def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
     PathError
         If there is no such node.
     """
-    if name not in graph:
-        raise PathError(f"node '{name}' does not exist{did_you_mean(name, graph)}")
+    if not isinstance(name, str) or name not in graph:
+        raise PathError(f"node {shown(name)} does not exist{did_you_mean(name, graph)}")
     return graph.nodes[name]["element"]  # type: ignore[no-any-return]

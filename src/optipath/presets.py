@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, PathError, PresetError, did_you_mean
+from optipath.errors import OptipathError, PathError, PresetError, did_you_mean, shown
+from optipath.frozen import frozen
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -60,11 +61,12 @@ def load_preset(
     path = read_preset(locate(preset))
     given = dict(values)
     faults: list[str] = []
-    if case is not None and str(case) not in path.cases:
-        cure = did_you_mean(str(case), path.cases)
-        faults.append(f"case '{case}' is unknown in preset '{preset}'{cure}")
+    name = case if isinstance(case, str) else shown(frozen(case))
+    if case is not None and name not in path.cases:
+        cure = did_you_mean(name, path.cases)
+        faults.append(f"case '{name}' is unknown in preset '{preset}'{cure}")
     elif case is not None:
-        given = {**path.cases[str(case)].values, **values}
+        given = {**path.cases[name].values, **values}
     try:
         path = path.bind(**given) if given else path
     except OptipathError as error:
@@ -91,7 +93,8 @@ def locate(preset: str | PathLike[str]) -> Path:
     try:
         path = Path(preset)
     except TypeError:
-        raise PresetError(f"a preset is a name or the path of a file, not {preset!r}") from None
+        wanted = "a name or the path of a file"
+        raise PresetError(f"a preset is {wanted}, not {shown(preset)}") from None
     if path.suffix.lower() != ".toml":
         names = preset_names()
         cure = did_you_mean(path.stem, names)

@@ -11,7 +11,7 @@ import re
 from decimal import Decimal
 from typing import NamedTuple
 
-from optipath.errors import UnitError, did_you_mean
+from optipath.errors import UnitError, did_you_mean, shown
 
 
 class Unit(NamedTuple):
@@ -87,10 +87,11 @@ def dimension_of(unit: str) -> str:
     >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
     ('angle', 'inverse length', '')
     """
-    if unit == "":
+    if isinstance(unit, str) and unit == "":
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
-        raise UnitError(f"unit '{unit}' is unknown{did_you_mean(unit, UNITS)}")
+        word = unit if isinstance(unit, str) else shown(unit)
+        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
     return UNITS[unit].dimension
 
 

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from reprlib import repr as shortened
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import as_given, entries_of
 from optipath.elements import Detector, Source, SpecularVertex
-from optipath.errors import PathError, ValueFault
+from optipath.errors import PathError, ValueFault, shown
 from optipath.jax_values import is_traced
-from optipath.materials import Material
 from optipath.parameters import Parameter
 from optipath.path_graph import PathGraph
 from optipath.vertices import VERTICES, VerticesByAngles, counted, normal_faults
@@ -69,11 +68,10 @@ def path_from_vertices(
     >>> print(light.stokes.round(4), light.frame.z)
     [0.0502 0.0418 0.     0.    ] [0. 1. 0.]
     """
-    several = _several(materials)
+    several, not_several = _several(materials)
     chain, faults = _chain(vertices, len(several))
     if not several:
-        wanted = "a sequence with one for each reflection"
-        raise PathError(*faults, f"materials must be {wanted}, not {materials!r}")
+        raise PathError(*faults, *not_several)
     # With others in place of faulty vertices, so that the rest is checked too.
     path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
     is_sound = not faults
@@ -117,10 +115,14 @@ def _any_chain(count: int) -> VerticesByAngles:
     return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
 
 
-def _several(materials: Any) -> list[Any]:
-    if isinstance(materials, (Material, Parameter, str)) or not np.iterable(materials):
-        return []
-    return list(materials)
+def _several(materials: Any) -> tuple[tuple[Any, ...], list[str]]:
+    """Return the materials one by one, or what is wrong with them."""
+    try:
+        several = entries_of("materials", "one for each reflection", materials)
+    except ValueFault as fault:
+        return (), list(fault.faults)
+    none = "materials must be a sequence of one for each reflection, and there is none"
+    return several, [none] * (not several)
 
 
 def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
@@ -132,13 +134,14 @@ def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:
         fault = f"vertices have {counted(found, 'incidence')}{_for(count)}"
         return vertices, [fault] * (found != count)
     try:
-        chain = vertices if is_traced(vertices) else VERTICES.kept(np.asarray(vertices))
-    except ValueError:
-        return None, ["vertices have rows of unequal lengths; make them (..., m + 2, 3)"]
+        traced = is_traced(vertices)
+        chain = vertices if traced else VERTICES.kept(as_given("the array of vertices", vertices))
+    except ValueFault as fault:
+        return None, list(fault.faults)
     shape = np.shape(chain)
     if shape[-2:] == (count + 2, 3) or (not count and len(shape) > 1 and shape[-1] == 3):
         return chain, []
-    given = shape or shortened(vertices)
+    given = shape or shown(vertices)
     return chain, [f"vertices must have shape (..., m + 2, 3){_for(count)}, not {given}"]
 
 

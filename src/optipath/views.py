@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.array_likes import doubles
 from optipath.frozen import same
 from optipath.jax_values import is_traced
 from optipath.kernels import FLOAT, NUMPY, cosine, sine
@@ -113,11 +114,11 @@ class View:
         """
         if not isinstance(self.value, Parameter):
             return np.asarray(
-                self._done_to(part_of(np.asarray(self.value), self.raw_part, self.tail), kind)
+                self._done_to(part_of(_doubles(self.value), self.raw_part, self.tail), kind)
             )
         if self.part == "present":
             return self.present(given)
-        raw = part_of(self._resolved(given).value, self.raw_part, self.tail)
+        raw = part_of(_doubles(self._resolved(given).value), self.raw_part, self.tail)
         return np.asarray(self.of(raw, kind))
 
     def of(self, raw: Any, kind: np.dtype[Any] = _DOUBLE) -> Any:
@@ -193,6 +194,11 @@ class View:
         return self.part == other.part and same(self.value, other.value)
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _doubles(numbers: Any) -> Any:
+    """Return numbers as arrays of doubles at least; what JAX traces, as it is."""
+    return numbers if is_traced(numbers) else doubles(np.asarray(numbers))
 
 
 def view_of(argument: Any) -> View:

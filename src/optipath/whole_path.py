@@ -37,7 +37,13 @@ class WholePath(Runner):
         if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
             name = next(n for n, end in self.program.readings.items() if end is reading)
-            found = self.jax.matrix(resolved, batch, source, name)
+            with self.enough_for(batch, 16, twice=True):
+                found, sound = self.jax.matrix(resolved, batch, source, name)
+            if not self.traces(resolved) and not np.all(sound):
+                given = self.sorter.sort(parameters)
+                parts = [self.stepwise.matrix(p, source, reading) for p in self.parts(given)]
+                found = joined(parts, given.batch, (4, 4))
+            found = self.nan_outside(found, resolved, 2)
             self.refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
         given = self.sorter.sort(parameters)
@@ -47,25 +53,26 @@ class WholePath(Runner):
             self.refuse_infinite(found[..., : reading.components, :])
             return found
 
-        engine = self.engine_for(given.paths)
-        if engine == NUMPY_STEPS:
-            self.inputs.resolve(parameters)
-            return joined([careful(part) for part in self.parts(given)], given.batch, (4, 4))
-
         def formula(forms: Any, axes: Any) -> Formula:
             limits, kind = self.inputs.limits, self.dtype.name
             return matrix_formula(self.program, source, reading, kind, forms, limits, axes)
 
-        out, _ = self.filled(
-            engine,
-            (source, reading.light, reading.components),
-            formula,
-            given,
-            parameters,
-            lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
-            16,
-        )
-        return np.moveaxis(self.block(out, 0, 16).reshape(4, 4, *given.batch), (0, 1), (-2, -1))
+        engine = self.engine_for(given.paths)
+        with self.enough_for(given.batch, 16, twice=True):
+            if engine == NUMPY_STEPS:
+                self.inputs.resolve(parameters)
+                return joined([careful(part) for part in self.parts(given)], given.batch, (4, 4))
+            out, _ = self.filled(
+                engine,
+                (source, reading.light, reading.components),
+                formula,
+                given,
+                parameters,
+                lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
+                16,
+            )
+            rows = self.block(out, 0, 16).reshape(4, 4, *given.batch)
+            return np.moveaxis(rows, (0, 1), (-2, -1))
 
     def given(self, parameters: Mapping[str, Any]) -> Given:
         """Return what is given, for both the bounds and the light.
@@ -92,12 +99,14 @@ class WholePath(Runner):
             If a value is out of its range.
         """
         ends = self.program.readings
-        if self.engine_for(given.paths) not in COMPILED:
-            self.inputs.resolve(parameters)
-            parts = [self._careful(part) for part in self.parts(given)]
-            rows = np.concatenate(parts, axis=1)
-        else:
-            rows = self._bounds(None, given, parameters, self._careful, 4 * len(ends))
+        stepped = self.engine_for(given.paths) not in COMPILED
+        with self.enough_for(given.batch, 4 * len(ends), twice=stepped):
+            if stepped:
+                self.inputs.resolve(parameters)
+                parts = [self._careful(part) for part in self.parts(given)]
+                rows = np.concatenate(parts, axis=1)
+            else:
+                rows = self._bounds(None, given, parameters, self._careful, 4 * len(ends))
         each = rows.reshape(len(ends), 4, *given.batch)
         return {
             name: Certificate(*map(np.asarray, found[:3]))
@@ -123,10 +132,11 @@ class WholePath(Runner):
                 [*totals, np.max([one.error_of(model).ravel() for one in each], axis=0)]
             )
 
-        if self.engine_for(given.paths) not in COMPILED:
-            rows = found(given)
-        else:
-            rows = self._bounds(model, given, parameters, found, len(ends) + 1)
+        with self.enough_for(given.batch, len(ends) + 1, twice=False):
+            if self.engine_for(given.paths) not in COMPILED:
+                rows = found(given)
+            else:
+                rows = self._bounds(model, given, parameters, found, len(ends) + 1)
         *totals, error = (row.reshape(given.batch) for row in rows)
         return dict(zip(ends, totals, strict=True)), error
 

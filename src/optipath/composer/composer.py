@@ -15,7 +15,7 @@ from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
-from optipath.errors import ComposerError, did_you_mean
+from optipath.errors import ComposerError, did_you_mean, shown
 from optipath.kernels import METHODS
 from optipath.plan import Plan
 from optipath.precision import precision
@@ -109,18 +109,22 @@ class Composer:
         faults = []
         for option, choices in CHOICES.items():
             value = getattr(self, option)
-            if value not in choices and not (option == "loops" and value is None):
-                faults.append(f"{option} {value!r} is unknown{did_you_mean(str(value), choices)}")
+            # What is no text may refuse to be compared.
+            known = isinstance(value, str) and value in choices
+            if not known and not (option == "loops" and value is None):
+                faults.append(f"{option} {shown(value)} is unknown{did_you_mean(value, choices)}")
+        if faults and not all(isinstance(getattr(self, name), str) for name in ("engine", "model")):
+            raise ComposerError(*faults)
         try:
             precision(self.dtype)
         except ComposerError as fault:
             faults += fault.faults
         if self.engine in ENGINES and not is_installed(self.engine):
             faults += missing(self.engine).faults
-        if (self.engine, self.dtype) == ("jax", "longdouble"):
+        if self.engine == "jax" and isinstance(self.dtype, str) and self.dtype == "longdouble":
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
-            faults.append(f"threads must be a whole number above 0, not {self.threads!r}")
+            faults.append(f"threads must be a whole number above 0, not {shown(self.threads)}")
         faults += self._tolerance_faults()
         if self.composing == "jones" and self.model in MODELS[:-1]:
             faults.append(
@@ -136,7 +140,8 @@ class Composer:
             return []
         if isinstance(given, bool) or not isinstance(given, Real) or not 0.0 < given < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
-            return [f"tolerance must be {allowed}, not {given!r}; leave it out for exact plans"]
+            cure = "leave it out for exact plans"
+            return [f"tolerance must be {allowed}, not {shown(given)}; {cure}"]
         if self.model == "full" or self.composing == "jones":
             what = "model 'full'" if self.model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
@@ -158,9 +163,14 @@ class Composer:
             If an element may depolarise, and Jones columns are composed, or if the model is
             not exact for the path.
         """
-        graph: Any = path if isinstance(path, nx.MultiDiGraph) else getattr(path, "graph", None)
+        graph: Any = path
+        if not isinstance(path, nx.MultiDiGraph):
+            try:
+                graph = path.graph
+            except Exception:  # noqa: BLE001 - somebody else's attribute may raise anything
+                graph = None
         if not isinstance(graph, nx.MultiDiGraph):
-            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {path!r}")
+            raise ComposerError(f"a path or a networkx.MultiDiGraph is composed, not {shown(path)}")
         with put_off():
             return self._plan(graph)
 

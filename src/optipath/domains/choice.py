@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.domains.domain import Domain
-from optipath.errors import ValueFault, did_you_mean
+from optipath.errors import ValueFault, did_you_mean, shown
 
 if TYPE_CHECKING:
     from optipath.parameters import Parameter
@@ -28,7 +28,7 @@ class Choice(Domain):
         """
         if isinstance(value, str) and value in self.words:
             return value
-        raise ValueFault(f"{owner} is {value!r}{did_you_mean(str(value), self.words)}")
+        raise ValueFault(f"{owner} is {shown(value)}{did_you_mean(value, self.words)}")
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
         """Refuse it.

@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.domains.domain import Domain
-from optipath.errors import ValueFault
+from optipath.errors import ValueFault, shown
 from optipath.frozen import frozen
+from optipath.jax_values import namespace
 from optipath.materials import Material
 
 _N = Domain("index of refraction", minimum=0.0)
@@ -48,8 +49,14 @@ class IndexDomain(Domain):
         """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
-        bad = (array.real < 0.0) | (array.imag < 0.0)
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed."""
+        there = namespace(numbers).isfinite(numbers)
+        return there & (numbers.real >= 0.0) & (numbers.imag >= 0.0)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
+        bad = ~self.allows(array)
         if np.any(bad):
             value = array[bad].ravel()[0]
             cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
@@ -94,10 +101,14 @@ class LitBehind(OutsideDomain):
             "'back'), and let a Medium absorb between"
         )
 
-    def _check_numbers(self, owner: str, array: npt.NDArray[Any]) -> None:
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed; a complex one without an imaginary part."""
+        return super().allows(numbers.real) & (numbers.imag == 0.0)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         # A complex number without an imaginary part will do.
         real = array.real if array.dtype.kind == "c" and not np.any(array.imag) else array
-        super()._check_numbers(owner, real)
+        super()._check_numbers(owner, real, rounding)
 
 
 class InnerDomain(OutsideDomain):
@@ -140,8 +151,8 @@ class IndicesDomain(Domain):
             Always, since good lists are checked by their parts.
         """
         raise ValueFault(
-            f"{owner} is {value!r}; give a list of two indices or more, the medium in front first "
-            f"and the substrate last"
+            f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
+            f"first and the substrate last"
         )
 
     def check_parameter(self, owner: str, parameter: Any) -> None:

@@ -11,7 +11,7 @@ from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
-from optipath.errors import PathError, ValueFault
+from optipath.errors import PathError, ValueFault, shown
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.inputs import Use
@@ -19,14 +19,18 @@ from optipath.kernels import (
     REFLECTION,
     Kernel,
 )
+from optipath.memory import enough_for
 from optipath.mueller import Mueller
 from optipath.parameters import Parameter
-from optipath.shapes import broadcast_fault
+from optipath.shapes import broadcast_fault, joint_shape
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.vertices import VertexFrame
+
+_TWO_MATRICES = 256
+"""How many bytes a matrix and what it is made of have."""
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
@@ -211,6 +215,9 @@ class Element:
         """
         REFLECTION.by_method(method)
         owner = self.kind or type(self).__name__
+        for port in (enters, leaves):
+            if not isinstance(port, str):
+                raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
         leaves = leaves or self.natural
         uses = self._uses(owner) + self.uses_entered(owner, enters)
         open_ones = [
@@ -219,6 +226,9 @@ class Element:
             if use.is_open
         ]
         shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
+        for given in (frame_in, frame_out):
+            if given is not None and not isinstance(given, Frame):
+                raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
         if frame_in is not None and self.straight:
             frame_out = frame_out or frame_in
         frames = {
@@ -230,9 +240,11 @@ class Element:
         faults = faults or broadcast_fault(shapes) or self.frame_faults(owner, frames)
         if faults:
             raise PathError(*faults)
+        batch = joint_shape(*shapes.values())
         for coupling in self.couplings():
             if (coupling.enters, coupling.leaves) == (enters, leaves):
-                matrix = coupling.matrix(method)
+                with enough_for(batch, _TWO_MATRICES, error=PathError):
+                    matrix = coupling.matrix(method)
                 frame_in = frame_in or self._known_frame(enters)
                 return Mueller(matrix, frame_in, frame_out or self._known_frame(leaves))
         ways = [f"{c.enters} -> {c.leaves}" for c in self.couplings() if c.enters]

@@ -13,6 +13,7 @@ from optipath.elements.beside_rotation import BESIDE_ROTATION
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.errors import ValueFault, did_you_mean
+from optipath.frozen import frozen
 from optipath.jax_values import is_traced
 from optipath.kernels import (
     ABSORPTION_ALONG,
@@ -106,6 +107,7 @@ class Medium(Element, kind="medium"):
         >>> round(Medium.from_extinction(1e-6, k=0.05, wavelength=500e-9).absorption)
         1256637
         """
+        k, wavelength = frozen(k), frozen(wavelength)
         given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, _WAVELENGTH)}
         faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
         faults += [cls._option_fault(name) for name in others if name not in _OTHERS]

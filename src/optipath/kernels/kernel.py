@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.errors import ComposerError, did_you_mean
+from optipath.errors import ComposerError, did_you_mean, shown
 from optipath.kernels.primitives import Primitives, made
 
 if TYPE_CHECKING:
@@ -103,6 +103,7 @@ class KernelFamily:
         ComposerError
             If there is no such method.
         """
-        if method not in self.methods:
-            raise ComposerError(f"method '{method}' is unknown{did_you_mean(method, self.methods)}")
+        if not isinstance(method, str) or method not in self.methods:
+            cure = did_you_mean(method, self.methods)
+            raise ComposerError(f"method {shown(method)} is unknown{cure}")
         return self.methods[method]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, shown
 from optipath.light_paths.rounds import endless
 from optipath.light_paths.search import Search
 
@@ -50,18 +50,20 @@ def light_paths(
         cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
         raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
     whole.refuse_traced(parameters, "light paths are listed")
-    whole.inputs.resolve(parameters)
-    # Refuses light that never fades.
-    whole.stepwise.lights(whole.sorter.sort(parameters))
+    _, batch = whole.inputs.resolve(parameters)
     found: list[LightPath] = []
-    for path in Search(whole, parameters, framed).paths(bounces):
-        if len(found) == limit:
-            break
-        found.append(path)
+    with whole.enough_for(batch, 2 * len(whole.program.readings) + 8, twice=True):
+        # Refuses light that never fades.
+        whole.stepwise.lights(whole.sorter.sort(parameters))
+        for path in Search(whole, parameters, framed).paths(bounces):
+            if len(found) == limit:
+                break
+            found.append(path)
     return found
 
 
 def _check(what: str, number: Any, least: int) -> None:
     whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
     if number is not None and not (whole and number >= least):
-        raise ParameterError(f"{what} must be a whole number of {least} or more, not {number!r}")
+        wanted = f"a whole number of {least} or more"
+        raise ParameterError(f"{what} must be {wanted}, not {shown(number)}")

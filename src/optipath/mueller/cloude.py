@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault
+from optipath.array_likes import array_of
+from optipath.errors import ValueFault, shown
 from optipath.jax_values import check_known
 from optipath.mueller.scaled import precision, scaled, unscaled
 
@@ -93,11 +94,11 @@ def _tolerance(given: Any, matrix: Array) -> float:
     if given is None:
         return max(_TOLERANCE, 100.0 * precision(matrix))
     check_known("the tolerance of is_physical", given)
-    number = np.asarray(given)
+    number = array_of("the tolerance of is_physical", given)
     if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
         return float(number)
     raise ValueFault(
-        f"the tolerance of is_physical must be a finite number >= 0, not {given!r}; leave it "
+        f"the tolerance of is_physical must be a finite number >= 0, not {shown(given)}; leave it "
         f"out to allow for rounding"
     )
 

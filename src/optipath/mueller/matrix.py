@@ -11,7 +11,7 @@ from optipath.errors import FrameError
 from optipath.faint import folded, near_one
 from optipath.frames import Frame
 from optipath.frozen import same
-from optipath.jax_values import is_jax, is_traced, known
+from optipath.jax_values import is_traced, known
 from optipath.kernels import NUMPY, ROTATION
 from optipath.light import Light
 from optipath.mueller import cloude, figures
@@ -57,9 +57,7 @@ class Mueller:
     def __post_init__(self) -> None:
         if not (isinstance(self.frame_in, Frame) and isinstance(self.frame_out, Frame)):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
-        given = self.matrix
-        matrix = given if is_jax(given) else real_array("a Mueller matrix", given, (4, 4))
-        object.__setattr__(self, "matrix", matrix)
+        object.__setattr__(self, "matrix", real_array("a Mueller matrix", self.matrix, (4, 4)))
 
     @overload
     def __matmul__(self, other: Mueller) -> Mueller: ...

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.shapes import joint_shape
 from optipath.views import MANY
 
 if TYPE_CHECKING:
@@ -57,7 +59,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
             else:
                 raws = (view.raw, *(view.raw._replace(part=part) for part in ("cos", "sin")))
                 shapes += [np.shape(given.numbers[raw]) for raw in raws if raw in given.numbers]
-        count = int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+        count = prod(joint_shape(*shapes))
         # What one element does in several steps goes by one name.
         found[step.label] = max(count, found.get(step.label, 0))
     return found

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.frames import Frame
 from optipath.running.layout import sliced
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.frames import Frame
     from optipath.inputs import Inputs
     from optipath.vertices import VertexFrame
 
@@ -45,18 +45,14 @@ class LaterFrame:
     def __call__(self) -> Frame:
         """Return the frame."""
         opened = self.inputs.open
-        found = self.frame.frame(
-            {
-                name: opened[name].resolve(self.parameters.get(name, opened[name].default))
-                for name in self.frame.names
-            }
-        )
+        given = {
+            name: opened[name].resolve(self.parameters.get(name, opened[name].default))
+            for name in self.frame.names
+        }
         if not self.where:
-            return found
+            return self.frame.frame(given)
         _, batch = self.inputs.resolve(self.parameters)
-        axes = (np.moveaxis(axis, -1, 0) for axis in (found.x, found.y, found.z))
-        parts = (np.stack([sliced(c, batch, self.where) for c in axis], axis=-1) for axis in axes)
-        return Frame.trusted(*parts)
+        return self.frame.frame(given, lambda numbers: sliced(numbers, batch, self.where))
 
 
 def _kept(value: Any) -> Any:

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.errors import OptipathError
+from optipath.array_likes import is_beyond
+from optipath.errors import OptipathError, ParameterError, shown
 from optipath.running.layout import sliced
+from optipath.shapes import joint_shape
 from optipath.views import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
 
 if TYPE_CHECKING:
@@ -106,11 +108,11 @@ class Sorter:
             for name, raws in self.raws.items()
             if not inputs.tails[name] and any(raw.part in ("value", "real") for raw in raws)
         }
-        shown = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
-        self._plain |= {name for name, raws in self.raws.items() if raws and shown[name]}
+        shows = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
+        self._plain |= {name for name, raws in self.raws.items() if raws and shows[name]}
         self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
         self._angles -= {name for name, p in inputs.open.items() if p.optional}
-        self._known = np.broadcast_shapes(*inputs.shapes.values())
+        self._known = joint_shape(*inputs.shapes.values())
 
     def sort(self, parameters: Mapping[str, Any]) -> Given:
         """Return the numbers that are given.
@@ -138,7 +140,7 @@ class Sorter:
                             Raw(name, part): self._number(getattr(value, part)) for part in _PAIR
                         }
                         continue
-                    if name in self._plain and _is_plain(value, self.inputs.tails[name]):
+                    if name in self._plain and self._is_plain(name, value):
                         real = value
                     else:
                         real, present = self._resolved(name, value)
@@ -147,11 +149,12 @@ class Sorter:
                         shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
                     for raw in self.raws[name]:
                         numbers[raw] = self._number(self._part(raw, real, present))
-                return Given(numbers, np.broadcast_shapes(*shapes))
-            except (OptipathError, ArithmeticError, ValueError, TypeError):
-                pass
+                return Given(numbers, joint_shape(*shapes))
+            except (OptipathError, ArithmeticError, ValueError, TypeError) as fault:
+                self.inputs.resolve(parameters)  # Tells all faults.
+                raise ParameterError(*getattr(fault, "faults", [shown(fault)])) from None
         self.inputs.resolve(parameters)
-        raise AssertionError("what cannot be sorted is refused")
+        raise AssertionError("parameters that are unknown are refused")
 
     def _part(self, raw: Raw, value: Any, present: Any) -> Any:
         if raw.part == "present":
@@ -169,19 +172,25 @@ class Sorter:
             array = array.astype(self._widest)
         return array if array.size != 1 or array.dtype.char == "g" else array.item()
 
+    def _is_plain(self, name: str, value: Any) -> bool:
+        """Tell whether a value may be used as it is: a float, or an array of them."""
+        tail = self.inputs.tails[name]
+        if type(value) is float:
+            return not tail
+        if type(value) is not np.ndarray or not value.dtype.isnative:
+            return False
+        if value.dtype.char != "d" and (
+            value.dtype.char != "f" or is_beyond(value, self.inputs.limits[name])
+        ):
+            return False
+        return value.shape[value.ndim - len(tail) :] == tail
+
     def _resolved(self, name: str, value: Any) -> Resolved:
-        resolved = self.inputs.open[name].resolve(value)
+        resolved = self.inputs.open[name].resolve(value, self.inputs.limits[name])
         for use in self.inputs.uses:
             if use.value.name == name:
                 use.check_given(resolved.value)
         return resolved
-
-
-def _is_plain(value: Any, tail: tuple[int, ...]) -> bool:
-    if type(value) is float:
-        return not tail
-    plain = type(value) is np.ndarray and value.dtype.char in "fd" and value.dtype.isnative
-    return plain and value.shape[value.ndim - len(tail) :] == tail
 
 
 def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:

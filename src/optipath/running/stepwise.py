@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import reduce
+from math import prod
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -14,6 +15,7 @@ from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
 from optipath.running.closer import CloserLook
 from optipath.running.gains import check_gains
+from optipath.shapes import joint_shape
 from optipath.walk import evaluated, walk
 
 if TYPE_CHECKING:
@@ -115,7 +117,7 @@ class Stepwise:
             for index, evaluation in enumerate(self.program.evaluations):
                 shapes = [leaves[leaf].shape for leaf in evaluation.arguments]
                 shapes += [] if evaluation.presence is None else [leaves[evaluation.presence].shape]
-                size = 16 * int(np.prod(np.broadcast_shapes(*shapes), dtype=np.int64))
+                size = 16 * prod(joint_shape(*shapes))
                 if size <= min(left, given.paths):
                     found[index] = evaluated(evaluation, leaves, way, self.number)
                     left -= size

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.array_likes import entries_of
 from optipath.domains import ANGLE, INCIDENCE, in_unit_of
 from optipath.errors import PathError
 from optipath.frozen import frozen, same
@@ -55,7 +56,7 @@ class VerticesByAngles:
 
     def __post_init__(self) -> None:
         for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
-            several = _sequence(name, getattr(self, name))
+            several = entries_of(name, "angles", getattr(self, name), PathError)
             each = tuple(in_unit_of(frozen(angle), domain) for angle in several)
             object.__setattr__(self, name, each)
         count, turns = len(self.incidences), len(self.turns)
@@ -117,7 +118,7 @@ def vertices_from_angles(
            [0., 0., 1.],
            [0., 1., 1.]])
     """
-    chain = VerticesByAngles(_sequence("incidences", incidences), _sequence("turns", turns))
+    chain = VerticesByAngles(incidences, turns)  # type: ignore[arg-type]
     given = {name: domain.check(name, angle) for name, angle, domain in chain.parts("vertices")}
     batch = check_broadcast({name: angle.shape for name, angle in given.items()})
     count, cos, sin = len(chain.incidences), cosine(NUMPY), sine(NUMPY)
@@ -125,12 +126,6 @@ def vertices_from_angles(
     numbers = PointsByAngles(count, 0, count + 1)(NUMPY)(*pairs)
     points = np.stack([np.broadcast_to(number, batch) for number in numbers], axis=-1)
     return points.reshape(*batch, count + 2, 3)
-
-
-def _sequence(name: str, angles: Any) -> tuple[Any, ...]:
-    if isinstance(angles, str) or not np.iterable(angles):
-        raise PathError(f"{name} must be a sequence of angles, not {angles!r}; write ({angles},)")
-    return tuple(angles)
 
 
 def counted(count: int, what: str) -> str:

@@ -11,16 +11,21 @@ from optipath.errors import FrameError
 from optipath.frames import Frame
 from optipath.jax_values import is_traced
 from optipath.kernels import ARRIVING, NUMPY, REFLECTED
+from optipath.memory import enough_for
 from optipath.parameters import Parameter
+from optipath.shapes import joint_shape
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     import numpy.typing as npt
 
     from optipath.parameters import Resolved
     from optipath.vertices.coordinates import Coordinates
     from optipath.views import View
+
+_THREE_AXES = 72
+"""How many bytes the axes of a frame have."""
 
 
 @dataclass(frozen=True)
@@ -53,13 +58,15 @@ class VertexFrame:
         values = (view.value for view in self._views)
         return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
 
-    def frame(self, given: Mapping[str, Resolved]) -> Frame:
+    def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
         """Return the frame: x across the plane of incidence, and turned from there.
+
+        Of a part of a batch, `cut` returns what belongs to it of numbers for the whole.
 
         Raises
         ------
         FrameError
-            If JAX traces the values.
+            If JAX traces the values, or there is no memory for so many frames.
         """
         if any(view.traced for view in self._views) or any(
             is_traced(given[name].value) for name in self.names
@@ -68,10 +75,10 @@ class VertexFrame:
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        points = [_doubles(view, given) for view in self.points.arguments]
-        turns = [_doubles(view, given) for view in self.turns]
-        shape = np.broadcast_shapes(*(number.shape for number in (*points, *turns)))
-        with np.errstate(all="ignore"):
+        points = [cut(_doubles(view, given)) for view in self.points.arguments]
+        turns = [cut(_doubles(view, given)) for view in self.turns]
+        shape = joint_shape(*(number.shape for number in (*points, *turns)))
+        with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
             axes = self.points.planes(REFLECTED if self.leaves else ARRIVING)(NUMPY)(*points)
             x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
             y = np.cross(z, x)

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.frozen import array_of
-from optipath.shapes import broadcast_fault
+from optipath.array_likes import as_given
+from optipath.errors import ShapeError, ValueFault, shown
+from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of
 
 if TYPE_CHECKING:
@@ -44,20 +45,21 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     ['the normal of vertex 1 has no length; give one with a direction of its own']
     """
     try:
-        given = array_of(normals)
-    except ValueError:
-        return ["normals have rows of unequal lengths; make them one shape"]
+        given = as_given("the array of normals", normals)
+    except ValueFault as fault:
+        return list(fault.faults)
     if given.dtype.kind not in "iuf":
-        return [f"normals must be real numbers, not {normals!r}"]
+        return [f"normals must be real numbers, not {shown(normals)}"]
     if given.shape[-2:] != (count, 3):
         return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
     given = given.astype(np.float64, copy=False)
     if chains is None:
         return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
     shapes = {"vertices": chains.shape[:-2], "normals": given.shape[:-2]}
-    if faults := broadcast_fault(shapes):
-        return faults
-    batch = np.broadcast_shapes(*shapes.values())
+    try:
+        batch = check_broadcast(shapes)
+    except ShapeError as fault:
+        return list(fault.faults)
     chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
     given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
     doubted = [

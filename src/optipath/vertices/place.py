@@ -7,9 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from optipath.errors import shown
 from optipath.parameters import Parameter
 from optipath.vertices.by_angles import VerticesByAngles
 from optipath.vertices.coordinates import Coordinates, coordinates
+
+_MANY = 1 << 31
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +68,7 @@ class PlaceInChain:
         found = []
         if self.reflections is not None and not is_count(self.reflections):
             found.append(
-                f"{owner}.reflections must be a whole number above 0, not {self.reflections!r}"
+                f"{owner}.reflections must be a whole number above 0, not {shown(self.reflections)}"
             )
         elif not self.count and isinstance(self.vertices, Parameter):
             found.append(
@@ -74,7 +77,7 @@ class PlaceInChain:
             )
         if not is_count(self.number) or self.number > (self.count or np.inf):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
-            given = "a parameter" if isinstance(self.number, Parameter) else repr(self.number)
+            given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
             found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
         return found
 
@@ -96,4 +99,4 @@ def is_count(value: Any) -> bool:
     >>> is_count(2), is_count(0), is_count(True), is_count(2.0)
     (True, False, False, False)
     """
-    return isinstance(value, int) and not isinstance(value, bool) and value > 0
+    return isinstance(value, int) and not isinstance(value, bool) and 0 < value < _MANY

@@ -1,0 +1,282 @@
+"""Array-likes: what is taken for numbers, and what is refused because it is more than that."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
+from types import NoneType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ValueFault, shown
+
+if TYPE_CHECKING:
+    Array = np.ndarray[Any, Any]
+
+ENDLESS = (-math.inf, math.inf)
+_RIGHT_ANGLES = (-math.pi / 2.0, math.pi / 2.0)
+"""Limits of angles, which less precision than double rounds up."""
+
+_NARROW = (np.float16, np.float32)
+_PLAIN = frozenset(
+    {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
+)
+_DEEPEST = 64
+_LABELS = ("to_numpy", "dims", "coords", "columns")
+_UNITS = ("unit", "units")
+_CURES = {"to_numpy": ".to_numpy()", "values": ".values"}
+_ANY_CURE = "numpy.asarray(...)"
+
+
+def array_of(
+    what: str,
+    value: Any,
+    error: type[OptipathError] = ValueFault,
+    limits: tuple[float, float] = ENDLESS,
+) -> Array:
+    """Return an array of a value, of float64 at least; words beside numbers stay words.
+
+    Parameters
+    ----------
+    what, value, error
+        As `as_given` takes them.
+    limits : tuple of float, optional
+        The least and the largest number allowed.
+
+    Raises
+    ------
+    OptipathError
+        As `as_given` does.
+
+    Examples
+    --------
+    >>> array_of("a turn", [0.5, "none"]).tolist()
+    [0.5, 'none']
+    """
+    return doubles(as_given(what, value, error), limits)
+
+
+def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> Array:
+    """Return an array of a value, in the precision in which it is given.
+
+    Parameters
+    ----------
+    what : str
+        What the value is given for.
+    value : Any
+        A number, an array, a list of either, or whatever else NumPy makes an array of.
+    error : type, optional
+        What is raised.
+
+    Raises
+    ------
+    OptipathError
+        Of that type, if rows are of unequal lengths, if entries are masked, if there are labels
+        or a unit, which an array does not have, or if the value itself raises anything.
+
+    Examples
+    --------
+    >>> as_given("a turn", [0.5, 1.0])
+    array([0.5, 1. ])
+    """
+    if type(value) is np.ndarray:
+        return value
+    try:
+        _refuse_endless(value)
+        kinds = _kinds(value, set())
+        array = np.asarray(value)
+    except _MoreThanNumbers as more:
+        raise error(f"{what} {more}") from None
+    except MemoryError:
+        raise
+    except Exception as fault:  # noqa: BLE001 - what is given may raise anything
+        raise error(f"{what} {_reason(fault)}") from None
+    if array.dtype.kind == "U" and not isinstance(value, str):
+        return np.asarray(value, dtype=object)
+    if array.dtype.type is np.float64:
+        # Among numbers of more precision, a right angle of less is a right angle all the same.
+        for kind in kinds.intersection(_NARROW):
+            array = _with_limits(array, kind, _RIGHT_ANGLES)
+    return array
+
+
+def entries_of(
+    what: str, each: str, value: Any, error: type[OptipathError] = ValueFault
+) -> tuple[Any, ...]:
+    """Return the entries of a sequence, of which each may be an array or a parameter.
+
+    Parameters
+    ----------
+    what, value, error
+        As `as_given` takes them.
+    each : str
+        What the entries are.
+
+    Raises
+    ------
+    OptipathError
+        Of the type that is given, if it is no sequence, or says more than its entries do.
+
+    Examples
+    --------
+    >>> entries_of("turns", "angles", [0.5, "30 deg"])
+    (0.5, '30 deg')
+    """
+    try:
+        _refuse_more(value)
+        # What never ends has no length.
+        if len(value) >= 0 and not isinstance(value, (str, bytes, AbstractSet, Mapping)):
+            return tuple(value)
+        reason = f"must be a sequence of {each}, not {shown(value)}"
+    except _MoreThanNumbers as more:
+        reason = str(more)
+    except MemoryError:
+        raise
+    except Exception:  # noqa: BLE001 - what is given may raise anything
+        reason = f"must be a sequence of {each}, not {shown(value)}; for one, write [...]"
+    raise error(f"{what} {reason}")
+
+
+def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
+    """Return numbers of less precision than double as doubles, and others as they are.
+
+    What is beyond a limit by its rounding becomes the limit, as `within` has it; so does what is
+    beyond a right angle, which limits angles of incidence.
+
+    Examples
+    --------
+    >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
+    True
+    """
+    kind = array.dtype.type
+    if kind is np.complex64:
+        return array.astype(np.complex128)
+    array = within(array, limits)
+    return within(array, _RIGHT_ANGLES).astype(np.float64) if kind in _NARROW else array
+
+
+def within(array: Array, limits: tuple[float, float]) -> Array:
+    """Return numbers; those beyond a limit by its rounding to their precision, as that limit.
+
+    Where there are such, they are doubles at least.
+
+    Examples
+    --------
+    >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
+    0.1
+    """
+    if is_beyond(array, limits):
+        return _with_limits(array.astype(np.float64), array.dtype.type, limits)
+    if array.dtype.type is np.longdouble and limits != ENDLESS:
+        beyond = (array < limits[0]) | (array > limits[1])
+        near = array.astype(np.float64)
+        return np.where(beyond & np.isin(near, limits), near, array)
+    return array
+
+
+def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
+    """Tell whether numbers of less precision than double are beyond a limit, rounded to that.
+
+    Examples
+    --------
+    >>> is_beyond(np.float32([0.5, np.pi / 2.0]), (0.0, np.pi / 2.0))
+    True
+    """
+    kind = array.dtype.type
+    if kind not in _NARROW or not array.size:
+        return False
+    low, high = _rounded(kind, limits)
+    return bool(
+        (low < limits[0] and array.min() == low) or (high > limits[1] and array.max() == high)
+    )
+
+
+def rounding_of(array: Array) -> float:
+    """Return the rounding of numbers of less precision than double; 0 for all others.
+
+    Examples
+    --------
+    >>> rounding_of(np.ones(3, np.float32)) == 2.0**-23, rounding_of(np.ones(3))
+    (True, 0.0)
+    """
+    return float(np.finfo(array.dtype).eps) if array.dtype.type in _NARROW else 0.0
+
+
+class _MoreThanNumbers(Exception):  # noqa: N818 - a reason, for the sentence around it
+    """Why something is no array; what comes behind the name of what it is given for."""
+
+
+def _kinds(value: Any, seen: set[int]) -> set[type]:
+    """Return the types of all numbers in lists in lists; refuse what is more than numbers.
+
+    Each list is looked at once, since it may be in itself.
+    """
+    if not isinstance(value, (list, tuple)):
+        if type(value) not in _PLAIN:
+            _refuse_more(value)
+        return {type(value)}
+    kinds = set(map(type, value))
+    if kinds <= _PLAIN:
+        return kinds
+    seen.add(id(value))
+    several = (_kinds(entry, seen) for entry in value if id(entry) not in seen)
+    return set().union(*several)
+
+
+def _refuse_endless(value: Any) -> None:
+    """Refuse a list in itself, which NumPy would open for ever."""
+    depth = 0
+    while isinstance(value, (list, tuple)) and value:
+        value, depth = value[0], depth + 1
+        if depth > _DEEPEST:
+            raise _MoreThanNumbers(f"is a list in lists, more than {_DEEPEST} deep; give numbers")
+
+
+def _refuse_more(value: Any) -> None:
+    """Refuse what has masked entries, a unit or labels."""
+    if type(value).__module__.partition(".")[0] == "optipath":
+        return
+    mask = getattr(value, "mask", None)
+    if not callable(mask) and np.any(mask):
+        raise _MoreThanNumbers(
+            "has masked entries; leave them out, .compressed(), or say what they are, .filled(...)"
+        )
+    if any(hasattr(value, name) for name in _LABELS):
+        cure = next((cure for name, cure in _CURES.items() if hasattr(value, name)), _ANY_CURE)
+        raise _MoreThanNumbers(
+            f"is a {type(value).__name__} with labels, by which nothing is aligned here; give its "
+            f"numbers alone, {cure}"
+        )
+    for name in _UNITS:
+        if (unit := getattr(value, name, None)) is not None:
+            raise _MoreThanNumbers(
+                f"has a unit, {shown(unit)}, which nothing looks at; give plain numbers, in "
+                f"radians or metres"
+            )
+
+
+def _rounded(kind: Any, limits: tuple[float, float]) -> tuple[float, float]:
+    """Return limits rounded to a precision; what is 0 or infinite in it says nothing."""
+    with np.errstate(over="ignore", under="ignore"):
+        low, high = (float(kind(limit)) for limit in limits)
+    return (
+        low if low and low > -math.inf else limits[0],
+        high if high and high < math.inf else limits[1],
+    )
+
+
+def _with_limits(array: Array, kind: Any, limits: tuple[float, float]) -> Array:
+    """Return doubles; those beyond a limit by its rounding to a precision, as the limit."""
+    low, high = _rounded(kind, limits)
+    if low < limits[0]:
+        array = np.where(array == low, limits[0], array)
+    return np.where(array == high, limits[1], array) if high > limits[1] else array
+
+
+def _reason(fault: Exception) -> str:
+    said = [argument for argument in fault.args if type(argument) is str]
+    if any("inhomogeneous" in text for text in said):
+        return "has rows of unequal lengths; make it one shape"
+    return f"cannot be made an array, which raises {shown(fault)}; give numbers"

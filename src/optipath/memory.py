@@ -1,0 +1,102 @@
+"""Memory: whether a machine has what a batch takes, told before anything of it is made."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager
+from math import prod
+from typing import TYPE_CHECKING
+
+from optipath.errors import ShapeError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.errors import OptipathError
+
+UNTOLD = 16 * 2**30
+"""How many bytes of memory a machine is taken to have that does not tell."""
+
+CURE = "give fewer values at a time"
+
+_LITTLE = 2**26
+
+
+def refuse_too_large(
+    batch: tuple[int, ...], each: int, cure: str = CURE, error: type[OptipathError] = ShapeError
+) -> None:
+    """Refuse a batch that takes more memory than the machine has.
+
+    Parameters
+    ----------
+    batch : tuple of int
+        The shape of the batch.
+    each : int
+        How many bytes a path takes at least, results and what is made on the way.
+    cure : str, optional
+        What to do where it is too much.
+    error : type, optional
+        What is raised.
+
+    Raises
+    ------
+    OptipathError
+        Of that type.
+
+    Examples
+    --------
+    >>> refuse_too_large((1000, 1000), 32)
+    """
+    needed = prod(batch) * each
+    if needed > _LITTLE and needed > memory():
+        raise error(_too_much(batch, each, cure))
+
+
+@contextmanager
+def enough_for(
+    batch: tuple[int, ...], each: int, cure: str = CURE, error: type[OptipathError] = ShapeError
+) -> Iterator[None]:
+    """Do what takes memory for each path of a batch, if there is enough of it.
+
+    Parameters
+    ----------
+    batch, each, cure, error
+        As `refuse_too_large` takes them.
+
+    Raises
+    ------
+    OptipathError
+        As `refuse_too_large` does, and also where the memory that is left runs out.
+
+    Examples
+    --------
+    >>> with enough_for((1000, 1000), 32):
+    ...     pass
+    """
+    refuse_too_large(batch, each, cure, error)
+    try:
+        yield
+    except MemoryError:
+        raise error(_too_much(batch, each, cure)) from None
+
+
+def memory() -> int:
+    """Return how many bytes of memory the machine has.
+
+    Examples
+    --------
+    >>> memory() > 2**20
+    True
+    """
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return UNTOLD
+
+
+def _too_much(batch: tuple[int, ...], each: int, cure: str) -> str:
+    needed, there = (f"{size / 1e9:,.1f} GB" for size in (prod(batch) * each, memory()))
+    return (
+        f"a batch of {prod(batch):.3g} paths, of shape {batch}, takes {needed} of memory or more, "
+        f"and this machine has {there}; {cure}"
+    )
