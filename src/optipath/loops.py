@@ -151,7 +151,7 @@ class Meeting:
             y, *across = others or (x,)
             squares = sum(part * part for part in across)
             bright = (x >= -slack) & (y >= -slack) & (squares <= 4.0 * x * y + slack)
-            holds = holds & bright & (xp.absolute(total) < inf)
+            holds = holds & bright & (total < inf)
         return holds
 
     def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:

@@ -27,6 +27,8 @@ _WARNED = 1e-4
 _FEW_DIGITS, _NEAR = 1e-9, 1e-3
 """How near to 1 a gain has lost its digits, and how near it may have, where light gains."""
 
+_ROUNDING = 1e-15
+
 
 class Worst(NamedTuple):
     """That path of a batch of which most stays in a loop.
@@ -159,15 +161,8 @@ class _Judged:
             if (count := self.meeting.count(knot))
         }
         with np.errstate(all="ignore"):
-            lights = self.meeting.lights(unpolarised).values()
-        holds = np.ones(len(self.where[0]), bool)
-        for parts in lights:
-            along, across = map(self._picked, parts[:2]), map(self._picked, parts[2:])
-            x, *y = along
-            squares = sum((part * part for part in across), start=np.zeros_like(x))
-            holds &= (x > 0.0) & (np.all([other > 0.0 for other in y], axis=0))
-            holds &= squares <= 4.0 * x * (y[0] if y else x) * (1.0 + _FEW_DIGITS)
-        return holds
+            self.meeting.lights(unpolarised)
+            return self._picked(self.meeting.adds_up(_ROUNDING)) > 0.0
 
     def _picked(self, number: Any) -> Array:
         return np.broadcast_to(np.asarray(_plain(number), float), self.shape)[self.where]
