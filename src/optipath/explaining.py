@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines import LARGE, batches
+from optipath.errors import ParameterError
 from optipath.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.kernels import Plain
 from optipath.running.counts import operations

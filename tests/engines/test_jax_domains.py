@@ -23,25 +23,25 @@ V = op.Parameter("v")
 STATE = (1.0, 0.5, 0.3, 0.4)
 POINTS = np.array([[0.0, 0, 2], [0, 0, 0], [0, 2, 0]])
 FIELDS = {
-    "intensity": (lambda v: op.Source(v), [0.5], [-0.1, np.inf]),
+    "intensity": (op.Source, [0.5], [-0.1, np.inf]),
     "stokes": (
         lambda v: op.Source(2.0, v),
         [np.array([1.0, 0.6, 0.0, 0.8]), np.zeros(4)],
         [np.array([1.0, 0.8, 0.0, 0.8]), np.array([-1.0, 0, 0, 0]), np.array([0.0, 1, 0, 0])],
     ),
-    "angle": (lambda v: op.Polarizer(v), [-9.0, 1e4], [np.inf, np.nan]),
+    "angle": (op.Polarizer, [-9.0, 1e4], [np.inf, np.nan]),
     "transmittance": (lambda v: op.Polarizer(0.3, 0.1, v), [0.0, 0.5, 1.0], [-0.1, 1.1]),
     "leakage": (lambda v: op.Polarizer(0.3, leakage=v), [0.0, 1.0], [-1e-9, 2.0]),
-    "attenuation": (lambda v: op.Attenuator(v), [0.3, 1.0], [-0.1, 1.5]),
-    "depolarization": (lambda v: op.Depolarizer(v), [0.3, 1.0], [-0.1, 1.5]),
+    "attenuation": (op.Attenuator, [0.3, 1.0], [-0.1, 1.5]),
+    "depolarization": (op.Depolarizer, [0.3, 1.0], [-0.1, 1.5]),
     "maximum": (lambda v: op.Diattenuator(v, 0.2), [0.7], [-0.1, 1.5]),
     "minimum": (lambda v: op.Diattenuator(0.9, v), [0.7], [-0.1, 1.5]),
-    "retardance": (lambda v: op.Retarder(v), [0.7], [np.inf]),
-    "rotation": (lambda v: op.Rotator(v), [0.7], [-np.inf]),
-    "amplitude": (lambda v: op.Mirror(v), [-1.0, 0.6], [-1.1, 2.0]),
+    "retardance": (op.Retarder, [0.7], [np.inf]),
+    "rotation": (op.Rotator, [0.7], [-np.inf]),
+    "amplitude": (op.Mirror, [-1.0, 0.6], [-1.1, 2.0]),
     "complex amplitude": (lambda v: op.Mirror(0.9, v), [0.6 + 0.8j], [0.8 + 0.8j]),
-    "matrix": (lambda v: op.MuellerElement(v), [np.diag([1, 0.5, 0.2, 0.1])], [np.eye(4) * np.nan]),
-    "reflectance": (lambda v: op.BeamSplitter(v), [0.0, 0.3], [-0.1, 1.1]),
+    "matrix": (op.MuellerElement, [np.diag([1, 0.5, 0.2, 0.1])], [np.eye(4) * np.nan]),
+    "reflectance": (op.BeamSplitter, [0.0, 0.3], [-0.1, 1.1]),
     "length": (lambda v: op.Medium(v, 2.0), [0.0, 0.5], [-0.1]),
     "absorption": (lambda v: op.Medium(0.5, v), [0.0, 2.0], [-0.1]),
     "incidence": (lambda v: op.Interface(1.5, v), [0.0, 0.7, np.pi / 2], [-0.1, 1.6, 2.0]),
@@ -111,7 +111,10 @@ def test_slopes_are_nan_outside_a_domain_and_finite_inside_and_at_its_ends(field
 def test_of_a_batch_only_what_is_outside_is_nan():
     path = path_of("incidence", V)
     given = jnp.array([0.3, 2.0, 0.7, -1.0])
-    for run in (jax.jit(lambda v: path.trace(v=v).stokes), jax.vmap(lambda v: path.trace(v=v).stokes)):
+    for run in (
+        jax.jit(lambda v: path.trace(v=v).stokes),
+        jax.vmap(lambda v: path.trace(v=v).stokes),
+    ):
         assert np.isnan(run(given)).all(axis=-1).tolist() == [False, True, False, True]
     matrix = jax.jit(lambda v: path.mueller(v=v).matrix)(given)
     assert np.isnan(matrix).all(axis=(-2, -1)).tolist() == [False, True, False, True]
@@ -190,12 +193,14 @@ def test_of_loops_that_gain_light_and_slopes_are_nan_where_jax_traces():
         return path.mueller(gain=gain * jnp.eye(4)).matrix[0, 0]
 
     for gain in (1.112, 1.2, 1.5, 3.0):
-        assert np.isnan([f(gain) for f in (jax.jit(intensity), jax.jit(entry), jax.grad(intensity))]).all()
+        assert np.isnan(
+            [f(gain) for f in (jax.jit(intensity), jax.jit(entry), jax.grad(intensity))]
+        ).all()
     for gain in (0.5, 1.0, 1.1):
-        # 0.1 g / (1 - 0.9 g) leaves, of which the slope is 0.1 / (1 - 0.9 g)^2.
-        assert float(jax.jit(intensity)(gain)) == pytest.approx(0.1 * gain / (1 - 0.9 * gain), rel=1e-12)
-        assert float(jax.jit(entry)(gain)) == pytest.approx(0.1 * gain / (1 - 0.9 * gain), rel=1e-12)
-        assert float(jax.grad(intensity)(gain)) == pytest.approx(0.1 / (1 - 0.9 * gain) ** 2, rel=1e-9)
+        leaves = 1.0 - 0.9 * gain
+        for run in (intensity, entry):
+            assert float(jax.jit(run)(gain)) == pytest.approx(0.1 * gain / leaves, rel=1e-12)
+        assert float(jax.grad(intensity)(gain)) == pytest.approx(0.1 / leaves**2, rel=1e-9)
 
 
 def test_random_rings_are_nan_exactly_where_they_are_refused():

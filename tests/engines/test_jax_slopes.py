@@ -8,14 +8,14 @@ import optipath as op
 from optipath.accuracy import reference
 from optipath.accuracy.boundary_reference import stack
 from optipath.accuracy.many_digits import cos_sin, exact_angle
-from optipath.kernels import METHODS, REFLECTION
+from optipath.kernels import METHODS
 
 jax = pytest.importorskip("jax")
 
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40
 PORTS = {"reflection": "reflected", "transmission": "transmitted"}
-REFERENCES = {"reflection": reference._reflected, "transmission": reference._transmitted}  # noqa: SLF001 - in many digits
+REFERENCES = {"reflection": reference._reflected, "transmission": reference._transmitted}
 
 
 @pytest.fixture(autouse=True)
@@ -128,7 +128,9 @@ def agree(found, expected, points, limit=1e-10):
     scale = np.maximum(1.0, np.abs(expected).max(axis=-1, keepdims=True))
     apart = np.abs(found - expected) / scale
     worst = np.unravel_index(np.argmax(np.where(np.isnan(apart), np.inf, apart)), apart.shape)
-    said = f"argument {worst[1]} at {points[worst[0]]}: {found[worst[:2]]}, not {expected[worst[:2]]}"
+    said = (
+        f"argument {worst[1]} at {points[worst[0]]}: {found[worst[:2]]}, not {expected[worst[:2]]}"
+    )
     assert apart[worst] <= limit, said
 
 

@@ -82,7 +82,9 @@ def bench(
     ParameterError
         If the path has no open parameter that can be varied.
     """
-    found = [*engines] or [engine for engine in ENGINES if engine != "auto" and is_installed(engine)]
+    found = [*engines] or [
+        engine for engine in ENGINES if engine != "auto" and is_installed(engine)
+    ]
     for engine in found:
         if not is_installed(engine):
             raise missing(engine)

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.angles import CosSin
 from optipath.engines import compile_array_path, engine_for, jax_path
 from optipath.errors import ParameterError
 from optipath.formulas import lights_formula
-from optipath.angles import CosSin
 from optipath.jax_values import is_jax, is_traced, namespace
 from optipath.memory import CURE, enough_for
 from optipath.running.given import Given, Sorter
