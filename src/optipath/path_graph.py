@@ -262,7 +262,8 @@ class PathGraph:
             name, each in the frame in which it leaves its element. A path with an open
             parameter called ``keep`` takes it for that; compose it by ``Composer(keep="all")``.
         **parameters : float or array_like
-            The values of open parameters.
+            The values of open parameters. Those that JAX traces cannot be refused: light is NaN
+            where they are outside their domain.
 
         Raises
         ------

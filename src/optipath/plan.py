@@ -125,7 +125,8 @@ class Plan:
         Returns
         -------
         Light
-            ``stokes`` has the broadcast shape of all values with 4 behind it.
+            ``stokes`` has the broadcast shape of all values with 4 behind it. It is NaN for
+            values that JAX traces outside their domain: these cannot be refused.
 
         Raises
         ------
