@@ -18,6 +18,7 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import CacheError
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -277,7 +278,7 @@ class CodeCache:
 def _number(name: str, usual: int) -> int:
     text = os.environ.get(name) or str(usual)
     if not text.isascii() or not text.isdigit() or len(text) > 18:
-        raise CacheError(f"{name} is {text[:40]!r}; set it to a whole number such as {usual}")
+        raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {usual}")
     return int(text)
 
 
