@@ -1,4 +1,5 @@
 import math
+from contextlib import suppress
 
 import pytest
 from hypothesis import given
@@ -100,3 +101,43 @@ def test_numbers_without_dimension_may_be_complex(text, value):
 def test_what_is_no_complex_number_is_refused(text):
     with pytest.raises(UnitError):
         parse_quantity(text, "")
+
+
+LONG = [
+    "1" * 1000 + "+" + "1" * 999,
+    "1." * 900,
+    "1" * 1999,
+    "1 " + " " * 1990 + "x",
+    "(" + "1" * 1000 + "+" + "1" * 900 + ")",
+    "1e" + "1" * 1900,
+    "+" * 1990,
+    "1" * 10**6,
+    " " * 10**6 + "x",
+    "1+" * 10**6 + "j",
+]
+
+
+@pytest.mark.parametrize("text", LONG, ids=range(len(LONG)))
+@pytest.mark.parametrize("dimension", ["", "length"])
+def test_long_texts_are_read_in_time_that_grows_with_their_length(text, dimension):
+    # Where digits could be read in two ways, the first of them took half a minute.
+    with suppress(UnitError):
+        assert parse_quantity(text, dimension) >= 1e300
+
+
+def test_a_long_text_is_told_by_its_ends():
+    with pytest.raises(UnitError, match="has 1000000 characters; no number needs as many") as error:
+        parse_quantity("1" * 10**6, "")
+    assert len(str(error.value)) < 300
+
+
+@pytest.mark.parametrize("text", ["1e5000 nm", "-1e400 mm", "1e999999999 m", "1e-999999999 m"])
+def test_numbers_beyond_floats_are_infinite_or_0(text):
+    assert parse_quantity(text, "length") in (math.inf, -math.inf, 0.0)
+
+
+def test_numbers_of_many_digits_are_read_as_the_nearest():
+    assert parse_quantity("0." + "0" * 300 + "1" * 700, "") == float("0." + "0" * 300 + "1" * 700)
+    assert parse_quantity("1" * 300 + "+" + "2" * 300 + "j", "") == complex(
+        float("1" * 300), float("2" * 300)
+    )

@@ -174,7 +174,7 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
     try:
         refuse_unwieldy(text)
     except PresetError as error:
-        raise PresetError(f"'{path}' cannot be read: {error}") from None
+        raise PresetError(f"'{path}' is not TOML as presets use it: {error}") from None
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.

@@ -38,7 +38,7 @@ def test_what_would_take_long_to_parse_is_refused_before(text, tmp_path):
         refuse_unwieldy(text)
     file = tmp_path / "x.toml"
     file.write_text(text, "utf-8")
-    with pytest.raises(op.PresetError, match=r"x\.toml' cannot be read: line") as error:
+    with pytest.raises(op.PresetError, match="is not TOML as presets use it: line") as error:
         op.load_preset(file)
     assert len(str(error.value)) < 300
 
