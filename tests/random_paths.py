@@ -43,7 +43,8 @@ class Draw:
 
     def matrix(self):
         if self.chance(0.5):
-            return np.diag([1.0, *self.rng.uniform(0, 1, 3)])
+            foil = np.diag([1.0, *self.rng.uniform(0, 1, 3)])
+            return op.Mueller(foil).nearest_physical().matrix
         return op.Polarizer(0.0, 0.0, float(self.rng.uniform(0.3, 1)), 0.2).mueller().matrix
 
     def element(self):
@@ -92,8 +93,12 @@ class Draw:
     def medium(self):
         length, absorption = self.number(0, 0.1), self.number(0, 30)
         either = (self.number(-40, 40), 0.0)
-        rotation, retardance = either if self.chance(0.5) else either[::-1]
-        return op.Medium(length, absorption, rotation, retardance, self.turn(), self.turn())
+        turns, retardance = either if self.chance(0.5) else either[::-1]
+        rates = {
+            "retardance": retardance,
+            ("rotation", "dextrorotation")[len(self.values) % 2]: turns,
+        }
+        return op.Medium(length, absorption, angle=self.turn(), azimuth=self.turn(), **rates)
 
     def source(self):
         intensity = float(self.rng.uniform(0.5, 100))

@@ -251,3 +251,35 @@ def test_longdouble_is_computed_in_longdouble():
 def test_a_longdouble_that_is_no_more_than_float64_is_refused():
     with pytest.raises(op.ComposerError, match="no more than float64"):
         op.Composer(dtype="longdouble")
+
+
+@pytest.mark.parametrize("odd", [np.eye(2), [1], {}, 1.5, object(), op.CosSin(1.0, 0.0)])
+@pytest.mark.parametrize("option", ["method", "model", "engine", "dtype", "composing", "keep"])
+def test_an_option_that_is_no_word_is_refused(option, odd):
+    with pytest.raises(op.ComposerError, match=f"{option} .* is unknown"):
+        op.Composer(**{option: odd})
+
+
+@pytest.mark.parametrize("odd", [np.eye(2), "two", None, [1], 2.5, -1])
+def test_what_is_no_number_of_paths_is_refused(odd):
+    plan = op.load_preset("malus").compose()
+    with pytest.raises(op.ParameterError, match="number of paths must be a whole number"):
+        plan.engine_for(odd)
+
+
+@pytest.mark.parametrize("odd", [np.eye(2), [1], {}, 1.5])
+def test_what_is_no_name_of_a_source_or_detector_is_refused(odd):
+    plan = op.load_preset("malus").compose()
+    for names in [(odd,), (None, odd)]:
+        with pytest.raises(op.ParameterError, match="does not exist; there are: "):
+            plan.mueller(*names, angle=0.3)
+
+
+@pytest.mark.parametrize("odd", [np.eye(3), "words", 0.5, None])
+def test_a_case_of_what_is_no_mapping_is_refused(odd):
+    with pytest.raises(op.ParameterError, match="values of a case must be a mapping"):
+        op.Case(odd)
+    with pytest.raises(op.ParameterError, match="published of a case must be a mapping"):
+        op.Case({}, odd)
+    with pytest.raises(op.ParameterError, match="a Stokes vector by detector"):
+        op.Case({}, {"eye": odd if isinstance(odd, str) else "words"})

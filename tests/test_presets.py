@@ -72,6 +72,55 @@ def test_senarmonts_compensator_is_dark_at_half_the_retardance():
     assert path.trace().intensity == pytest.approx(0.0, abs=1e-16), "dark by default"
 
 
+def by_an_ellipsometer(n, k, theta, polarizer, compensator, retardance, analyzer):
+    """The intensity behind P, C, S and A, azimuths from p towards s, fields exp(+iwt).
+
+    Azzam & Bashara, Ellipsometry and Polarized Light (1977), sec. 3.4: Jones vectors (p, s).
+    """
+
+    def along(angle):
+        return np.array([np.cos(angle), np.sin(angle)])
+
+    N, c = n - 1j * k, np.cos(theta)
+    g = np.sqrt(1.0 - (np.sin(theta) / N) ** 2)
+    sample = np.diag([(N * c - g) / (N * c + g), (c - N * g) / (c + N * g)])
+    fast, slow = along(compensator), along(compensator + np.pi / 2)
+    plate = np.outer(fast, fast) + np.exp(-1j * retardance) * np.outer(slow, slow)
+    return 0.5 * abs(along(analyzer) @ sample @ plate @ along(polarizer)) ** 2
+
+
+def test_the_ellipsometer_counts_azimuths_from_p_towards_s():
+    rng = np.random.default_rng(7)
+    limits = {"n": (0.2, 4.0), "k": (0.0, 4.0), "theta": (0.0, 1.5)}
+    limits |= dict.fromkeys(["polarizer", "compensator", "retardance", "analyzer"], (-3.0, 3.0))
+    plan = op.load_preset("ellipsometer-pcsa").compose()
+    for _ in range(50):
+        values = {name: rng.uniform(*between) for name, between in limits.items()}
+        found = plan.run_all(**values)["photometer"].intensity
+        assert found == pytest.approx(by_an_ellipsometer(**values), abs=1e-14)
+
+
+def test_an_analyzer_at_0_passes_what_the_sample_reflects_of_p():
+    # At Brewster's angle, nothing.
+    glass = {"n": 1.5, "k": 0.0, "theta": np.arctan(1.5), "retardance": 0.0}
+    plan = op.load_preset("ellipsometer-pcsa").compose()
+    along_p, along_s = (
+        plan.run_all(**glass, analyzer=analyzer)["photometer"].intensity
+        for analyzer in (0.0, np.pi / 2)
+    )
+    assert along_p < 1e-30
+    # r_s = (1 - n^2) / (1 + n^2), half of the light of the polariser being s.
+    assert along_s == pytest.approx(0.25 * (1.25 / 3.25) ** 2)
+
+
+def test_psi_and_delta_of_the_light_of_an_ellipsometer_are_those_of_the_sample():
+    values = {"n": np.linspace(0.2, 4.0, 20), "k": np.linspace(3.0, 0.1, 20), "theta": 1.2}
+    light = op.load_preset("ellipsometer-pcsa").trace(**values)
+    sample = op.Interface(values["n"] + 1j * values["k"], 1.2).mueller()
+    np.testing.assert_allclose(light.psi, sample.psi, rtol=1e-13)
+    np.testing.assert_allclose(light.delta, sample.delta, rtol=1e-13)
+
+
 def test_values_given_take_precedence_over_the_case_and_others_stay_open():
     path = op.load_preset("npgr026", case="7", filter="horizontal")
     expected = op.load_preset("npgr026", case="8").trace().stokes

@@ -9,7 +9,10 @@ SOURCE = Path(op.__file__).parent
 
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
+    "starting",
+    "quoting",
     "errors",
+    "written_files",
     "jax_values",
     "roundings",
     "array_likes",

@@ -5,6 +5,9 @@ composer aligns the frames and orders the work; the plan it makes runs on one se
 values or on millions.
 """
 
+from optipath import starting  # noqa: F401 - first, for Ctrl-C while the others are imported
+
+# isort: split
 from optipath.angles import CosSin
 from optipath.cases import Case
 from optipath.certificate import Certificate, intensity_bounds

@@ -7,10 +7,11 @@ from typing import Any
 import numpy as np
 
 from optipath.array_likes import as_given
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError
 from optipath.frozen import same
 from optipath.jax_values import is_jax, namespace
 from optipath.memory import refuse_too_large
+from optipath.quoting import shown
 from optipath.roundings import doubles, rounding_of
 from optipath.shapes import broadcast_fault, joint_shape
 

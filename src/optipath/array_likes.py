@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, ValueFault, shown
+from optipath.errors import OptipathError, ValueFault
+from optipath.quoting import shown
 from optipath.roundings import ENDLESS, NARROW, RIGHT_ANGLES, doubles, with_limits
 
 if TYPE_CHECKING:

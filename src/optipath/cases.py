@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from optipath.array_likes import array_of
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError
 from optipath.frozen import frozen, same
+from optipath.quoting import shown
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +36,16 @@ class Case:
     note: str = ""
 
     def __post_init__(self) -> None:
-        for what, given in (("values", self.values), ("published", self.published)):
-            if not isinstance(given, Mapping):
-                raise ParameterError(f"{what} of a case must be a mapping, not {shown(given)}")
+        given = {"values": self.values, "published": self.published}
+        faults = [
+            f"{name} of a case must be a mapping by names, not {shown(one)}"
+            for name, one in given.items()
+            if not isinstance(one, Mapping)
+        ]
+        if not isinstance(self.note, str):
+            faults.append(f"the note of a case must be a text, not {shown(self.note)}")
+        if faults:
+            raise ParameterError(*faults)
         values = {str(name): frozen(value) for name, value in self.values.items()}
         published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)

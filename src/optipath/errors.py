@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import math
+from contextlib import contextmanager
+from contextvars import ContextVar
 from difflib import get_close_matches
-from reprlib import Repr
+from numbers import Integral
 from typing import TYPE_CHECKING, Any
 
+from optipath.quoting import printable, shown
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
 
 _LONGEST = 600
-_SHORT = Repr()
-_SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxlong, _SHORT.maxother = 4, 80, 40, 200
+_MOST_NAMES = 1000
+_MOST_LISTED = 30
+_LONGEST_NAME = 100
+
+_looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 
 
 class OptipathError(Exception):
@@ -21,7 +29,8 @@ class OptipathError(Exception):
     Parameters
     ----------
     *faults : str
-        One sentence for each fault: the thing, the value, and the cure.
+        One sentence for each fault: the thing, the value, and the cure. Control characters
+        that it quotes are shown by their codes.
 
     Examples
     --------
@@ -32,7 +41,7 @@ class OptipathError(Exception):
     """
 
     def __init__(self, *faults: str) -> None:
-        short = tuple(map(_shortened, faults))
+        short = tuple(printable(_shortened(fault)) for fault in faults)
         super().__init__(*short)
         self.faults = short
 
@@ -111,7 +120,8 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     Returns
     -------
     str
-        ``"; did you mean 'x'?"``, or the list of what there is.
+        ``"; did you mean 'x'?"``, or the list of what there is; nothing where `few_suggestions`
+        has no look left.
 
     Examples
     --------
@@ -120,27 +130,69 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    names, word = list(known), word if type(word) is str else shown(word)
-    by_lower = {name.lower(): name for name in reversed(names)}
-    close = get_close_matches(word.lower(), by_lower, n=1)
+    left = _looks_left.get()
+    if left <= 0:
+        return ""
+    _looks_left.set(left - 1)
+    names = list(known)
+    text = word if isinstance(word, str) else shown(word)
+    # The time of a comparison grows with the product of the lengths.
+    by_lower = {
+        name.lower(): name
+        for name in reversed(names[:_MOST_NAMES])
+        if len(name) <= _LONGEST_NAME >= len(text)
+    }
+    close = get_close_matches(text.lower(), by_lower, n=1)
     if close:
         return f"; did you mean '{by_lower[close[0]]}'?"
+    if len(names) > _MOST_LISTED:
+        return (
+            f"; there are: {', '.join(names[:_MOST_LISTED])} and {len(names) - _MOST_LISTED} more"
+        )
     return f"; there are: {', '.join(names)}" if names else "; there are none"
 
 
-def shown(value: object) -> str:
-    """Return what somebody has given as a sentence quotes it: in one short line, whatever it is.
+@contextmanager
+def few_suggestions(most: int = 20) -> Iterator[None]:
+    """Let `did_you_mean` look for so many words inside, and no more: each look takes its time.
 
     Examples
     --------
-    >>> shown([1.0, "a"]), shown("a" * 1000)[-10:], shown(10**400)[:10]
-    ("[1.0, 'a']", "aaaaaaaaa'", '1000000000')
+    >>> with few_suggestions(1):
+    ...     [did_you_mean(word, ["in", "out"]) for word in ("ou", "inn")]
+    ["; did you mean 'out'?", '']
     """
+    token = _looks_left.set(most)
     try:
-        text = " ".join(_SHORT.repr(value).split())
-    except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
-        text = f"something of type {type(value).__name__}"
-    return "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+        yield
+    finally:
+        _looks_left.reset(token)
+
+
+def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
+    """Return the sentence for a word that is none of those there are; none for one that is.
+
+    Examples
+    --------
+    >>> unknown("engine", "nunpy", ("numpy", "jax")), unknown("engine", "jax", ("numpy", "jax"))
+    (["engine 'nunpy' is unknown; did you mean 'numpy'?"], [])
+    """
+    if isinstance(word, str) and word in known:
+        return []
+    return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
+
+
+def whole_number(what: str, number: object, least: int = 1) -> list[str]:
+    """Return the sentence for what is no whole number, or too small; none for one that serves.
+
+    Examples
+    --------
+    >>> whole_number("threads", 1.5), whole_number("threads", 2)
+    (['threads must be a whole number of 1 or more, not 1.5'], [])
+    """
+    if isinstance(number, Integral) and not isinstance(number, bool) and int(number) >= least:
+        return []
+    return [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
 
 
 def listed(words: Sequence[str]) -> str:

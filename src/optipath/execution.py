@@ -61,7 +61,7 @@ class Execution(Runner):
         if self.is_for_jax(parameters):
             resolved, batch = self.inputs.resolve(parameters)
             with self.enough_for(batch, 4 * len(self.program.readings), twice=True):
-                found = self.jax.lights(resolved, batch)
+                found = self.jax.lights(resolved, batch, parameters)
             for stokes, reading in zip(found, self.program.readings.values(), strict=True):
                 self.refuse_infinite(stokes[..., : reading.components])
             return {n: Found(s, 0) for n, s in zip(self.program.readings, found, strict=True)}

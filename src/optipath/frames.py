@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import array_of, as_given
-from optipath.errors import FrameError, ShapeError, shown
+from optipath.errors import FrameError, ShapeError
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
+from optipath.quoting import shown
 from optipath.roundings import rounding_of
 from optipath.shapes import check_broadcast
 

@@ -81,7 +81,8 @@ def fresnel_transmission(
     The matrix has the form that `fresnel_reflection` gives; ``A + B`` and ``A - B`` are
     1 less what is reflected, ``C = sqrt((A + B)(A - B))`` and ``S = 0``, and all four are 0
     in total reflection. Behind the boundary of a medium that absorbs, C and S have the
-    phase between t_s and t_p of the field just there.
+    phase between t_s and t_p of the field just there. It is power that is carried: a radiance
+    is multiplied by (n2 / n1)^2 besides (Nicodemus, Am. J. Phys. 31, 368 (1963)).
 
     Parameters
     ----------

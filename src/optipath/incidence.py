@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import FrameError, shown
+from optipath.errors import FrameError
 from optipath.faint import near_one
 from optipath.frames import Frame, vectors
 from optipath.kernels import NUMPY, DoubleDouble
+from optipath.quoting import shown
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import as_given
-from optipath.errors import FrameError, ShapeError, shown
+from optipath.errors import FrameError, ShapeError
 from optipath.faint import times_two_to
 from optipath.frames import Frame
 from optipath.frozen import same
@@ -24,6 +24,7 @@ from optipath.polarization_state import (
     phase_difference,
     ratio,
 )
+from optipath.quoting import shown
 from optipath.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
@@ -41,8 +42,8 @@ class Light:
     ----------
     stokes : array_like, shape (..., 4)
         S0 the intensity, S1 horizontal over vertical (x over y), S2 diagonal over
-        antidiagonal, S3 > 0 for a field that turns from x to y. A component that
-        a detector does not read is NaN.
+        antidiagonal, S3 > 0 for a field that turns from x to y (see `handedness`). A
+        component that a detector does not read is NaN.
     frame : Frame, optional
         The frame the components refer to; the unit frame by default.
     exponent : int or array_like of int, shape (...), optional
@@ -212,7 +213,17 @@ class Light:
     def handedness(self) -> npt.NDArray[Any]:
         """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
 
-        The sign of S3, be it but a rounding; 0 where S3 is 0 or not read.
+        The sign of S3, be it but a rounding; 0 where S3 is 0 or not read. By IEEE and the IAU:
+        1 is a field that turns counter-clockwise to who looks at the source, which Hecht, and
+        Born & Wolf (sec. 1.4.2), call left-handed.
+
+        Examples
+        --------
+        A quarter-wave plate whose fast axis is x makes light of +45 degrees right-handed:
+
+        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
+        >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
+        1
         """
         return handedness(self.normalized)
 

@@ -7,6 +7,8 @@ intensities along x and y, S2 and S3 of all knots then gives the light at each.
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels import (
@@ -20,15 +22,18 @@ from optipath.kernels import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.kernels import Carried, Parts, Primitives
     from optipath.kernels.structures import Numbers
     from optipath.program import Loop, Program
 
 
-LITTLE = 1e-4
-"""What leaves a loop each time round where its sum takes a look, as a share."""
+LITTLE = 1e-2
+"""What of an unknown does not come back where its sum takes a closer look, as a share."""
+
+_ROUNDING = 1e-9
+"""How much light may gain by roundings of what leaves."""
 
 
 class Column(NamedTuple):
@@ -61,6 +66,9 @@ class Meeting:
         What is computed with.
     number : callable
         What is done to each number that comes of unit lights, which have no precision.
+    rounded : callable, optional
+        What is done to each number that is found, where what is computed with has so many
+        digits that a loop which gains is solved, too.
 
     Attributes
     ----------
@@ -68,6 +76,8 @@ class Meeting:
         The knot and the part that each unknown is.
     columns : list of Column
         What becomes of a unit of each.
+    leaves : list
+        How much intensity of a unit of each leaves the loop.
     pivots : list
         As those of `Elimination`.
     found : list
@@ -81,8 +91,10 @@ class Meeting:
         numbers: Callable[[int], Numbers],
         xp: Primitives,
         number: Callable[[Any], Any],
+        rounded: Callable[[Any], Any] | None = None,
     ) -> None:
         self.number = number
+        self.rounded = rounded or number
         self.program = program
         self.loop = loop
         self.numbers = numbers
@@ -91,11 +103,13 @@ class Meeting:
         self._knots = frozenset(loop.knots)
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
+        self.leaves = [self._settled(column.leaves) for column in self.columns]
         self._system = Elimination(
             xp,
             [self.scattered(column.back) for column in self.columns],
-            [self._settled(column.leaves) for column in self.columns],
+            self.leaves,
             [part < 2 for _, part in self.unknowns],
+            None if rounded is None else reduce(and_, self.fading(), True),  # noqa: FBT003
         )
         self.pivots = self._system.pivots
         self.found: list[Any] = []
@@ -108,16 +122,38 @@ class Meeting:
         """Return the parts of the light at each knot, for those of what arrives at some."""
         given = self.scattered(arriving)
         found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
-        self.found = found
+        self.found = [found if is_zero(found) else self.rounded(found) for found in found]
         lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())
-        for (knot, _), number in zip(self.unknowns, found, strict=True):
-            lights[knot] = (*lights[knot], self.number(number))
+        for (knot, _), number in zip(self.unknowns, self.found, strict=True):
+            lights[knot] = (*lights[knot], self.rounded(number))
         return lights
 
     @property
     def conditions(self) -> list[Any]:
         """Whether so much of each unknown leaves that nobody needs to look at it."""
-        return [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+        enough = [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
+        return [*enough, *self.fading(self.pivots)]
+
+    def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:
+        """Return whether no light at any knot, however it is polarised, gains on the way to others.
+
+        Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
+        where l3^2 + l4^2 <= l1 l2. Numbers that are looked at in any case are left out.
+        """
+        found = []
+        for knot in self.loop.knots:
+            places = [self._place[knot, part] for part in range(self.count(knot))]
+            along, across = places[:2], [self.leaves[place] for place in places[2:]]
+            found += [
+                self.leaves[place] > -_ROUNDING
+                for place in along
+                if not any(self.leaves[place] is number for number in looked_at)
+            ]
+            squares = [leaves * leaves for leaves in across if not is_zero(leaves)]
+            if squares:
+                most = self.leaves[along[0]] * self.leaves[along[1]] + _ROUNDING
+                found.append(sum(squares) <= most)
+        return found
 
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
         """Return the parts of the lights at some knots by their place among the unknowns."""

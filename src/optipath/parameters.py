@@ -9,9 +9,10 @@ import numpy as np
 
 from optipath.angles import CosSin
 from optipath.array_likes import array_of, as_given
-from optipath.errors import ParameterError, UnitError, did_you_mean, shown
+from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import frozen, same
 from optipath.jax_values import is_traced
+from optipath.quoting import shown
 from optipath.roundings import doubles, within
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
@@ -245,7 +246,7 @@ class Parameter:
         UnitError
             If it is no quantity of the parameter's dimension.
         """
-        if text in self.all_words:
+        if text in self.words or (self.optional and text == ABSENT):
             return text
         if text[:1].isalpha():
             cure = did_you_mean(text, self.all_words) if self.all_words else "; give a number"
@@ -291,7 +292,7 @@ class Parameter:
                 raise ParameterError(wrong)
             return number[()]
         value = self.parse(entry)
-        return {**self.words, ABSENT: None}[value] if isinstance(value, str) else value
+        return self.words.get(value) if isinstance(value, str) else value
 
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         bad = ~np.isfinite(array)

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import networkx as nx
 
-from optipath.array_likes import entries_of
 from optipath.binding import bind
 from optipath.cases import Case
 from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
 from optipath.domains import ANGLE, in_unit_of
 from optipath.elements import Detector, Element
-from optipath.errors import ParameterError, PathError, did_you_mean, shown
+from optipath.errors import ParameterError, PathError, unknown
 from optipath.frames import Frame
 from optipath.frozen import frozen, same
 from optipath.port_names import check_port, element_at, find_port
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -101,12 +101,15 @@ class PathGraph:
             raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
-        if not isinstance(loops, str) or loops not in LOOPS:
-            raise PathError(f"loops {shown(loops)} is unknown{did_you_mean(loops, LOOPS)}")
-        names = entries_of("declared", "names of parameters", declared, PathError)
-        if not all(isinstance(name, str) for name in names):
-            raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
-        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
+        if faults := unknown("loops", loops, LOOPS):
+            raise PathError(*faults)
+        if not isinstance(declared, (tuple, list)) or not all(
+            isinstance(name, str) for name in declared
+        ):
+            raise PathError(
+                f"declared must be a list of names of parameters, not {shown(declared)}"
+            )
+        self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
         self._plan: Plan | None = None
         self._plan_of_all: Plan | None = None
 
@@ -273,8 +276,8 @@ class PathGraph:
             return plan.run(keep=keep, **parameters)
         if _is(keep, KEPT[0]):
             return plan.run(**parameters)
-        if not _is(keep, KEPT[1]):
-            raise ParameterError(f"keep {shown(keep)} is unknown{did_you_mean(keep, KEPT)}")
+        if faults := unknown("keep", keep, KEPT):
+            raise ParameterError(*faults)
         if self._plan_of_all is None:
             self._plan_of_all = Composer(keep="all").compose(self._graph)
         return self._plan_of_all.run_all(**parameters)

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numpy as np
-
 from optipath.engines import LARGE
-from optipath.errors import ParameterError, did_you_mean, shown
+from optipath.errors import ParameterError, did_you_mean, whole_number
 from optipath.frames import Frame
 from optipath.light import Light
 from optipath.mueller import Mueller
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -111,10 +110,8 @@ class Plan:
         >>> plan.engine, plan.engine_for(10)
         ('numpy', 'numpy, step by step')
         """
-        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 0:
-            raise ParameterError(
-                f"the number of paths must be a whole number of 0 or more, not {shown(count)}"
-            )
+        if faults := whole_number("the number of paths", count, 0):
+            raise ParameterError(*faults)
         return self.execution.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
@@ -190,10 +187,8 @@ class Plan:
         [(slice(0, 2, None),), (slice(2, 3, None),)]
         """
         name, _, _ = self._detector
-        if isinstance(size, bool) or not isinstance(size, int) or size < 1:
-            raise ParameterError(
-                f"the size of a part must be a whole number above 0, not {shown(size)}"
-            )
+        if faults := whole_number("the size of a part", size):
+            raise ParameterError(*faults)
         for where, lights in self._runner.stream(size, parameters):
             yield Part(where, self._in_frames(lights, parameters, where)[name])
 
@@ -237,7 +232,7 @@ class Plan:
         """
         program = self.whole
         begin = self._only("source", tuple(program.sources), "mueller(source, detector)", source)
-        ends = tuple(program.detectors if detector is None else program.readings)
+        ends = tuple(program.readings if detector is not None else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
         matrix = self.whole_path.matrix(begin, reading, parameters)
@@ -257,7 +252,8 @@ class Plan:
         Raises
         ------
         ParameterError
-            As in `run`, or if a detector is not named or not known.
+            As in `run`, or if a detector is not named or not known, if light goes round, or
+            if a Mueller matrix is unphysical.
 
         Examples
         --------
@@ -268,7 +264,7 @@ class Plan:
         >>> print(found.error.round(5))
         [3.00e-05 1.27e-03]
         """
-        ends = tuple(self.whole.detectors if detector is None else self.whole.readings)
+        ends = tuple(self.whole.readings if detector is not None else self.whole.detectors)
         end = self._only("detector", ends, "certificate(detector)", detector)
         whole = self.whole_path
         return whole.certificates(whole.given(parameters), parameters)[end]
@@ -408,10 +404,9 @@ class Plan:
     @staticmethod
     def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
         if name is not None:
-            if not isinstance(name, str) or name not in names:
-                cure = did_you_mean(name, names)
-                raise ParameterError(f"{what} {shown(name)} does not exist{cure}")
-            return name
+            if isinstance(name, str) and name in names:
+                return name
+            raise ParameterError(f"{what} {shown(name)} does not exist{did_you_mean(name, names)}")
         if len(names) != 1:
             raise ParameterError(
                 f"the path has {len(names)} {what}s ({', '.join(names)}); use {cure}"

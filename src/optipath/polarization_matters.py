@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer import Composer
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, listed
 from optipath.frozen import same_fields
-from optipath.kernels import Kernel
+from optipath.kernels import DEPOLARIZING_BLOCK, Kernel
 from optipath.program import Evaluation
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -88,7 +89,8 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     Raises
     ------
     PathError, ParameterError
-        As `Composer.compose` and `Plan.run`.
+        As `Composer.compose` and `Plan.run`; and where light goes round, in a loop or between
+        the layers of a stack, since the scalar model has no sum over all rounds yet.
 
     Examples
     --------
@@ -106,11 +108,12 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     if detector is None and len(ends) != 1:
         raise ParameterError(
             f"the path has {len(ends)} detectors ({', '.join(ends)}); name one, as in "
-            f"polarization(path, {ends[0]!r})"
+            f"polarization(path, {shown(ends[0])})"
             if ends
             else "the path has no detector; give it one"
         )
     name = ends[0] if detector is None else detector
+    _refuse_rounds(plan.whole)
     certificate = plan.certificate(name, **parameters)
     exact = _intensity(plan, plan.whole, name, parameters)
     shares = {}
@@ -118,6 +121,21 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
         without = _intensity(plan, _without(plan.whole, steps), name, parameters)
         shares[node] = _over(exact - without, certificate.scalar)
     return Polarization(exact, certificate, shares)
+
+
+def _refuse_rounds(program: Program) -> None:
+    """Refuse light that goes round, of which each round would have to be dimmed by the mean."""
+    places = [f"at '{program.steps[loop.start].label}'" for loop in program.loops]
+    for step in program.steps:
+        kernel = None if step.evaluation is None else program.evaluations[step.evaluation].kernel
+        if kernel is not None and kernel.structure is DEPOLARIZING_BLOCK:
+            places.append(f"between the layers of '{step.label.rpartition('.')[0]}'")
+    if places:
+        raise ParameterError(
+            f"light goes round {listed(list(dict.fromkeys(places)))}, and the scalar model that "
+            f"polarisation is measured by has no sum over all rounds; trace the path, which is "
+            f"exact"
+        )
 
 
 def _over(difference: Any, scalar: Any) -> npt.NDArray[Any]:

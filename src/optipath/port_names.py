@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import PathError, did_you_mean, shown
+from optipath.errors import PathError, did_you_mean
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

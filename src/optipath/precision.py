@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from optipath.errors import ComposerError, did_you_mean, shown
+from optipath.errors import ComposerError, unknown
 
 DTYPES = ("float64", "float32", "longdouble")
 
@@ -24,8 +24,8 @@ def precision(name: str) -> np.dtype[Any]:
     >>> precision("float32")
     dtype('float32')
     """
-    if not isinstance(name, str) or name not in DTYPES:
-        raise ComposerError(f"dtype {shown(name)} is unknown{did_you_mean(name, DTYPES)}")
+    if faults := unknown("dtype", name, DTYPES):
+        raise ComposerError(*faults)
     if name == "longdouble" and np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
         raise ComposerError("dtype 'longdouble' is no more than float64 here; use 'float64'")
     return np.dtype(name)

@@ -6,8 +6,15 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, PathError, PresetError, did_you_mean, shown
+from optipath.errors import (
+    OptipathError,
+    PathError,
+    PresetError,
+    did_you_mean,
+    few_suggestions,
+)
 from optipath.frozen import frozen
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -93,8 +100,9 @@ def locate(preset: str | PathLike[str]) -> Path:
     try:
         path = Path(preset)
     except TypeError:
-        wanted = "a name or the path of a file"
-        raise PresetError(f"a preset is {wanted}, not {shown(preset)}") from None
+        raise PresetError(
+            f"a preset is a name or the path of a file, not {shown(preset)}"
+        ) from None
     if path.suffix.lower() != ".toml":
         names = preset_names()
         cure = did_you_mean(path.stem, names)
@@ -124,9 +132,12 @@ def read_preset(path: Path) -> PathGraph:
     document = _parse(path, _text(path))
     number = document.get("format", FORMAT)
     if number != FORMAT or isinstance(number, bool):
-        raise PresetError(f"'{path}' has format {number!r}, but this version reads format {FORMAT}")
+        raise PresetError(
+            f"'{path}' has format {shown(number)}, but this version reads format {FORMAT}"
+        )
     try:
-        return read(document)
+        with few_suggestions():
+            return read(document)
     except OptipathError as error:
         raise PathError(*(f"{path.name}: {fault}" for fault in error.faults)) from None
 
@@ -154,6 +165,12 @@ def _text(path: Path) -> str:
 def _parse(path: Path, text: str) -> dict[str, Any]:
     import tomllib  # noqa: PLC0415 - as above
 
+    from optipath.preset_format.limits import refuse_unwieldy  # noqa: PLC0415 - as above
+
+    try:
+        refuse_unwieldy(text)
+    except PresetError as error:
+        raise PresetError(f"'{path}' cannot be read: {error}") from None
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from optipath.kernels import FULL
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
@@ -184,6 +186,16 @@ class Program:
         """How often each evaluation is needed."""
         uses = Counter(step.evaluation for step in self.steps)
         return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
+
+    @cached_property
+    def matrices(self) -> Mapping[int, tuple[str, ...]]:
+        """The evaluations that are whole Mueller matrices, and the elements that they are of."""
+        found: dict[int, tuple[str, ...]] = {}
+        for step in self.steps:
+            index = step.evaluation
+            if index is not None and self.evaluations[index].kernel.structure == FULL:
+                found[index] = (*found.get(index, ()), step.label.rpartition(".")[0])
+        return found
 
     def stretches(self) -> Iterator[tuple[range, Loop | None]]:
         """Yield the steps in order, those of a loop together and with it."""

@@ -11,7 +11,8 @@ import re
 from decimal import Decimal
 from typing import NamedTuple
 
-from optipath.errors import UnitError, did_you_mean, shown
+from optipath.errors import UnitError, did_you_mean
+from optipath.quoting import shown
 
 
 class Unit(NamedTuple):
@@ -64,10 +65,14 @@ USUAL_UNITS = {
 
 _BASE_UNITS = {"angle": "rad", "length": "m", "inverse length": "1/m", "angle per length": "rad/m"}
 
-_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,9})?"
-_QUANTITY = re.compile(rf"\s*([-+]?{_NUMBER})\s*(.*?)\s*", re.ASCII)
+# Written so that no text matches in two ways, and long ones take no longer than they are.
+_NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
+_QUANTITY = re.compile(rf"([-+]?{_NUMBER})\s*(.*)", re.ASCII)
 _COMPLEX = re.compile(rf"(?:[-+]?{_NUMBER}(?=[-+]))?[-+]?{_NUMBER}j", re.ASCII)
-_SIGN_BETWEEN = re.compile(r"\s*([-+])\s*")
+_SIGN_BETWEEN = re.compile(r"(?<!\s)\s*([-+])\s*")
+_LONGEST = 2000
+"""How many characters a quantity may have; no float needs more than 1100, all zeros written."""
+
 _DIGITS = (15, 16, 17)
 """How many digits a number is written with: the fewest that give it back."""
 
@@ -127,6 +132,9 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
     >>> parse_quantity("20 um", "length"), parse_quantity("(0.3 - 0.4j)", "")
     (2e-05, (0.3-0.4j))
     """
+    text = text.strip()
+    if len(text) > _LONGEST:
+        raise UnitError(f"{shown(text)} has {len(text)} characters; no number needs as many")
     if not dimension and (number := _complex(text)) is not None:
         return number
     match = _QUANTITY.fullmatch(text)
@@ -211,10 +219,8 @@ def _plainly(number: Decimal) -> str:
 
 def _complex(text: str) -> complex | None:
     """Return the complex number that a text stands for; None where it is none."""
-    number = text.strip()
-    if number.startswith("(") and number.endswith(")"):
-        number = number[1:-1]
-    number = _SIGN_BETWEEN.sub(r"\1", number.strip())
+    number = text[1:-1].strip() if text.startswith("(") and text.endswith(")") else text
+    number = _SIGN_BETWEEN.sub(r"\1", number)
     return complex(number) if _COMPLEX.fullmatch(number) else None
 
 

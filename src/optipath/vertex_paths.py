@@ -9,10 +9,11 @@ import numpy as np
 
 from optipath.array_likes import as_given, entries_of
 from optipath.elements import Detector, Source, SpecularVertex
-from optipath.errors import PathError, ValueFault, shown
+from optipath.errors import PathError, ValueFault
 from optipath.jax_values import is_traced
 from optipath.parameters import Parameter
 from optipath.path_graph import PathGraph
+from optipath.quoting import shown
 from optipath.vertices import VERTICES, VerticesByAngles, counted, normal_faults
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from optipath.kernels import Components, Way
     from optipath.kernels.structures import Numbers
-    from optipath.program import Evaluation, Program
+    from optipath.program import Evaluation, Loop, Program
 
 
 def itself(number: Any) -> Any:
@@ -30,6 +30,7 @@ def walk(
     number: Callable[[Any], Any] = itself,
     shared: Mapping[int, Numbers] | None = None,
     meetings: list[Meeting] | None = None,
+    meet: Callable[[Loop], Meeting] | None = None,
 ) -> dict[int, tuple[Components, Any]]:
     """Return the light of every reading, as four components and an exponent.
 
@@ -49,6 +50,8 @@ def walk(
         What some evaluations come to, if that is known.
     meetings : list, optional
         Takes what has been solved for each loop.
+    meet : callable, optional
+        ``meet(loop)`` gives the meeting of a loop that is solved in other numbers.
 
     Returns
     -------
@@ -72,7 +75,8 @@ def walk(
 
     for light, step in enumerate(program.steps):
         if light in loops:
-            meeting = Meeting(program, loops[light], numbers_of, way.xp, number)
+            loop = loops[light]
+            meeting = meet(loop) if meet else Meeting(program, loop, numbers_of, way.xp, number)
             states |= _met(meeting, states, way)
             if meetings is not None:
                 meetings.append(meeting)
@@ -90,6 +94,20 @@ def walk(
             if not states_left[source]:
                 states.pop(source, None)
     return {light: way.read(states[light], count) for light, count in reads.items()}
+
+
+def whole_matrices(
+    program: Program, leaves: Sequence[Any], way: Way, number: Callable[[Any], Any] = itself
+) -> dict[int, tuple[Any, ...]]:
+    """Return what the evaluations of whole Mueller matrices come to, as `walk` may be given it.
+
+    Parameters
+    ----------
+    program, leaves, way, number
+        As `walk` takes them.
+    """
+    evaluations = program.evaluations
+    return {i: evaluated(evaluations[i], leaves, way, number) for i in program.matrices}
 
 
 def _behind(

@@ -38,7 +38,7 @@ class WholePath(Runner):
             resolved, batch = self.inputs.resolve(parameters)
             name = next(n for n, end in self.program.readings.items() if end is reading)
             with self.enough_for(batch, 16, twice=True):
-                found = self.jax.matrix(resolved, batch, source, name)
+                found = self.jax.matrix(resolved, batch, parameters, source, name)
             self.refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
         given = self.sorter.sort(parameters)
@@ -91,7 +91,7 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            If a value is out of its range.
+            If a value is out of its range, or a Mueller matrix unphysical.
         """
         ends = self.program.readings
         stepped = self.engine_for(given.paths) not in COMPILED
@@ -116,7 +116,7 @@ class WholePath(Runner):
         Raises
         ------
         ParameterError
-            If a value is out of its range.
+            If a value is out of its range, or a Mueller matrix unphysical.
         """
         ends = self.program.readings
 

@@ -105,6 +105,7 @@ def everything():
             op.Mirror(-0.9 + 0.2j, 0.8 - 0.3j, azimuth=0.5),
             op.Diattenuator(0.9, 0.3, angle=0.2, azimuth=0.1),
             op.Medium(0.1, 3.0, rotation=8.0),
+            op.Medium(0.1, dextrorotation=3.0),
             op.Depolarizer(0.1),
             op.Medium(0.2, 0.0, retardance=5.0, angle=0.7, azimuth=0.2),
         )

@@ -21,13 +21,90 @@ def test_two_stretches_are_one_of_both_lengths():
     np.testing.assert_allclose(found, wanted, atol=2e-16)
 
 
-def test_sugar_solution_turns_light_as_the_handbook_says():
-    # Sucrose, 589 nm, 20 deg C: 66.5 deg per dm and g/ml. A 2 dm tube of 0.1 g/ml: 13.3 deg.
-    # Sugar is dextrorotatory, clockwise to who looks at the source, which is from y towards x.
-    solution = op.Medium(0.2, rotation=-np.radians(66.5 * 0.1) / 0.1)
-    light = chain([solution], [1.0, 1.0, 0.0, 0.0]).trace()
-    turned = 0.5 * np.degrees(np.arctan2(light.stokes[2], light.stokes[1]))
-    assert turned == pytest.approx(-13.3, abs=1e-13)
+SUCROSE = 66.5
+"""The specific rotation at 589 nm and 20 deg C, +66.5 deg ml / (g dm): dextrorotatory."""
+
+
+def clockwise(light, frame):
+    """By how many degrees light is turned from x of a frame, as who looks at the source sees it."""
+    facing, up = -frame.z, frame.x
+    right = np.cross(facing, up)
+    # The axis of what came out polarised along x, from its components in that frame.
+    axis = np.cos(light.aop) * light.frame.x + np.sin(light.aop) * light.frame.y
+    return np.degrees(np.arctan2(axis @ right, axis @ up))
+
+
+@pytest.mark.parametrize("z", [(0, 0, 1), (0, 0, -1), (0.6, 0.0, 0.8)])
+def test_a_sugar_solution_turns_light_clockwise_to_who_looks_at_the_source(z):
+    # A tube of 2 dm with 0.1 g/ml.
+    solution = op.Medium(0.2, dextrorotation=np.radians(SUCROSE * 0.1) / 0.1)
+    frame = op.Frame.from_direction(z, (1, 2, 0))
+    light = solution.mueller(frame_in=frame) @ op.Light([1.0, 1.0, 0.0, 0.0], frame)
+    assert clockwise(light, frame) == pytest.approx(13.3, abs=1e-12)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba", "jax"])
+def test_a_dextrorotation_is_a_rotation_of_the_other_sign(engine):
+    pytest.importorskip("jax")
+    turns = np.linspace(-40.0, 40.0, 3000)
+    medium = op.Medium(0.1, 2.0, dextrorotation=op.Parameter("d"))
+    plan = op.Composer(engine=engine).compose(chain([medium], STATE))
+    wanted = chain([op.Medium(0.1, 2.0, rotation=-turns)], STATE).trace().stokes
+    np.testing.assert_allclose(np.asarray(plan.run(d=turns).stokes), wanted, atol=2e-7)
+    known = chain([op.Medium(0.1, 2.0, dextrorotation=turns)], STATE).trace().stokes
+    np.testing.assert_allclose(known, wanted, atol=1e-15)
+
+
+def test_presets_and_the_command_line_take_the_chemists_sign_in_the_chemists_unit(tmp_path):
+    file = tmp_path / "polarimeter.toml"
+    file.write_text(
+        """
+        format = 1
+        description = "sugar in a polarimeter"
+        [parameters.sugar]
+        default = "66.5 deg/dm"
+        unit = "deg/dm"
+        [elements.lamp]
+        kind = "source"
+        stokes = [1, 1, 0, 0]
+        [elements.tube]
+        kind = "medium"
+        length = "2 dm"
+        dextrorotation = "$sugar"
+        [elements.eye]
+        kind = "detector"
+        [[links]]
+        from = "lamp.out"
+        to = "tube.in"
+        [[links]]
+        from = "tube.out"
+        to = "eye.in"
+        """
+    )
+    path = op.load_preset(file)
+    # 133 degrees clockwise are 47 counter-clockwise.
+    assert np.degrees(path.trace().aop) == pytest.approx(47.0, abs=1e-12)
+    assert np.degrees(path.trace(sugar=np.radians(6.65) / 0.1).aop) == pytest.approx(-13.3)
+    assert "dextrorotation" in path.to_toml()
+
+
+@pytest.mark.parametrize("rotation", [1.0, op.Parameter("a"), np.array([0.0, 1.0]), -0.1])
+@pytest.mark.parametrize("dextrorotation", [1.0, op.Parameter("b"), np.array([1.0, 0.0])])
+def test_a_rotation_by_both_signs_is_refused(rotation, dextrorotation):
+    path = chain([op.Medium(0.1, rotation=rotation, dextrorotation=dextrorotation)])
+    with pytest.raises(op.PathError, match=r"e0\.rotation.*the same rotation with the other sign"):
+        path.compose()
+
+
+def test_a_dextrorotation_beside_a_retardance_is_refused():
+    path = chain([op.Medium(0.1, retardance=1.0, dextrorotation=1.0)])
+    with pytest.raises(op.PathError, match=r"e0\.retardance.*put two Media one after the other"):
+        path.compose()
+
+
+def test_a_dextrorotation_may_come_with_an_extinction():
+    medium = op.Medium.from_extinction(0.1, k=1e-7, wavelength=589e-9, dextrorotation=1.0)
+    assert medium == op.Medium(0.1, medium.absorption, dextrorotation=1.0)
 
 
 def test_a_rotation_turns_from_x_towards_y_as_a_rotator_does():
@@ -79,9 +156,11 @@ def test_all_values_may_be_parameters(engine, dtype, acts):
 
 
 def test_parameters_have_the_units_that_are_usual_for_a_medium():
-    names = ("length", "absorption", "rotation")
-    path = chain([op.Medium(*map(op.Parameter, names))])
-    assert [path.parameters[name].unit for name in names] == ["mm", "1/cm", "deg/mm"]
+    units = {"length": "mm", "absorption": "1/cm", "rotation": "deg/mm"}
+    path = chain([op.Medium(*map(op.Parameter, units))])
+    assert {name: path.parameters[name].unit for name in units} == units
+    path = chain([op.Medium(0.1, dextrorotation=op.Parameter("sugar"))])
+    assert path.parameters["sugar"].unit == "deg/dm"
 
 
 def test_jones_columns_pass():
@@ -192,7 +271,7 @@ def test_a_medium_that_is_never_dense_takes_one_step(length, absorption, steps):
 
 
 @pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("rate", ["absorption", "rotation", "retardance"])
+@pytest.mark.parametrize("rate", ["absorption", "rotation", "retardance", "dextrorotation"])
 def test_what_is_no_float_over_the_whole_length_is_refused(rate):
     medium = op.Medium(1e200, **{rate: 1e200})
     for used in (medium.mueller, chain([medium]).compose):

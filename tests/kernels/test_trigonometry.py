@@ -5,7 +5,13 @@ import numpy as np
 import pytest
 
 from optipath.kernels import FLOAT, NUMPY
-from optipath.kernels.trigonometry import DIGITS, any_quadrant, first_quadrant
+from optipath.kernels.trigonometry import (
+    DIGITS,
+    any_quadrant,
+    first_quadrant,
+    from_axes,
+    from_nearer_axis,
+)
 
 SEEDS = np.random.default_rng(5)
 
@@ -16,11 +22,9 @@ def ulps(found, exact, dtype):
     return max(float(o / s) for o, s in zip(off, steps.tolist(), strict=True))
 
 
-def exactly(angles, rest=0.0):
+def exactly(angles):
     with mpmath.workdps(50):
-        numbers = [
-            mpmath.mpf(float(a)) + mpmath.mpf(float(r)) for a, r in np.broadcast(angles, rest)
-        ]
+        numbers = [mpmath.mpf(float(a)) for a in angles]
         return [mpmath.sin(n) for n in numbers], [mpmath.cos(n) for n in numbers]
 
 
@@ -47,13 +51,27 @@ def test_angles_of_the_first_quadrant_are_right_to_two_units_in_the_last_place(d
         assert ulps(value, exact, dtype) < 2.0
 
 
-def test_what_float32_loses_of_an_angle_is_not_lost():
-    angles = np.pi / 2 - 10.0 ** SEEDS.uniform(-6, 0, 500)
-    high = angles.astype("float32")
-    rest = (angles - high).astype("float32")
-    found = first_quadrant(NUMPY, DIGITS["float32"])(high, rest)
-    for value, exact in zip(found, exactly(high, rest), strict=True):
+def test_next_to_a_right_angle_float32_has_what_double_precision_leaves():
+    angles = np.pi / 2 - 10.0 ** SEEDS.uniform(-15.6, 0, 500)
+    left = from_nearer_axis(NUMPY, DIGITS["float64"])(angles)
+    found = first_quadrant(NUMPY, DIGITS["float32"])(*(x.astype("float32") for x in (angles, left)))
+    for value, exact in zip(found, exactly(angles), strict=True):
         assert ulps(value, exact, "float32") < 2.0
+
+
+def test_next_to_any_right_angle_float32_has_what_double_precision_leaves():
+    turns = np.round(SEEDS.uniform(-500, 500, 500))
+    # Of a larger angle the double itself has fewer digits.
+    angles = turns * (np.pi / 2) + SEEDS.choice([-1, 1], 500) * 10.0 ** SEEDS.uniform(-9, -0.2, 500)
+    left = from_axes(NUMPY, DIGITS["float64"])(angles)
+    found = any_quadrant(NUMPY, DIGITS["float32"])(*(x.astype("float32") for x in (angles, left)))
+    for value, exact in zip(found, exactly(angles), strict=True):
+        assert ulps(value, exact, "float32") < 2.0
+
+
+def test_of_multiples_of_a_right_angle_nothing_is_left():
+    angles = np.arange(-9, 10) * (np.pi / 2)
+    np.testing.assert_array_equal(from_axes(NUMPY, DIGITS["float64"])(angles), 0.0)
 
 
 @pytest.mark.parametrize("dtype", ["float64", "float32"])

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import warnings
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.errors import MissingExtraError, OptipathError
+from optipath.written_files import write_file
 
 try:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -63,11 +65,18 @@ def draw(chart: Mapping[str, Any], out: Path) -> None:
         What `path_chart` or `interface_chart` has measured, or its JSON read back.
     out : Path
         Such as ``chart.png`` or ``chart.svg``.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written; what was there before stays.
     """
+    drawn = BytesIO()
     with warnings.catch_warnings():
         # A title may have letters that the font lacks; they are drawn as boxes.
         warnings.filterwarnings("ignore", message="Glyph")
-        _figure(chart).savefig(out)
+        _figure(chart).savefig(drawn, format=out.suffix.lower().removeprefix("."))
+    write_file(out, drawn.getvalue())
 
 
 def _figure(chart: Mapping[str, Any]) -> Figure:

@@ -193,9 +193,11 @@ def _(element: Medium, way: Coupling, read: Reader) -> Jones:
     depth = read.real(element.absorption) * read.real(element.length)
     left = mpmath.exp(-depth / 2)
     rotation = read.angle_along(element.rotation, element.length, 2)
+    dextrorotation = read.angle_along(element.dextrorotation, element.length, 2)
     retardance = read.angle_along(element.retardance, element.length)
-    # Only one of both is not 0.
-    passed = times(_retarding(read, retardance, element.angle), turn(-rotation))
+    # Only one of the three is not 0.
+    turned = turn(dextrorotation - rotation)
+    passed = times(_retarding(read, retardance, element.angle), turned)
     return times(_diagonal(left, left), passed)
 
 

@@ -21,6 +21,7 @@ from optipath.composer.vertex_placement import is_vertex
 from optipath.errors import ParameterError, PathError
 from optipath.kernels import REFLECTION
 from optipath.path_graph import PathGraph
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -74,7 +75,7 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     [0.5, 0.5, 0.0, 0.0]
     """
     if not isinstance(path, PathGraph):
-        raise PathError(f"a reference is of a PathGraph, not of {path!r}")
+        raise PathError(f"a reference is of a PathGraph, not of {shown(path)}")
     given, batch = path.compose().inputs.resolve(parameters)
     if batch:
         raise ParameterError(f"a reference takes single values, not a batch of shape {batch}")

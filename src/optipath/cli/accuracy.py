@@ -5,15 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
-from optipath.cli.text_files import read_text
+from optipath.cli.terminal import Terminal, cell, say
+from optipath.cli.text_files import read_text, write
 
 
-def _style(cell: str) -> str:
-    return "bold red" if cell.startswith("**") else ""
+def _style(word: str) -> str:
+    return "bold red" if word.startswith("**") else ""
 
 
 @click.command()
@@ -37,15 +36,12 @@ def accuracy(samples: int, file: Path | None) -> None:
     if file is not None:
         text = read_text(file)
         put_tables(text, [])  # A file without a place for them is told of at once.
-        try:
-            file.write_text(put_tables(text, tables(samples)), "utf-8")
-        except OSError as error:
-            raise click.ClickException(f"'{file}' cannot be written: {error.strerror}") from None
-        click.echo(f"wrote {file}")
+        write(file, put_tables(text, tables(samples)).encode())
+        say(f"wrote {file}")
         return
-    console = Console()
+    console = Terminal()
     for table in tables(samples):
         shown = Table(*table.header, title=table.title, box=None, header_style="bold")
         for row in table.rows:
-            shown.add_row(*(Text(cell.strip("*"), _style(cell)) for cell in row))
+            shown.add_row(*(cell(word.strip("*"), _style(word)) for word in row))
         console.print(shown)

@@ -7,11 +7,11 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import click
-from rich.console import Console
 from rich.table import Table
 
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.cli.progress_bar import progress_bar
+from optipath.cli.terminal import Terminal
 from optipath.presets import load_preset
 from optipath.units import dimension_of
 
@@ -71,7 +71,7 @@ def _bench(
         click.echo(json.dumps({"preset": preset, **asdict(report)}))
         return
     for table in _tables(report):
-        Console().print(table)
+        Terminal().print(table)
 
 
 def _opened(preset: str, case: str | None, values: dict[str, Any]) -> Any:

@@ -10,7 +10,8 @@ import click
 
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress_bar import progress_bar
-from optipath.cli.text_files import read_text
+from optipath.cli.terminal import say
+from optipath.cli.text_files import NewFile, read_text, told_of, write
 from optipath.presets import load_preset, preset_names
 
 if TYPE_CHECKING:
@@ -18,14 +19,14 @@ if TYPE_CHECKING:
 
 OUT = click.Option(
     ["--out"],
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=NewFile(),
     default="chart.png",
     show_default=True,
     help="Draw into this file; its ending says in which form (png, svg, pdf).",
 )
 DATA = click.Option(
     ["--data"],
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=NewFile(),
     help="Write what was measured into this file, as JSON.",
 )
 ENGINE = click.Option(
@@ -112,23 +113,18 @@ def _measure_and_draw(
     for file in (out, data):
         if file is not None and not file.absolute().parent.is_dir():
             raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
-        if file is not None and not os.access(
-            file if file.exists() else file.absolute().parent, os.W_OK
+        if file is not None and not all(
+            os.access(place, os.W_OK) for place in (file.absolute().parent, file) if place.exists()
         ):
             raise click.ClickException(f"'{file}' cannot be written: permission denied")
     with progress_bar(1.0) as tell:
         chart = measure(lambda what, done: tell(what, completed=done))
     if data is not None:
-        _write(data, lambda: data.write_text(chart_text(chart), "utf-8"))
-    _write(out, lambda: draw(chart, out))
-
-
-def _write(file: Path, action: Callable[[], object]) -> None:
-    try:
-        action()
-    except OSError as error:
-        raise click.ClickException(f"'{file}' cannot be written: {error.strerror}") from None
-    click.echo(f"wrote {file}")
+        write(data, chart_text(chart).encode())
+        say(f"wrote {data}")
+    with told_of(out):
+        draw(chart, out)
+    say(f"wrote {out}")
 
 
 chart = PresetGroup(

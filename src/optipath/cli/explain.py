@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from optipath.cli.preset_command import PresetGroup
+from optipath.cli.terminal import say
 from optipath.composer import Composer
 from optipath.presets import load_preset
 
@@ -27,7 +28,7 @@ def _explain(
     if as_json:
         click.echo(json.dumps({"preset": preset, **found.as_dict()}, allow_nan=False))
     else:
-        click.echo(str(found))
+        say(str(found))
 
 
 explain = PresetGroup("explain", action=_explain, help="Explain the plan of a preset.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import os
 import sys
@@ -10,6 +11,7 @@ from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import click
+from click.shell_completion import shell_complete
 
 from optipath.cli.accuracy import accuracy
 from optipath.cli.bench import bench
@@ -20,6 +22,8 @@ from optipath.cli.presets import presets
 from optipath.cli.run import run
 from optipath.cli.show import show
 from optipath.errors import LoopWarning, OptipathError
+from optipath.quoting import printable
+from optipath.starting import INTERRUPTED, interruptible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -55,45 +59,71 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, or 2 with one line on standard error for bad input.
+        0, also where who read the output has seen enough; 2 with one line on standard error for
+        bad input; 130 where Ctrl-C ended it.
     """
     for stream in (sys.stdout, sys.stderr):
         # A terminal that lacks a letter shows a question mark in its place.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
     try:
+        with interruptible():
+            return _run(sys.argv[1:] if arguments is None else arguments)
+    except KeyboardInterrupt:
+        _print_error("interrupted")
+        return INTERRUPTED
+
+
+def _run(arguments: Sequence[str]) -> int:
+    if sys.stdout is None:
+        return _refuse("the output cannot be written: standard output is closed")
+    try:
         with warnings.catch_warnings():
             warnings.simplefilter("always", LoopWarning)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
-            cli.main(args=arguments, prog_name="optipath", standalone_mode=False)
-        if sys.stdout is not None:
-            sys.stdout.flush()
+            _invoke(arguments)
+        sys.stdout.flush()
     except click.ClickException as error:
         return _refuse(error.format_message())
     except OptipathError as error:
         return _refuse("; ".join(error.faults))
-    except (click.Abort, KeyboardInterrupt):
-        return 130
     except BrokenPipeError:
         _forget_output()  # Whoever read it has seen enough.
     except OSError as error:
         _forget_output()
-        return _refuse(f"the output cannot be written: {error.strerror}")
+        return _refuse(f"the output cannot be written: {error.strerror or error}")
     return 0
+
+
+def _invoke(arguments: Sequence[str]) -> None:
+    # Not by click's own main, which has ways of its own to end where a pipe breaks or Ctrl-C comes.
+    if wanted := os.environ.get("_OPTIPATH_COMPLETE"):
+        shell_complete(cli, {}, "optipath", "_OPTIPATH_COMPLETE", wanted)
+        return
+    try:
+        with cli.make_context("optipath", list(arguments)) as context:
+            cli.invoke(context)
+    except click.exceptions.Exit:
+        pass  # Help and version have been printed.
 
 
 def _tell(message: Warning | str, *about: Any) -> None:
     """Write a warning as one line, without the place in the code that nobody asked for."""
     del about
-    click.echo(f"optipath: {message}", err=True)
+    _print_error(str(message))
 
 
 def _forget_output() -> None:
     # Otherwise Python tries once more at exit, and complains.
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _refuse(message: str) -> int:
-    line = " ".join(message.split())
-    click.echo(f"optipath: {line}", err=True)
+    _print_error(message)
     return 2
+
+
+def _print_error(message: str) -> None:
+    with contextlib.suppress(OSError):  # There is nobody left to be told.
+        click.echo(f"optipath: {printable(' '.join(message.split()))}", err=True)

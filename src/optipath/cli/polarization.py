@@ -7,19 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
-from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
-from rich.text import Text
 
 from optipath.cli.plain import plain
 from optipath.cli.preset_command import JSON, PresetGroup
+from optipath.cli.terminal import Terminal, cell, headed
 from optipath.errors import listed
 from optipath.polarization_matters import polarization as found_for
 from optipath.presets import load_preset
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rich.table import Table
 
     from optipath.polarization_matters import Polarization
 
@@ -37,11 +36,11 @@ def _polarization(preset: str, case: str | None, values: dict[str, Any], *, as_j
         detectors = {name: _as_json(one) for name, one in found.items()}
         click.echo(json.dumps({"preset": preset, "detectors": detectors}))
         return
-    console = Console()
-    console.print(Text(preset, style="bold"), Text(path.description))
+    console = Terminal()
+    console.print(cell(preset, style="bold"), cell(path.description))
     for name, one in found.items():
         console.print(_table(name, one))
-        console.print(Text(_verdict(one)))
+        console.print(cell(_verdict(one)))
 
 
 polarization = PresetGroup(
@@ -69,9 +68,9 @@ def _table(name: str, found: Polarization) -> Table:
     """Return the numbers of each path, a column each."""
     indices = list(np.ndindex(found.exact.shape))
     shown = indices[:_PATHS]
-    table = Table(escape(f"S0 at {name}"), header_style="bold")
+    table = headed(f"S0 at {name}")
     for index in shown:
-        table.add_column(escape(str(list(index))) if index else "")
+        table.add_column(cell(str(list(index))) if index else "")
     bounds = (part - 1.0 for part in (found.certificate.lower, found.certificate.upper))
     rows: list[tuple[str, Any, Callable[[Any], str]]] = [
         ("exact", found.exact, "{:.6g}".format),
@@ -85,7 +84,7 @@ def _table(name: str, found: Polarization) -> Table:
         ),
     ]
     for head, numbers, written in rows:
-        table.add_row(*map(Text, [head, *(written(float(numbers[index])) for index in shown)]))
+        table.add_row(*map(cell, [head, *(written(float(numbers[index])) for index in shown)]))
     if len(indices) > len(shown):
         table.add_row(f"{len(indices) - len(shown)} more paths")
     return table

@@ -11,6 +11,7 @@ from optipath.domains import READINGS
 from optipath.errors import OptipathError, ParameterError, PresetError
 from optipath.kernels import METHODS
 from optipath.presets import load_preset, preset_names
+from optipath.quoting import printable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -101,10 +102,15 @@ class PresetGroup(click.Group):
         options: list[click.Parameter] = [
             _option(parameter) for parameter in path.parameters.values() if not parameter.bound
         ]
-        cases = ", ".join(path.cases) or "none in this preset"
+        cases = printable(", ".join(path.cases)) or "none in this preset"
         help_ = f"Named set of values: {cases}."
         options += [click.Option(["--case"], metavar="NAME", help=help_), *self.options]
-        return click.Command(cmd_name, callback=callback, params=options, help=path.description)
+        return click.Command(
+            printable(cmd_name),
+            callback=callback,
+            params=options,
+            help=printable(path.description),
+        )
 
     def _reserved(self) -> set[str]:
         flags = {flag.lstrip("-") for option in self.options for flag in option.opts}
@@ -142,5 +148,5 @@ def _option(parameter: Parameter) -> click.Option:
     return click.Option(
         [flag, parameter.name],
         metavar=(parameter.unit or "number").upper(),
-        help="; ".join(h for h in hints if h),
+        help=printable("; ".join(h for h in hints if h)),
     )

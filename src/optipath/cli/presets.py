@@ -5,10 +5,9 @@ from __future__ import annotations
 import json
 
 import click
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
+from optipath.cli.terminal import Terminal, cell
 from optipath.presets import load_preset, preset_names
 
 
@@ -22,5 +21,5 @@ def presets(*, as_json: bool) -> None:
         return
     table = Table("preset", "what it is", box=None, header_style="bold")
     for name, description in descriptions.items():
-        table.add_row(Text(name), Text(description))
-    Console().print(table)
+        table.add_row(cell(name), cell(description))
+    Terminal().print(table)

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 import numpy as np
-from rich.console import Console
 from rich.table import Table
-from rich.text import Text
 
 from optipath.cli.plain import plain
 from optipath.cli.preset_command import PresetGroup
+from optipath.cli.terminal import Terminal, cell, headed
 from optipath.composer import Composer
 from optipath.domains import AMPLITUDE
 from optipath.preset_format import complex_parts_of
@@ -154,22 +153,22 @@ def _polarization(light: Light) -> dict[str, Any]:
 
 
 def _print(result: Result) -> None:
-    console = Console()
+    console = Terminal()
     title = result.preset + (f", case {result.case}" if result.case else "")
-    console.print(Text(title, style="bold"), Text(result.path.description))
+    console.print(cell(title, style="bold"), cell(result.path.description))
     console.print(_parameter_table(result))
     for name in result.lights:
         console.print(_light_table(result, name))
     if result.note:
-        console.print(Text(f"note: {result.note}"))
+        console.print(cell(f"note: {result.note}"))
     plan = result.plan
-    console.print(Text(f"method {plan.method}, model {result.model}, engine {plan.engine}"))
+    console.print(cell(f"method {plan.method}, model {result.model}, engine {plan.engine}"))
 
 
 def _parameter_table(result: Result) -> Table:
     table = Table(box=None, show_header=False)
     for name, parameter in result.path.parameters.items():
-        table.add_row(Text(name), Text(parameter.text(parameter.default)), Text(parameter.help))
+        table.add_row(cell(name), cell(parameter.text(parameter.default)), cell(parameter.help))
     return table
 
 
@@ -177,12 +176,12 @@ def _light_table(result: Result, name: str) -> Table:
     stokes, published = result.lights[name].stokes, result.published(name)
     if stokes.ndim > 1:
         return _batch_table(name, stokes)
-    table = Table(f"light at {name}", "computed", header_style="bold")
+    table = headed(f"light at {name}", "computed")
     if published:
         table.add_column("published")
     for position, component in enumerate(stokes.tolist()):
         row = [f"S{position}", _shown(component)]
-        table.add_row(*map(Text, [*row, *([f"{published[position]:g}"] if published else [])]))
+        table.add_row(*map(cell, [*row, *([f"{published[position]:g}"] if published else [])]))
     light = result.lights[name]
     for key, (word, unit) in _TOLD.items():
         number = plain(getattr(light, key), unit)
@@ -195,10 +194,10 @@ def _light_table(result: Result, name: str) -> Table:
 
 
 def _batch_table(name: str, stokes: np.ndarray[Any, Any]) -> Table:
-    table = Table(f"light at {name}", "S0", "S1", "S2", "S3", header_style="bold")
+    table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
     indices = list(np.ndindex(stokes.shape[:-1]))
     for index in indices[:_ROWS]:
-        table.add_row(Text(str(list(index))), *(Text(_shown(c)) for c in stokes[index].tolist()))
+        table.add_row(cell(str(list(index))), *(cell(_shown(c)) for c in stokes[index].tolist()))
     if len(indices) > _ROWS:
         table.add_row(f"{len(indices) - _ROWS} more")
     return table

@@ -2,55 +2,67 @@
 
 from __future__ import annotations
 
+import re
 from io import StringIO
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
+from rich.cells import cell_len
 from rich.table import Table
-from rich.text import Text
 
+from optipath.cli.terminal import Terminal, cell
+from optipath.cli.text_files import NewFile, write
 from optipath.drawing import draw
 from optipath.presets import load_preset
+from optipath.quoting import printable
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from optipath.parameters import Parameter
     from optipath.path_graph import PathGraph
+
+
+# What rich would load from the net: a typeface, in place of which one that is there will do.
+_FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
 
 
 @click.command()
 @click.argument("preset")
 @click.option("--case", metavar="NAME", help="Named set of values.")
-@click.option("--svg", type=click.Path(dir_okay=False), help="Draw into this file as well.")
-def show(preset: str, case: str | None, svg: str | None) -> None:
+@click.option("--svg", type=NewFile(), help="Draw into this file as well.")
+def show(preset: str, case: str | None, svg: Path | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
     path = load_preset(preset, case=case)
-    if svg:
-        # A picture has a width of its own; what is printed has the terminal's.
-        recorder = Console(record=True, width=100, file=StringIO(), highlight=False)
-        _print(recorder, path)
-        try:
-            Path(svg).write_text(recorder.export_svg(title=f"optipath show {preset}"), "utf-8")
-        except OSError as error:
-            raise click.ClickException(f"'{svg}' cannot be written: {error.strerror}") from None
-    _print(Console(highlight=False), path)
+    if svg is not None:
+        write(svg, _picture(path, f"optipath show {preset}").encode())
+    _print(Terminal(), path)
 
 
-def _print(console: Console, path: PathGraph) -> None:
-    console.print(Text(path.description, style="bold"), end="\n\n")
+def _picture(path: PathGraph, title: str) -> str:
+    # A picture has a width of its own; what is printed has the terminal's.
+    text = StringIO()
+    _print(Terminal(width=100, file=text), path)
+    width = max(100, *map(cell_len, text.getvalue().splitlines()))
+    recorder = Terminal(record=True, width=width, file=StringIO())
+    _print(recorder, path)
+    return _FROM_THE_NET.sub("", recorder.export_svg(title=printable(title)))
+
+
+def _print(console: Terminal, path: PathGraph) -> None:
+    console.print(cell(path.description, style="bold"), end="\n\n")
     if path.parameters:
         table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")
         for parameter in path.parameters.values():
-            table.add_row(*map(Text, _row(parameter)))
+            table.add_row(*map(cell, _row(parameter)))
         console.print(table)
         console.print()
-    console.print(Text(draw(path)), soft_wrap=True)
+    console.print(cell(draw(path)), soft_wrap=True)
     if path.cases:
-        console.print(Text(f"\ncases: {', '.join(path.cases)}"))
+        console.print(cell(f"\ncases: {', '.join(path.cases)}"))
     for name, found in path.cases.items():
         if found.note:
-            console.print(Text(f"  {name}: {found.note}"))
+            console.print(cell(f"  {name}: {found.note}"))
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:

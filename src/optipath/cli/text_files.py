@@ -1,13 +1,30 @@
-"""Text files that are named at the command line."""
+"""Files that are named at the command line."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from optipath.written_files import write_file
+
 if TYPE_CHECKING:
-    from pathlib import Path
+    from collections.abc import Iterator
+
+
+class NewFile(click.Path):
+    """The name of a file to be written: not empty, and no folder."""
+
+    def __init__(self) -> None:
+        super().__init__(dir_okay=False, path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path; refuse an empty one, which would be the folder one stands in."""
+        if not str(value) or "\0" in str(value):
+            self.fail(f"{str(value)!r} is no name of a file.", param, ctx)
+        return super().convert(value, param, ctx)
 
 
 def read_text(file: Path) -> str:
@@ -24,3 +41,25 @@ def read_text(file: Path) -> str:
         raise click.ClickException(f"'{file}' cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise click.ClickException(f"'{file}' is no text in UTF-8") from None
+
+
+def write(file: Path, content: bytes) -> None:
+    """Write a file, whole or not at all.
+
+    Raises
+    ------
+    click.ClickException
+        If it cannot be written.
+    """
+    with told_of(file):
+        write_file(file, content)
+
+
+@contextmanager
+def told_of(file: Path) -> Iterator[None]:
+    """Say of what goes wrong inside that the file cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        reason = error.strerror or error
+        raise click.ClickException(f"'{file}' cannot be written: {reason}") from None

@@ -15,10 +15,11 @@ from optipath.composer.validate import refuse_faults
 from optipath.composer.values import Values
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
-from optipath.errors import ComposerError, did_you_mean, shown
+from optipath.errors import ComposerError, unknown, whole_number
 from optipath.kernels import METHODS
 from optipath.plan import Plan
 from optipath.precision import precision
+from optipath.quoting import shown
 from optipath.reduction import MODELS
 
 if TYPE_CHECKING:
@@ -68,7 +69,8 @@ class Composer:
     tolerance : float, optional
         How large the error of an intensity may be, as a share of it; 0.01 is 1 %. Where a
         certificate keeps the scalar model (or one asked for by name) within it, that is run,
-        and the exact model elsewhere, path by path. By default every plan is exact.
+        and the exact model elsewhere, path by path. A path with a Mueller matrix that is
+        unphysical, which nothing bounds, is refused then. By default every plan is exact.
     loops : {"refuse", "sum"}, optional
         What becomes of light that goes round in a cycle: an error that names the cycle, or the
         sum of intensities over all rounds, found by solving for it. By default what the path
@@ -109,41 +111,41 @@ class Composer:
         faults = []
         for option, choices in CHOICES.items():
             value = getattr(self, option)
-            # What is no text may refuse to be compared.
-            known = isinstance(value, str) and value in choices
-            if not known and not (option == "loops" and value is None):
-                faults.append(f"{option} {shown(value)} is unknown{did_you_mean(value, choices)}")
-        if faults and not all(isinstance(getattr(self, name), str) for name in ("engine", "model")):
-            raise ComposerError(*faults)
+            if value is not None or option != "loops":
+                faults += unknown(option, value, choices)
         try:
             precision(self.dtype)
         except ComposerError as fault:
             faults += fault.faults
-        if self.engine in ENGINES and not is_installed(self.engine):
-            faults += missing(self.engine).faults
-        if self.engine == "jax" and isinstance(self.dtype, str) and self.dtype == "longdouble":
+        engine, dtype, model, composing = (
+            word if isinstance(word, str) else ""  # an array equals no word, and has no truth
+            for word in (self.engine, self.dtype, self.model, self.composing)
+        )
+        if engine in ENGINES and not is_installed(engine):
+            faults += missing(engine).faults
+        if (engine, dtype) == ("jax", "longdouble"):
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
-        if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 1:
-            faults.append(f"threads must be a whole number above 0, not {shown(self.threads)}")
-        faults += self._tolerance_faults()
-        if self.composing == "jones" and self.model in MODELS[:-1]:
+        faults += whole_number("threads", self.threads)
+        faults += self._tolerance_faults(model, composing)
+        if composing == "jones" and model in MODELS[:-1]:
             faults.append(
-                f"model '{self.model}' is not for composing='jones', which carries columns whole; "
+                f"model '{model}' is not for composing='jones', which carries columns whole; "
                 f"use model 'auto' or composing='stokes'"
             )
         if faults:
             raise ComposerError(*faults)
 
-    def _tolerance_faults(self) -> list[str]:
+    def _tolerance_faults(self, model: str, composing: str) -> list[str]:
         given = self.tolerance
         if given is None:
             return []
         if isinstance(given, bool) or not isinstance(given, Real) or not 0.0 < given < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
-            cure = "leave it out for exact plans"
-            return [f"tolerance must be {allowed}, not {shown(given)}; {cure}"]
-        if self.model == "full" or self.composing == "jones":
-            what = "model 'full'" if self.model == "full" else "composing='jones'"
+            return [
+                f"tolerance must be {allowed}, not {shown(given)}; leave it out for exact plans"
+            ]
+        if model == "full" or composing == "jones":
+            what = "model 'full'" if model == "full" else "composing='jones'"
             return [f"{what} is exact and takes no tolerance; leave one of them out"]
         return []
 

@@ -68,6 +68,8 @@ class _Folding:
         self.matrices = matrices
         self.builder = Builder()
         self.notes: list[str] = []
+        # What goes round keeps the digits that it is given, since its sum may need all of them.
+        self._once = True
         self._waiting: dict[int, tuple[int, list[Item]]] = {}
 
     def program(self) -> Program:
@@ -75,6 +77,7 @@ class _Folding:
         for lights, loop in self.old.stretches():
             if loop is not None:
                 self._settle_before(loop)
+            self._once = loop is None
             knots = self.builder.knots_of(self.old, loop)
             self._waiting |= {knot: (light, []) for knot, light in knots.items()}
             for light in lights:
@@ -134,7 +137,8 @@ class _Folding:
         self.notes.append(f"the turns at {_quoted([first, second])} are one")
         views = [*_angles(first), *_angles(second)]
         # Sums are in float64.
-        numbers = [number_of(view) if self.constants else None for view in views]
+        sums = self.constants and self._once
+        numbers = [number_of(view) if sums else None for view in views]
         known = sum(number for number in numbers if number is not None)
         left: list[View] = []
         for view in (v for v, number in zip(views, numbers, strict=True) if number is None):
@@ -159,7 +163,7 @@ class _Folding:
                 found.append(item)
             elif constant.is_identity:
                 self.notes.append(f"{item.kernel.name} at '{item.label}' changes nothing")
-            elif run and (both := run[-1][1].then(constant)):
+            elif run and self._once and (both := run[-1][1].then(constant)):
                 run[-1] = self._joined([run[-1][0], item], both), both
             else:
                 run.append((item, constant))
@@ -170,7 +174,7 @@ class _Folding:
         constants = [constant for _, constant in run]
         items = [item for item, _ in run]
         cost = sum(constant.cost for constant in constants)
-        dear = self.matrices and len(run) > 1 and cost > Constant(FULL, ()).cost
+        dear = self.matrices and self._once and len(run) > 1 and cost > Constant(FULL, ()).cost
         if not (dear and all(constant.lets_through for constant in constants)):
             return items
         found: list[Item] = []

@@ -39,6 +39,7 @@ from optipath.domains.quantities import (
     Quantity,
     Reads,
     Real,
+    RotatoryPower,
     StokesState,
 )
 from optipath.domains.states import (
@@ -79,6 +80,7 @@ __all__ = [
     "Quantity",
     "Reads",
     "Real",
+    "RotatoryPower",
     "StokesDomain",
     "StokesState",
     "in_unit_of",

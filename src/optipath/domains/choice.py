@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.domains.domain import Domain
-from optipath.errors import ValueFault, did_you_mean, shown
+from optipath.errors import ValueFault, did_you_mean
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from optipath.parameters import Parameter

@@ -10,10 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.array_likes import as_given
-from optipath.errors import ValueFault, shown
+from optipath.errors import ValueFault
 from optipath.frozen import frozen
 from optipath.jax_values import is_traced
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.roundings import doubles, rounding_of
 from optipath.units import USUAL_UNITS, format_quantity
 

@@ -10,9 +10,10 @@ import numpy.typing as npt
 
 from optipath.array_likes import entries_of
 from optipath.domains.domain import Domain
-from optipath.errors import ValueFault, shown
+from optipath.errors import ValueFault
 from optipath.frozen import frozen
 from optipath.materials import Material
+from optipath.quoting import shown
 
 _N = Domain("index of refraction", minimum=0.0)
 _K = Domain("extinction coefficient", minimum=0.0)

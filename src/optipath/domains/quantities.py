@@ -38,6 +38,9 @@ Absorption: TypeAlias = Annotated[
     Quantity, Domain("absorption coefficient", "inverse length", minimum=0.0)
 ]
 AnglePerLength: TypeAlias = Annotated[Quantity, Domain("angle per length", "angle per length")]
+RotatoryPower: TypeAlias = Annotated[
+    Quantity, Domain("rotatory power", "angle per length", own_unit="deg/dm")
+]
 StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
 READINGS = ("stokes", "linear", "intensity")

@@ -1,7 +1,8 @@
-"""The domain of a retardance beside a rotation: the two do not commute, so it is 0."""
+"""What may be nothing but 0 beside a rotation: what does not commute with it, or is the same."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.domains import Domain
@@ -12,15 +13,21 @@ if TYPE_CHECKING:
     from optipath.parameters import Parameter
 
 
-class BesideRotation(Domain):
-    """A retardance where there is a rotation: none."""
+@dataclass(frozen=True)
+class Beside(Domain):
+    """A quantity that may be nothing but 0 beside another.
+
+    Attributes
+    ----------
+    why : str
+        Beside what, and the cure.
+    """
+
+    why: str = ""
 
     def described(self) -> str:
         """Say in words which values are allowed."""
-        return (
-            "0 beside a rotation, with which it does not commute, or put two Media one after "
-            "the other"
-        )
+        return f"0 beside {self.why}"
 
     def check(self, owner: str, value: Any) -> Any:
         """Return the value as an array of numbers, or say what is wrong with it.
@@ -46,4 +53,14 @@ class BesideRotation(Domain):
             raise ValueFault(f"{owner} is parameter '{parameter.name}'; give {self.described()}")
 
 
-BESIDE_ROTATION = BesideRotation("retardance", "angle per length", minimum=0.0, maximum=0.0)
+def _beside(name: str, why: str) -> Beside:
+    return Beside(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
+
+
+RETARDANCE_BESIDE_ROTATION = _beside(
+    "retardance",
+    "a rotation, with which it does not commute, or put two Media one after the other",
+)
+ROTATION_BESIDE_DEXTROROTATION = _beside(
+    "rotation", "a dextrorotation, which is the same rotation with the other sign"
+)

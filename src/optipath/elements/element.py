@@ -11,7 +11,7 @@ from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
-from optipath.errors import PathError, ValueFault, shown
+from optipath.errors import PathError, ValueFault
 from optipath.frames import Frame
 from optipath.frozen import same
 from optipath.inputs import Use
@@ -22,6 +22,7 @@ from optipath.kernels import (
 from optipath.memory import enough_for
 from optipath.mueller import Mueller
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.shapes import broadcast_fault, joint_shape
 
 if TYPE_CHECKING:

@@ -24,7 +24,8 @@ class Interface(FourPort, kind="interface"):
     """A smooth boundary; its frames have x = s, perpendicular to the plane of incidence.
 
     Light from the front enters at ``in``; what is reflected leaves at ``reflected``, and what
-    is refracted at ``transmitted``, as the power carried into the medium behind. Light from
+    is refracted at ``transmitted``, as the power carried into the medium behind: a radiance is
+    multiplied by (n2 / n1)^2 besides (Nicodemus, Am. J. Phys. 31, 368 (1963)). Light from
     behind enters at ``back``: what is reflected leaves at ``transmitted``, and what is
     refracted at ``reflected``. It needs a medium behind that does not absorb.
 

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import Absorption, Angle, AnglePerLength, Domain, Length
-from optipath.elements.beside_rotation import BESIDE_ROTATION
+from optipath.domains import Absorption, Angle, AnglePerLength, Domain, Length, RotatoryPower
+from optipath.elements.beside_rotation import (
+    RETARDANCE_BESIDE_ROTATION,
+    ROTATION_BESIDE_DEXTROROTATION,
+)
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.errors import ValueFault, did_you_mean
@@ -17,6 +20,7 @@ from optipath.frozen import frozen
 from optipath.jax_values import is_traced
 from optipath.kernels import (
     ABSORPTION_ALONG,
+    DEXTROROTATION_ALONG,
     RETARDANCE_ALONG,
     ROTATION_ALONG,
     THIRD_OF_ABSORPTION,
@@ -32,8 +36,8 @@ if TYPE_CHECKING:
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 _WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
-_RATES = ("absorption", "rotation", "retardance")
-_OTHERS = ("rotation", "retardance", "angle", "azimuth")
+_RATES = ("absorption", "rotation", "retardance", "dextrorotation")
+_OTHERS = ("rotation", "retardance", "angle", "azimuth", "dextrorotation")
 _FAR = 50.0
 """From what absorption times length on it is done in three steps, each within any precision."""
 
@@ -55,19 +59,32 @@ class Medium(Element, kind="medium"):
     absorption : float, array_like or Parameter, optional
         The napierian absorption coefficient of the intensity, per metre, not negative.
     rotation : float, array_like or Parameter, optional
-        The optical rotation, in radians per metre from x towards y.
+        The optical rotation, in radians per metre from x towards y: counter-clockwise to who
+        looks at the source.
     retardance : float, array_like or Parameter, optional
         By how many radians per metre the slow component falls behind the fast one.
     angle : float, array_like or Parameter, optional
         The fast axis, in radians from x towards y of the medium's frame.
     azimuth : float, array_like or Parameter, optional
         The turn of its frame against the frame of the port before it, in radians.
+    dextrorotation : float, array_like or Parameter, optional
+        The optical rotation by the chemists' sign, in radians per metre: positive for what is
+        dextrorotatory, (+), and turns light clockwise to who looks at the source. In place of
+        ``rotation``, which is the same with the other sign (IUPAC, Gold Book, "optical rotation").
 
     Examples
     --------
     >>> glass_of_water = Medium(length=0.1, absorption=6.9)
     >>> float(glass_of_water.mueller().matrix[0, 0].round(3))
     0.502
+
+    A decimetre of a solution with 1 g/ml of sugar, [alpha] = +66.5 deg ml / (g dm):
+
+    >>> from optipath.light import Light
+    >>> sugar = Medium(length=0.1, dextrorotation=math.radians(66.5) / 0.1)
+    >>> horizontal = Light([1.0, 1.0, 0.0, 0.0])
+    >>> print(np.degrees((sugar.mueller() @ horizontal).aop).round(9))
+    -66.5
     """
 
     length: Length
@@ -76,6 +93,7 @@ class Medium(Element, kind="medium"):
     retardance: AnglePerLength = 0.0
     angle: Angle = 0.0
     azimuth: Angle = 0.0
+    dextrorotation: RotatoryPower = 0.0
 
     @classmethod
     def from_extinction(cls, length: Any, k: Any, wavelength: Any, **others: Any) -> Medium:
@@ -92,7 +110,8 @@ class Medium(Element, kind="medium"):
         wavelength : float or array_like
             The wavelength in vacuum, in metres, 1e-12 to 1e-3; values, no Parameter.
         **others : float, array_like or Parameter
-            The rotation, the retardance, the angle and the azimuth, as in `Medium`.
+            The rotation or dextrorotation, the retardance, the angle and the azimuth, as in
+            `Medium`.
 
         Raises
         ------
@@ -128,11 +147,15 @@ class Medium(Element, kind="medium"):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value; beside a rotation, a retardance may be nothing but 0.
 
-        What is given per metre may be no more than what floats hold over the whole length.
+        Only one of the two rotations may be other than 0, and what is given per metre no more
+        than what floats hold over the whole length.
         """
+        rotates, dextrorotates = not _vanishes(self.rotation), not _vanishes(self.dextrorotation)
         for name, value, domain in super().quantities():
-            if name == "retardance" and not _vanishes(self.rotation):
-                yield name, value, BESIDE_ROTATION
+            if name == "retardance" and (rotates or dextrorotates):
+                yield name, value, RETARDANCE_BESIDE_ROTATION
+            elif name == "rotation" and dextrorotates:
+                yield name, value, ROTATION_BESIDE_DEXTROROTATION
             elif name in _RATES and _overflow(value, self.length):
                 yield name, value, _over_a_length(domain, _largest(self.length))
             else:
@@ -145,6 +168,7 @@ class Medium(Element, kind="medium"):
         else:
             absorbing = 3 * self._along(THIRD_OF_ABSORPTION, self.absorption)
         rotating = self._along(ROTATION_ALONG, self.rotation)
+        rotating += self._along(DEXTROROTATION_ALONG, self.dextrorotation)
         retarding = self._along(RETARDANCE_ALONG, self.retardance)
         if retarding:
             retarding = turned(self.angle, *retarding)

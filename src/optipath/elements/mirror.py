@@ -21,7 +21,8 @@ class Mirror(Element, kind="mirror"):
 
     Light that enters at ``in`` leaves at ``reflected``; both frames have x = s,
     perpendicular to the plane of incidence. The field is exp(-iwt), and y turns over with
-    the light: r_p = -r_s at normal incidence. C + iS = r_s conj(r_p); Born & Wolf,
+    the light: r_p = -r_s at normal incidence. So what light meets again on its way back has its
+    axes at the opposite angle. C + iS = r_s conj(r_p); Born & Wolf,
     Principles of Optics, sec. 1.5.2.
 
     Parameters

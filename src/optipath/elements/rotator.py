@@ -9,12 +9,15 @@ from optipath.kernels import TURN_BACK
 
 
 class Rotator(Element, kind="rotator"):
-    """An optical rotator, such as sugar solution or quartz along its axis.
+    """An optical rotator, such as quartz along its axis.
 
     Parameters
     ----------
     angle : float, array_like or Parameter
-        By how many radians the polarisation turns from x towards y.
+        By how many radians the polarisation turns from x towards y: counter-clockwise to who
+        looks at the source, so that what is dextrorotatory has a negative angle.
+        ``Medium(length, dextrorotation=...)`` takes the chemists' sign. Light that comes back
+        from a mirror meets the same angle again, but the opposite one in a Faraday rotator.
 
     Examples
     --------

@@ -106,7 +106,9 @@ class SpecularVertex(Element, kind="specular-vertex"):
 
     def follows(self, before: Element) -> bool:
         """Tell whether another element is the vertex before this one, in the same chain."""
-        if not isinstance(before, SpecularVertex) or not is_count(self.place):
+        if not isinstance(before, SpecularVertex):
+            return False
+        if not is_count(self.place) or not is_count(before.place):
             return False
         return before.place == self.place - 1 and same(self.vertices, before.vertices)
 

@@ -53,9 +53,10 @@ class BlockWriter:
                     lines.append(f"t{symbol.index} = a{symbol.index}.astype(T, copy=False)")
                 else:
                     lines.append(f"t{symbol.index} = a{symbol.index}")
-        for rest in formula.rests:
-            whole = formula.whole_of(rest).index
-            lines.append(f"t{rest.index} = (a{whole} - t{whole}).astype(T)")
+        for left in formula.lefts:
+            if not left.uniform:
+                angle = f"a{formula.whole_of(left).index}"
+                lines.append(f"t{left.index} = left[{left.operation!r}]({angle}).astype(T)")
         for step in formula.body:
             lines += self._lines(step)
         for row, result in enumerate(formula.computed):
@@ -64,7 +65,7 @@ class BlockWriter:
         lines.append(f"return {self._read(formula.holds)}")
         names = [
             *(f"a{s.index}" for s in formula.inputs if not s.uniform),
-            *(f"t{s.index}" for s in formula.inputs if s.uniform),
+            *(f"t{s.index}" for s in (*formula.inputs, *formula.lefts) if s.uniform),
             *(f"t{s.index}" for s in formula.prologue),
             *self.constants_names(),
             *self.buffers,

@@ -10,10 +10,12 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from optipath.angles import CosSin
 from optipath.errors import ComposerError
 from optipath.jax_values import is_jax, is_traced
 from optipath.kernels import Linear, Primitives, cosine, sine
 from optipath.kernels.primitives import is_hidden, product_and_rest
+from optipath.precision import wide
 from optipath.views import part_of
 from optipath.walk import walk
 
@@ -87,18 +89,25 @@ class JaxPath:
         )
         self._known_traced = any(view.traced for view in program.leaves)
 
-    def lights(self, resolved: Mapping[str, Resolved], batch: tuple[int, ...]) -> list[Any]:
+    def lights(
+        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], given: Mapping[str, Any]
+    ) -> list[Any]:
         """Return Stokes vectors (..., 4) at every end; a component that is not read is NaN."""
-        values, absent = _split(resolved)
+        values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_lights if self._known_traced else self._lights
             return list(run(values, batch=batch, absent=absent))
 
     def matrix(
-        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], source: str, reading: str
+        self,
+        resolved: Mapping[str, Resolved],
+        batch: tuple[int, ...],
+        given: Mapping[str, Any],
+        source: str,
+        reading: str,
     ) -> Any:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
-        values, absent = _split(resolved)
+        values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_matrix if self._known_traced else self._matrix
             return run(values, batch=batch, absent=absent, source=source, reading=reading)
@@ -155,7 +164,12 @@ class JaxPath:
         return jnp.stack([jnp.broadcast_to(self._number(p), batch) for p in parts], axis=-1)
 
     def _leaves(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
-        return [self._leaf(view, values, absent) for view in self.program.leaves]
+        return [
+            self._number(values[_place(place)])
+            if _place(place) in values
+            else self._leaf(view, values, absent)
+            for place, view in enumerate(self.program.leaves)
+        ]
 
     def _leaf(self, view: View, values: Mapping[str, Any], absent: frozenset[str]) -> Any:
         name = getattr(view.value, "name", "")
@@ -178,6 +192,28 @@ class JaxPath:
         if view.part in ("cos", "sin"):
             return (cosine if view.part == "cos" else sine)(JAX)(value)
         return value
+
+    def _split(
+        self, resolved: Mapping[str, Resolved], given: Mapping[str, Any]
+    ) -> tuple[dict[str, Any], frozenset[str]]:
+        """Return the values, and the names of what is not there at all.
+
+        Cosines and sines are among them that are given, or of angles that JAX would round.
+        """
+        values, absent = _split(resolved)
+        kind = wide(self.dtype)
+        for place, view in enumerate(self.program.leaves):
+            if view.part not in ("cos", "sin") or view.known:
+                continue
+            name = view.value.name
+            pair, angle = given.get(name), values[name]
+            if isinstance(pair, CosSin):
+                number = getattr(pair, view.part)
+                turned = view.part == "sin" and view.value.negative
+                values[_place(place)] = -number if turned else number
+            elif kind != self.dtype and not is_jax(angle):
+                values[_place(place)] = view.of(angle, kind)
+        return values, absent
 
     def _precision(self, values: Mapping[str, Any]) -> Any:
         """Return a context in which JAX computes in the precision of the plan.
@@ -219,6 +255,11 @@ def _split(resolved: Mapping[str, Resolved]) -> tuple[dict[str, Any], frozenset[
             else:
                 absent.add(name)
     return values, frozenset(absent)
+
+
+def _place(place: int) -> str:
+    """Return what a leaf is called that is computed before JAX is asked."""
+    return f".{place}"
 
 
 def _known_to_jax(value: Any) -> Any:

@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.engines.code_cache import compiled_once, forget
 from optipath.engines.expressions import assignments
-from optipath.formulas import Symbol
+from optipath.formulas import Symbol, left_formula
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
@@ -105,7 +105,7 @@ _CUTS = {
 def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]]:
     """Return what is read before the loops, in a row, at a block, and in the inner loop."""
     before, in_row, cuts = [], [], []
-    inside = [f"t{rest.index} = l{formula.whole_of(rest).index}[i]" for rest in formula.rests]
+    inside = []
     for symbol in formula.inputs:
         n, place = symbol.index, formula.place_of(symbol)
         kind = "T" if symbol.kind == "float" else ""
@@ -117,15 +117,20 @@ def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]
             cuts.append(_CUTS[place].format(n))
             array = "h" if formula.name_of(symbol) in formula.wide else "x"
             inside.append(f"t{n} = {kind}({array}{n}[i])")
+    for left in formula.lefts:
+        if left.uniform:
+            lines = _left(left, f"a{formula.whole_of(left).index}")
+            before += [*lines, f"t{left.index} = T({lines[-1].split()[0]})"]
+        else:
+            inside.append(f"t{left.index} = l{left.index}[i]")
     return before, in_row, cuts, inside
 
 
 def _splits(formula: Formula) -> tuple[list[str], list[str]]:
-    """Return the arrays for numbers of more digits, and the lines that split them.
+    """Return the arrays for numbers of more digits, and the lines that make them.
 
     In loops of their own, since the widest number in a loop says how many fit at a time.
     """
-    with_rest = {formula.whole_of(rest).index for rest in formula.rests}
     arrays, loops = [], []
     for symbol in formula.inputs:
         n = symbol.index
@@ -134,14 +139,28 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
             low, most = formula.wide[formula.name_of(symbol)]
             lines = [
                 f"good = good & ({low!r} <= x{n}[i]) & (x{n}[i] <= {most!r})",
-                f"high = T(x{n}[i])",
-                f"h{n}[i] = high",
+                f"h{n}[i] = T(x{n}[i])",
             ]
-            if n in with_rest:
-                arrays.append(f"l{n}")
-                lines.append(f"l{n}[i] = T(x{n}[i] - high)")
+            for left in formula.lefts:
+                if formula.whole_of(left) is symbol:
+                    arrays.append(f"l{left.index}")
+                    lines += _left(left, f"x{n}[i]")
+                    lines.append(f"l{left.index}[i] = T({lines[-1].split()[0]})")
             loops += ["for i in range(end - begin):", *_indented(*lines)]
     return arrays, loops
+
+
+def _left(left: Symbol, angle: str) -> list[str]:
+    """Return the lines that compute what is left of an angle, in double precision."""
+    formula = left_formula(left.operation)
+    (given,) = formula.inputs
+
+    def written(operand: Any) -> str:
+        if not isinstance(operand, Symbol):
+            return repr(operand.item())
+        return f"d{left.index}_{operand.index}" if operand is not given else angle
+
+    return assignments(formula.steps, written)
 
 
 def _indented(*lines: str) -> list[str]:

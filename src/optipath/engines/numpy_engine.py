@@ -8,21 +8,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.block_writer import BlockWriter
-from optipath.formulas import Symbol
+from optipath.formulas import DOUBLE, LEFT, Symbol
 from optipath.formulas.operations import OPERATIONS
+from optipath.kernels import NUMPY
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
     from optipath.formulas import Formula
 
 _BLOCK = 12288
+_LEFT = {operation: factory(NUMPY, DOUBLE) for operation, factory in LEFT.items()}
 
 
 def compiled(formula: Formula) -> ArrayPath:
     """Return a function that does what a formula says, to arrays."""
     writer = BlockWriter(formula)
     space: dict[str, Any] = {name: about.ufunc for name, about in OPERATIONS.items()}
-    space |= {"bitwise_and": np.bitwise_and, "bitwise_xor": np.bitwise_xor}
+    space |= {"bitwise_and": np.bitwise_and, "bitwise_xor": np.bitwise_xor, "left": _LEFT}
     exec(compile(writer.text(), "<formula>", "exec"), space)  # noqa: S102 - our own text
     block, buffers = space["block"], tuple(writer.buffers.values())
     bits = np.dtype(f"i{formula.dtype.itemsize}")
@@ -74,6 +76,10 @@ def _prologue(formula: Formula, known: dict[int, Any]) -> list[Any]:
     """Return what is one number for the whole batch, in order, as arrays without axes."""
     kind = formula.dtype.type
     values = {s.index: kind(known[s.index]) for s in formula.inputs if s.uniform}
+    for left in formula.lefts:
+        if left.uniform:
+            angle = np.float64(known[formula.whole_of(left).index])
+            values[left.index] = kind(_LEFT[left.operation](angle))
     for step in formula.prologue:
         operands = (values[o.index] if isinstance(o, Symbol) else o for o in step.operands)
         values[step.index] = OPERATIONS[step.operation].ufunc(*operands)

@@ -1,14 +1,18 @@
 """Formulas: what a path does to the numbers it is given, as one list of operations."""
 
 from optipath.formulas.formula import Formula
+from optipath.formulas.left import DOUBLE, LEFT, left_formula
 from optipath.formulas.path_formula import bounds_formula, lights_formula, matrix_formula, slack_of
 from optipath.formulas.stages import stages
 from optipath.formulas.symbol import Symbol
 
 __all__ = [
+    "DOUBLE",
+    "LEFT",
     "Formula",
     "Symbol",
     "bounds_formula",
+    "left_formula",
     "lights_formula",
     "matrix_formula",
     "slack_of",

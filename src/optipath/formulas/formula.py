@@ -73,9 +73,9 @@ class Formula:
         return tuple(s for s in self.needed if s.operation == "input" or s.index in self.earlier)
 
     @cached_property
-    def rests(self) -> tuple[Symbol, ...]:
-        """What the precision of the formula loses of numbers that are given."""
-        return tuple(symbol for symbol in self.needed if symbol.operation == "rest")
+    def lefts(self) -> tuple[Symbol, ...]:
+        """What is left, beside right angles, of angles that are given in more digits."""
+        return tuple(symbol for symbol in self.needed if symbol.operation.startswith("left"))
 
     @cached_property
     def unread(self) -> frozenset[str]:
@@ -100,14 +100,14 @@ class Formula:
             return "row"
         return "column" if len(symbol.axes) == 1 else "cell"
 
-    def whole_of(self, rest: Symbol) -> Symbol:
-        """Return the input that a rest belongs to."""
-        return next(symbol for symbol in self.inputs if symbol.operands == rest.operands)
+    def whole_of(self, left: Symbol) -> Symbol:
+        """Return the input of which something is left."""
+        return next(symbol for symbol in self.inputs if symbol.operands == left.operands)
 
     @cached_property
     def steps(self) -> tuple[Symbol, ...]:
         """The operations on what is given."""
-        given = {symbol.index for symbol in (*self.inputs, *self.rests)}
+        given = {symbol.index for symbol in (*self.inputs, *self.lefts)}
         return tuple(symbol for symbol in self.needed if symbol.index not in given)
 
     @cached_property

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.formulas.left import FROM_ANY, FROM_NEARER
 from optipath.formulas.recorder import ONE_AXIS
 from optipath.formulas.symbolic import SYMBOLIC, record, with_polynomials
 from optipath.kernels import cosine, sine, without_rounding
@@ -96,18 +97,13 @@ class Leaves:
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
         given = self._given(raw, form)
-        rest: Any = 0.0
-        if form == WIDE:
-            rest = self._input(str(raw), form, rest=True)
-        if view.value.negative:
-            given, rest = -given, -rest
         if view.part in ("cos", "sin"):
-            return self._circular(view, given, rest)
-        return given
+            return self._circular(view, form, given)
+        return -given if view.value.negative else given
 
-    def _input(self, name: str, form: str, kind: str = "float", *, rest: bool = False) -> Any:
+    def _input(self, name: str, form: str, kind: str = "float", left: str = "") -> Any:
         axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
-        return self.recorder.input(name, kind, axes=axes, rest=rest)
+        return self.recorder.input(name, kind, axes=axes, left=left)
 
     def _given(self, raw: Raw, form: str) -> Any:
         low, high = self.limits[raw.name]
@@ -148,15 +144,22 @@ class Leaves:
         given.positive = least == 0.0
         return given
 
-    def _circular(self, view: View, angle: Any, rest: Any) -> Any:
+    def _circular(self, view: View, form: str, angle: Any) -> Any:
+        kind, negative = self.recorder.dtype, view.value.negative
+        if negative:
+            angle = -angle
         if not self.polynomials:
             return (cosine if view.part == "cos" else sine)(SYMBOLIC)(angle)
-        digits = DIGITS[self.recorder.dtype.name]
+        digits = DIGITS[kind.name]
         low, high = self.limits[view.value.name]
-        if view.value.negative:
-            low, high = -high, -low
-        if low >= 0.0 and high <= np.pi / 2:
-            return first_quadrant(SYMBOLIC, digits)(angle, rest)[view.part == "cos"]
+        first = not negative and low >= 0.0 and high <= np.pi / 2
+        left = None
+        if form in (ONE, WIDE) and kind != wide(kind):
+            # Next to a right angle it is all that there is, and has more digits than the angle.
+            left = self._input(str(view.raw), form, left=FROM_NEARER if first else FROM_ANY)
+            left = -left if negative else left
+        if first:
+            return first_quadrant(SYMBOLIC, digits)(angle, left)[view.part == "cos"]
         self.recorder.require(abs(angle) <= digits.most)
-        value = any_quadrant(SYMBOLIC, digits)(angle, rest)[view.part == "cos"]
-        return without_rounding(SYMBOLIC, lambda _: value)(angle)
+        value = any_quadrant(SYMBOLIC, digits)(angle, left)[view.part == "cos"]
+        return without_rounding(SYMBOLIC, lambda _: value)(angle) if left is None else value

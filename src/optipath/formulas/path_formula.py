@@ -12,8 +12,8 @@ from optipath.faint import FAINT
 from optipath.formulas.formula import Formula
 from optipath.formulas.leaves import Leaves, Limits
 from optipath.formulas.recorder import Recorder
-from optipath.kernels import Bounds, Linear, Plain, Powers, largest_error
-from optipath.walk import itself, walk
+from optipath.kernels import Bounds, Linear, Plain, Powers, is_physical, largest_error
+from optipath.walk import itself, walk, whole_matrices
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -90,10 +90,13 @@ def bounds_formula(
     recorder = Recorder(np.dtype(dtype))
     leaves = Leaves(recorder, forms, limits, polynomials=True, axes=axes)
     xp = leaves.primitives
-    found = walk(program, leaves.of(program), Bounds(xp, slack_of(dtype)))
+    symbols, way = leaves.of(program), Bounds(xp, slack_of(program, dtype))
+    matrices = whole_matrices(program, symbols, way)
+    found = walk(program, symbols, way, shared=matrices)
     read = [found[reading.light][0] for reading in program.readings.values()]
     totals = [total for total, *_ in read]
-    holds = [_finite([n for numbers in read for n in numbers], recorder.dtype)]
+    holds = [is_physical(xp, matrix, _spare(dtype)) for matrix in matrices.values()]
+    holds += [_finite([n for numbers in read for n in numbers], recorder.dtype)]
     holds += [total >= np.finfo(recorder.dtype).tiny * FAINT for total in totals]
     if model is None:
         return _formula(recorder, [n for numbers in read for n in numbers], holds)
@@ -101,9 +104,15 @@ def bounds_formula(
     return _formula(recorder, [*totals, reduce(xp.maximum, errors)], holds)
 
 
-def slack_of(dtype: str) -> float:
-    """Return what bounds give away for roundings in some precision."""
-    return float(256.0 * np.finfo(dtype).eps)
+def slack_of(program: Program, dtype: str) -> float:
+    """Return what bounds give away for roundings, those of whole Mueller matrices included."""
+    matrices = sum(map(len, program.matrices.values()))
+    return 256.0 * float(np.finfo(dtype).eps) + 16.0 * _spare(dtype) * matrices
+
+
+def _spare(dtype: str) -> float:
+    """Return how far an eigenvalue of a matrix may be below 0 by rounding, as a share of M00."""
+    return 32.0 * float(np.finfo(dtype).eps)
 
 
 def matrix_formula(

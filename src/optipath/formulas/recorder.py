@@ -53,10 +53,10 @@ class Recorder:
         kind: str = "float",
         *,
         axes: frozenset[int] = ONE_AXIS,
-        rest: bool = False,
+        left: str = "",
     ) -> Symbol:
-        """Return the symbol of a number that is given, or of what its rounding has lost."""
-        operation = "rest" if rest else "input"
+        """Return the symbol of a number that is given, or of what is left of an angle."""
+        operation = left or "input"
         return self._entered((operation, name), operation, (name,), kind, axes)
 
     def record(self, operation: str, *operands: Any) -> Any:

@@ -81,7 +81,7 @@ def with_polynomials(dtype: str) -> Primitives:
         if pair or not isinstance(angle, Symbol):
             return pair[place] if pair else record(name, angle)
         angle.recorder.require(abs(angle) <= digits.most)
-        return polynomials(angle, 0.0)[place]
+        return polynomials(angle)[place]
 
     return replace(
         SYMBOLIC, sin=partial(sine_or_cosine, "sin", 0), cos=partial(sine_or_cosine, "cos", 1)

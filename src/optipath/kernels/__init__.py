@@ -22,6 +22,7 @@ from optipath.kernels.carried import (
     stokes_of,
 )
 from optipath.kernels.circular import cosine, sine, without_rounding
+from optipath.kernels.coherency import FROM_MUELLER, TO_MUELLER, is_physical
 from optipath.kernels.compensated import (
     compensated_lossless_reflection,
     compensated_lossless_transmission,
@@ -62,6 +63,7 @@ from optipath.kernels.structures import (
     turn_linear,
 )
 from optipath.kernels.textbook import textbook_reflection, textbook_transmission
+from optipath.kernels.twice import twice
 from optipath.kernels.vertices import LONGEST, SHORTEST
 
 
@@ -162,6 +164,7 @@ GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, given_amplitudes)
 ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
 THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, medium.third_of_absorption)
 ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
+DEXTROROTATION_ALONG = Kernel("dextrorotation along the way", ROTATION, medium.dextrorotation_along)
 RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
@@ -181,7 +184,9 @@ __all__ = [
     "CONSTANT_DEPOLARIZING_BLOCK",
     "DEPOLARIZER",
     "DEPOLARIZING_BLOCK",
+    "DEXTROROTATION_ALONG",
     "FLOAT",
+    "FROM_MUELLER",
     "FULL",
     "GIVEN_AMPLITUDES",
     "GIVEN_TURN",
@@ -207,6 +212,7 @@ __all__ = [
     "STACK_TRANSMISSION",
     "STACK_TRANSMISSION_BACK",
     "THIRD_OF_ABSORPTION",
+    "TO_MUELLER",
     "TRANSMISSION",
     "TURN",
     "TURN_BACK",
@@ -239,6 +245,7 @@ __all__ = [
     "composed",
     "cosine",
     "energy",
+    "is_physical",
     "is_zero",
     "largest_error",
     "light_of",
@@ -249,6 +256,7 @@ __all__ = [
     "sine",
     "stokes_of",
     "turn_linear",
+    "twice",
     "unit_light",
     "without_rounding",
 ]

@@ -22,10 +22,6 @@ if TYPE_CHECKING:
     from optipath.kernels.structures import Numbers, Structure
 
 
-_ROUNDING = 1e-9
-"""How much longer a row of a matrix may be than it should, having been measured or rounded."""
-
-
 class Boosts(NamedTuple):
     """What is known of several boosts of the tangents hyperbolic t_i.
 
@@ -113,22 +109,27 @@ class Bounded(NamedTuple):
         Bounds of the ratio of the true intensity to it, when the boosts began.
     boosts : Boosts
         What has happened since.
+    excess : float
+        By how much more than wholly its source says, in rounded numbers, that it is polarised.
     """
 
     total: Any
     lower: Any
     upper: Any
     boosts: Boosts
+    excess: Any = 0.0
 
 
 class Bounds:
     """The way of intensities without polarisation, with bounds of what polarisation does.
 
+    They hold for physical matrices, which `is_physical` tells.
+
     Parameters
     ----------
     xp : Primitives
         What it is computed with.
-    slack : float, optional
+    slack : float or array_like, optional
         What is given away for roundings.
 
     Examples
@@ -140,7 +141,7 @@ class Bounds:
     ((0.25, 0.75, 1.25, 0.8), 0)
     """
 
-    def __init__(self, xp: Primitives, slack: float = 2.0**-44) -> None:
+    def __init__(self, xp: Primitives, slack: Any = 2.0**-44) -> None:
         self.xp = xp
         self.slack = slack
 
@@ -148,7 +149,9 @@ class Bounds:
         """Return the state of emitted light."""
         del count
         s0, *rest = stokes
-        return Bounded(s0, 1.0, 1.0, Boosts(self._share(rest, s0)))
+        dop = self._ratio(rest, s0)
+        excess = self.xp.maximum(dop - 1.0, 0.0)
+        return Bounded(s0, 1.0, 1.0, Boosts(self.xp.minimum(dop, 1.0)), excess)
 
     def act(
         self, structure: Structure, numbers: Numbers, state: Bounded, count: int = 1
@@ -158,10 +161,10 @@ class Bounds:
         rows = structure.rows(self.xp, numbers)
         mean, *first = rows[0]
         diattenuation = self._share(first, mean)
-        total, lower, upper, boosts = state
+        total, lower, upper, boosts, excess = state
         after = boosted(self.xp, boosts, diattenuation)
         if structure.jones is not None:
-            return Bounded(mean * total, lower, upper, after)
+            return Bounded(mean * total, lower, upper, after, excess)
         # What may depolarise is no boost. The intensity behind it is bounded as if it were, and
         # its light by what the matrix can do at most.
         least, most = ratio_bounds(self.xp, after)
@@ -171,11 +174,7 @@ class Bounds:
         left = 1.0 - diattenuation * before
         dop = (polarizance + kept * before) / self.xp.where(left > 0.0, left, 1.0)
         dop = self.xp.where(left > 0.0, self.xp.minimum(dop, 1.0), 1.0)
-        # A matrix that makes light that cannot be is bounded by nothing.
-        can_be = self._can_be(rows, mean)
-        lower = self.xp.where(can_be, lower * least, 0.0)
-        upper = self.xp.where(can_be, upper * most, math.inf)
-        return Bounded(mean * total, lower, upper, Boosts(dop))
+        return Bounded(mean * total, lower * least, upper * most, Boosts(dop), excess)
 
     def add(self, first: Bounded, second: Bounded) -> Bounded:
         """Return the state of two lights together, of which the more polarised is counted."""
@@ -188,27 +187,26 @@ class Bounds:
         total, lower, upper = sums
         lit = xp.where(total > 0.0, total, 1.0)
         lower, upper = (xp.where(total > 0.0, part / lit, 1.0) for part in (lower, upper))
-        return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)))
+        excess = xp.maximum(first.excess, second.excess)
+        return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)), excess)
 
     def read(self, state: Bounded, count: int = 1) -> tuple[Components, Any]:
         """Return the intensity without polarisation, the bounds, and that of the DoP."""
         del count
         least, most = ratio_bounds(self.xp, state.boosts)
-        upper = state.upper * most * (1.0 + self.slack)
+        # Light (1, d, 0, 0) is d times (1, 1, 0, 0) less d - 1 of unpolarised light.
+        slack = self.slack + 2.0 * state.excess
+        upper = state.upper * most * (1.0 + slack)
         # What all but cancels is as sure as what it is left of.
-        lower = self.xp.maximum(state.lower * least - self.slack * upper, 0.0)
+        lower = self.xp.maximum(state.lower * least - slack * upper, 0.0)
         return (state.total, lower, upper, dop_bound(state.boosts)), 0
-
-    def _can_be(self, rows: Sequence[Sequence[Any]], mean: Any) -> Any:
-        """Tell whether no row and no column is longer than the mean transmittance allows."""
-        inner = [row[1:] for row in rows[1:]]
-        lines = [rows[0][1:], [row[0] for row in rows[1:]], *inner, *zip(*inner, strict=True)]
-        most = mean * mean * (1.0 + _ROUNDING)
-        checks = (sum(entry * entry for entry in line) <= most for line in lines)
-        return reduce(lambda one, other: one & other, checks)
 
     def _share(self, parts: Sequence[Any], whole: Any) -> Any:
         """Return the length of a vector over a number, at most 1; 0 where the number is 0."""
+        return self.xp.minimum(self._ratio(parts, whole), 1.0)
+
+    def _ratio(self, parts: Sequence[Any], whole: Any) -> Any:
+        """Return the length of a vector over a number; 0 where the number is 0."""
         xp = self.xp
         parts = [part for part in parts if not (isinstance(part, float) and part == 0.0)]
         if not parts:
@@ -219,4 +217,4 @@ class Bounds:
             unit = xp.where(largest > 0.0, largest, 1.0)
             length = largest * xp.sqrt(sum((part / unit) * (part / unit) for part in parts))
         there = whole > 0.0
-        return xp.where(there, xp.minimum(length / xp.where(there, whole, 1.0), 1.0), 0.0)
+        return xp.where(there, length / xp.where(there, whole, 1.0), 0.0)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.double_double import DoubleDouble, twice
+from optipath.kernels.double_double import DoubleDouble
 from optipath.kernels.stable import (
     lossless_reflection,
     lossless_transmission,
     stable_reflection,
     stable_transmission,
 )
+from optipath.kernels.twice import twice
 
 if TYPE_CHECKING:
     from collections.abc import Callable

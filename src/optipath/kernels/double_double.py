@@ -7,18 +7,24 @@ Dekker, Numer. Math. 18 (1971); Joldes, Muller & Popescu, ACM Trans. Math. Softw
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, NoReturn
+from math import frexp
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from optipath.kernels.primitives import Primitives
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from optipath.kernels.primitives import Primitives
+
+_ALIKE = 2.0**-102
+"""By what share two numbers may differ that are the same to all digits that they have."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class DoubleDouble:
     """high + low, where low is no more than the rounding of high.
 
-    It takes the place of a float in a kernel; the plain numbers it is multiplied with there
-    are powers of two, whose products are exact.
+    It takes the place of a float in a kernel. Two that are the same to all digits that they
+    have are equal.
 
     Examples
     --------
@@ -32,8 +38,17 @@ class DoubleDouble:
     high: Any
     low: Any = 0.0
 
+    __array_ufunc__: ClassVar[None] = None  # So that NumPy's numbers leave operators to this class.
+    __hash__: ClassVar[None] = None  # type: ignore[assignment]
+
+    @classmethod
+    def nearest(cls, xp: Primitives, number: Fraction) -> DoubleDouble:
+        """Return the number nearest to a fraction."""
+        high = float(number)
+        return cls(xp, high, float(number - type(number)(high)))
+
     def __add__(self, other: Any) -> DoubleDouble:
-        high, low = _parts(other)
+        high, low = high_and_low(other)
         total, rest = _two_sum(self.high, high)
         small, smaller = _two_sum(self.low, low)
         total, rest = _quick_two_sum(total, rest + small)
@@ -51,21 +66,28 @@ class DoubleDouble:
         return self.__neg__().__add__(other)
 
     def __mul__(self, other: Any) -> DoubleDouble:
-        if not isinstance(other, DoubleDouble):
+        if _is_power_of_two(other):
             return self._of(self.high * other, self.low * other)
+        if not isinstance(other, DoubleDouble):
+            other = self._of(other)
         product, rest = self.xp.two_product(self.high, other.high)
         rest = rest + (self.high * other.low + self.low * other.high)
         return self._of(*_quick_two_sum(product, rest))
 
     __rmul__ = __mul__
 
-    def __truediv__(self, other: DoubleDouble) -> DoubleDouble:
+    def __truediv__(self, other: Any) -> DoubleDouble:
+        if not isinstance(other, DoubleDouble):
+            other = self._of(other)
         quotient = self.high / other.high
         rest = self - other * self._of(quotient)
         return self._of(*_quick_two_sum(quotient, rest.high / other.high))
 
     def __rtruediv__(self, other: float) -> DoubleDouble:
         return self._of(other) / self
+
+    def __eq__(self, other: object) -> Any:
+        return abs((self - other).high) <= _ALIKE * abs(self.high)
 
     def __lt__(self, other: Any) -> Any:
         difference = self - other
@@ -79,6 +101,10 @@ class DoubleDouble:
         difference = self - other
         return difference.high >= 0.0
 
+    def __le__(self, other: Any) -> Any:
+        difference = self - other
+        return difference.high <= 0.0
+
     def sqrt(self) -> DoubleDouble:
         """Return the square root of a number that is not negative."""
         root = self.xp.sqrt(self.high)
@@ -90,38 +116,12 @@ class DoubleDouble:
         return DoubleDouble(self.xp, high, low)
 
 
-def twice(xp: Primitives) -> Primitives:
-    """Return primitives for numbers of twice the precision of those that `xp` is for."""
-
-    def where(condition: Any, yes: Any, no: Any) -> DoubleDouble:
-        pairs = zip(_parts(yes), _parts(no), strict=True)
-        return DoubleDouble(xp, *(xp.where(condition, one, other) for one, other in pairs))
-
-    def ldexp(number: DoubleDouble, exponent: Any) -> DoubleDouble:
-        high, low = number.high, number.low
-        return DoubleDouble(xp, xp.ldexp(high, exponent), xp.ldexp(low, exponent))
-
-    return Primitives(
-        where=where,
-        sqrt=DoubleDouble.sqrt,
-        absolute=lambda number: where(number < 0.0, -number, number),
-        maximum=lambda one, other: where(one < other, other, one),
-        minimum=lambda one, other: where(other < one, other, one),
-        frexp=lambda number: (number, xp.frexp(number.high)[1]),
-        ldexp=ldexp,
-        fixed=lambda number: number,
-        **{
-            name: partial(_missing, name)
-            for name in ("sin", "cos", "exp", "atan2", "two_product", "hidden")
-        },
-    )
+def _is_power_of_two(number: Any) -> bool:
+    return isinstance(number, (int, float)) and abs(frexp(number)[0]) in (0.0, 0.5)
 
 
-def _missing(name: str, *_: Any) -> NoReturn:
-    raise NotImplementedError(f"{name} is not available in twice the precision")
-
-
-def _parts(number: Any) -> tuple[Any, Any]:
+def high_and_low(number: Any) -> tuple[Any, Any]:
+    """Return a number and its rest, which a plain one does not have."""
     return (number.high, number.low) if isinstance(number, DoubleDouble) else (number, 0.0)
 
 

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
 
 
+_LEAST = 2.0**-53
+"""What a pivot is at least that may be 0 by chance."""
+
+
 class Elimination:
     """A system of unknowns, eliminated one after the other, and what its solutions are.
 
@@ -33,6 +37,10 @@ class Elimination:
         none, such as S2, may take some from others all the same.
     intensities : sequence of bool
         Which unknowns are intensities.
+    fading : bool or array, optional
+        Where no light gains on its way. Elsewhere a pivot that is 0 by chance says nothing and
+        is moved by the rounding of a float, which takes numbers of more digits; not given, no
+        pivot is moved.
 
     Attributes
     ----------
@@ -56,7 +64,10 @@ class Elimination:
         back: Sequence[dict[int, Any]],
         leaves: Sequence[Any],
         intensities: Sequence[bool],
+        fading: Any = None,
     ) -> None:
+        self._xp = xp
+        self._fading = fading
         self._quotient = _quotient(xp)
         self._back = [{to: g for to, g in column.items() if not is_zero(g)} for column in back]
         self._leaves = list(leaves)
@@ -94,8 +105,13 @@ class Elimination:
         if self._intensities[unknown]:
             others = (gain for to, gain in onwards if self._intensities[to])
             pivot = reduce(_add, others, self._leaves[unknown])
+            if self._fading is not None:
+                pivot, more = self._moved(pivot)
+                self._leaves[unknown] = self._leaves[unknown] + more
         else:
             pivot = 1.0 - self._back[unknown].get(unknown, 0.0)
+            if self._fading is not None:
+                pivot, _ = self._moved(pivot)
         for source in sorted(self._feeds[unknown]):
             if source > unknown:
                 column = self._back[source]
@@ -105,6 +121,12 @@ class Elimination:
                     self._feeds[to].add(source)
                 self._leaves[source] = self._leaves[source] + share * self._leaves[unknown]
         return pivot
+
+    def _moved(self, pivot: Any) -> tuple[Any, Any]:
+        """Return a pivot that is not 0 by chance, and by how much it has been moved."""
+        there = self._fading | (self._xp.absolute(pivot) > _LEAST)
+        moved = self._xp.where(there, pivot, _LEAST)
+        return moved, moved - pivot
 
 
 def _quotient(xp: Primitives) -> Callable[..., Any]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.errors import ComposerError, did_you_mean, shown
+from optipath.errors import ComposerError, unknown
 from optipath.kernels.primitives import Primitives, made
 
 if TYPE_CHECKING:
@@ -103,7 +103,6 @@ class KernelFamily:
         ComposerError
             If there is no such method.
         """
-        if not isinstance(method, str) or method not in self.methods:
-            cure = did_you_mean(method, self.methods)
-            raise ComposerError(f"method {shown(method)} is unknown{cure}")
+        if faults := unknown("method", method, self.methods):
+            raise ComposerError(*faults)
         return self.methods[method]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.filters import retarder
-from optipath.kernels.rotation import turn_back
+from optipath.kernels.rotation import turn, turn_back
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -44,6 +44,12 @@ def rotation_along(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make ``(rotation, length) -> (cos 2a, -sin 2a)``, the light turned by a."""
     turned_back = turn_back(xp)
     return lambda rotation, length: turned_back(rotation * length)
+
+
+def dextrorotation_along(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(dextrorotation, length) -> (cos 2a, sin 2a)``, the light turned by -a."""
+    turned = turn(xp)
+    return lambda dextrorotation, length: turned(dextrorotation * length)
 
 
 def retardance_along(xp: Primitives) -> Callable[..., tuple[Any, ...]]:

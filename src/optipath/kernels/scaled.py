@@ -23,7 +23,8 @@ if TYPE_CHECKING:
     from optipath.kernels.primitives import Primitives
     from optipath.kernels.structures import Numbers, Structure
 
-_DARK = -(2**40)
+_DARK = -(2**30)
+"""An exponent below those of all light, of the size of integers that frexp gives."""
 
 ScaledState: TypeAlias = tuple[Carried, Any]
 """The light is the first times two to the power of the second."""

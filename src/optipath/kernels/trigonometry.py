@@ -10,6 +10,8 @@ from __future__ import annotations
 from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.kernels.circular import without_rounding
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -82,8 +84,49 @@ DIGITS = {
 }
 
 
+def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
+    """Make ``angle -> left``: what is left of an angle when the nearest right angles are taken off.
+
+    It is 0 where the angle cannot tell itself from a multiple of a right one.
+
+    Examples
+    --------
+    >>> import math
+    >>> from optipath.kernels import FLOAT
+    >>> left = from_axes(FLOAT, DIGITS["float64"])
+    >>> left(math.pi + 0.25), left(math.pi), left(math.nextafter(math.pi, 4.0))
+    (0.2499999999999999, 0.0, 3.216245299353273e-16)
+    """
+    return without_rounding(xp, lambda angle: _quarters(xp, digits)(angle)[1])
+
+
+def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
+    """Make ``angle -> left`` for angles within 0 .. pi/2: the angle, or what pi/2 is more than it.
+
+    It is 0 where the angle cannot tell itself from a right one.
+
+    Examples
+    --------
+    >>> import math
+    >>> from optipath.kernels import FLOAT
+    >>> left = from_nearer_axis(FLOAT, DIGITS["float64"])
+    >>> left(0.5), left(math.nextafter(math.pi / 2, 0.0)), left(math.pi / 2)
+    (0.5, 2.83276944882399e-16, 0.0)
+    """
+    maximum, minimum = xp.maximum, xp.minimum
+
+    def left(angle: Any) -> Any:
+        # Exact; of the angle next to pi/2 there is nothing left.
+        apart = digits.right_high - angle
+        return minimum(angle, maximum(apart + minimum(apart, digits.right_low), 0.0))
+
+    return left
+
+
 def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
-    """Make ``(angle, rest) -> (sin, cos)`` of angle + rest, at most `digits.most` in size.
+    """Make ``(angle, [left]) -> (sin, cos)`` of an angle of at most `digits.most` in size.
+
+    Of an angle that has been given in more digits, `from_axes` in its own gives what is left.
 
     Examples
     --------
@@ -92,14 +135,10 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     (0.5984721441039564, -0.8011436155469337)
     """
     where, absolute, near_zero = xp.where, xp.absolute, _near_zero(xp, digits)
+    quarters, rounded = _quarters(xp, digits), _rounded(digits)
 
-    def sine_cosine(angle: Any, rest: Any = 0.0) -> SinCos:
-        turns = angle * (1.0 / digits.right_high) + digits.rounding - digits.rounding
-        # Each part is taken away without error but for the last.
-        reduced = reduce(
-            lambda left, part: xp.multiply_add(turns, -part, left), digits.right, angle
-        )
-        reduced = reduced + rest
+    def sine_cosine(angle: Any, left: Any = None) -> SinCos:
+        turns, reduced = quarters(angle) if left is None else (rounded(angle - left), left)
         sine, cosine = near_zero(reduced)
         # The quadrant, -2 and 2 being the same.
         quadrant = turns - 4.0 * (turns * 0.25 + digits.rounding - digits.rounding)
@@ -112,9 +151,10 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 
 
 def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
-    """Make ``(angle, rest) -> (sin, cos)`` of angle + rest within 0 .. pi/2.
+    """Make ``(angle, [left]) -> (sin, cos)`` of an angle within 0 .. pi/2.
 
-    The cosine is 0 where the angle cannot tell itself from a right one.
+    The cosine is 0 where the angle cannot tell itself from a right one. Of an angle that has
+    been given in more digits, `from_nearer_axis` in its own gives what is left.
 
     Examples
     --------
@@ -124,19 +164,33 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     >>> sine_cosine(1.2), sine_cosine(math.pi / 2)
     ((0.9320390859672263, 0.3623577544766736), (1.0, 0.0))
     """
-    where, near_zero = xp.where, _near_zero(xp, digits)
-    maximum, minimum = xp.maximum, xp.minimum
+    where, near_zero, reduced = xp.where, _near_zero(xp, digits), from_nearer_axis(xp, digits)
 
-    def sine_cosine(angle: Any, rest: Any = 0.0) -> SinCos:
-        far = angle > 0.5 * digits.right_high
-        # Exact; of the angle next to pi/2 there is nothing left.
-        apart = digits.right_high - angle
-        exact = type(rest) is float
-        low = minimum(apart, digits.right_low) if exact else digits.right_low - rest
-        sine, cosine = near_zero(minimum(angle + rest, maximum(apart + low, 0.0)))
+    def sine_cosine(angle: Any, left: Any = None) -> SinCos:
+        left = reduced(angle) if left is None else left
+        far = angle > left
+        sine, cosine = near_zero(left)
         return where(far, cosine, sine), where(far, sine, cosine)
 
     return sine_cosine
+
+
+def _rounded(digits: Digits) -> Callable[[Any], Any]:
+    """Make ``angle -> turns``, the nearest number of right angles."""
+    return lambda angle: angle * (1.0 / digits.right_high) + digits.rounding - digits.rounding
+
+
+def _quarters(xp: Primitives, digits: Digits) -> Callable[[Any], tuple[Any, Any]]:
+    rounded, multiply_add = _rounded(digits), xp.multiply_add
+
+    def quarters(angle: Any) -> tuple[Any, Any]:
+        """Return the nearest number of right angles, and what is left without them."""
+        turns = rounded(angle)
+        # Each part is taken away without error but for the last.
+        parts = (-part for part in digits.right)
+        return turns, reduce(lambda left, part: multiply_add(turns, part, left), parts, angle)
+
+    return quarters
 
 
 def _near_zero(xp: Primitives, digits: Digits) -> Callable[[Any], SinCos]:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError, whole_number
 from optipath.light_paths.rounds import endless
 from optipath.light_paths.search import Search
 
@@ -44,8 +42,10 @@ def light_paths(
     ParameterError
         If what is given is not allowed, or there is no end of ways.
     """
-    _check("limit", limit, 1)
-    _check("bounces", bounces, 0)
+    faults = [] if limit is None else whole_number("limit", limit)
+    faults += [] if bounces is None else whole_number("bounces", bounces, 0)
+    if faults:
+        raise ParameterError(*faults)
     if limit is None and (place := endless(whole.program, bounces)):
         cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
         raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
@@ -60,10 +60,3 @@ def light_paths(
                 break
             found.append(path)
     return found
-
-
-def _check(what: str, number: Any, least: int) -> None:
-    whole = isinstance(number, (int, np.integer)) and not isinstance(number, bool)
-    if number is not None and not (whole and number >= least):
-        wanted = f"a whole number of {least} or more"
-        raise ParameterError(f"{what} must be {wanted}, not {shown(number)}")

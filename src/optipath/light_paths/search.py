@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import ParameterError
 from optipath.kernels import NUMPY, Plain, energy
 from optipath.light import Light
 from optipath.light_paths.light_path import LightPath
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
 
 _FAINTEST = 1e-200
 """What is not followed any further, as a share of what a source emits."""
+
+_IN_VAIN = 1 << 14
+"""How many branches are followed one after the other of which nothing arrives, and more of them
+the longer the path is."""
 
 
 @dataclass(order=True)
@@ -61,19 +66,35 @@ class Search:
         self._waiting: list[_Branch] = []
         self._most = self._most_that_arrives()
         self._least = 0.0
+        self._most_in_vain = _IN_VAIN + 64 * len(self.program.steps)
 
     def paths(self, bounces: int | None) -> Iterator[LightPath]:
-        """Yield the ways with so many bounces at most."""
+        """Yield the ways with so many bounces at most.
+
+        Raises
+        ------
+        ParameterError
+            If light is followed on and on, and none arrives.
+        """
         for light, _ in self.program.sources.values():
             s0, s1, s2, s3 = self.numbers[self.program.steps[light].evaluation or 0]
             state = self.way.emit((s0, s1, s2, s3))
             self._least = max(self._least, _FAINTEST * self._brightness(state))
             self._add(light, state, (self.program.steps[light].label,), 0)
+        followed = 0
         while self._waiting:
             branch = heappop(self._waiting)
             if branch.end:
                 yield self._arrived(branch)
+                followed = 0
                 continue
+            followed += 1
+            if followed > self._most_in_vain:
+                place = self.program.steps[branch.light].label
+                raise ParameterError(
+                    f"of {followed} ways of light, followed as far as '{place}', none arrives "
+                    f"anywhere; give a smaller limit, or fewer bounces"
+                )
             for end in self._ends.get(branch.light, ()):
                 self._add(branch.light, branch.state, branch.route, branch.bounces, end)
             for user in self.program.used_by[branch.light]:
@@ -107,21 +128,27 @@ class Search:
             return float(np.max(np.abs(energy(NUMPY, state)), initial=0.0))
 
     def _most_that_arrives(self) -> list[float]:
-        """Return the largest share of each light that can get to an end by one way (Dijkstra)."""
+        """Return the largest share of each light that can get to an end by one way (Dijkstra).
+
+        No way passes a light twice, since rounding makes gains of some that are just above 1;
+        where elements amplify, a way that does may be brighter.
+        """
         steps = self.program.steps
         gains = [self._largest_gain(place) for place in range(len(self.program.evaluations))]
         most = [0.0] * len(steps)
         waiting = [(-1.0, light) for light in self._ends]
         for _, light in waiting:
             most[light] = 1.0
+        settled: set[int] = set()
         while waiting:
             share, light = heappop(waiting)
-            if -share < most[light]:
+            if light in settled:
                 continue
+            settled.add(light)
             evaluation = steps[light].evaluation
             share = -share if evaluation is None else -share * gains[evaluation]
             for before in steps[light].inputs:
-                if share > most[before]:
+                if share > most[before] and before not in settled:
                     most[before] = share
                     heappush(waiting, (-share, before))
         return most
@@ -138,7 +165,8 @@ class Search:
 
     def _arrived(self, branch: _Branch) -> LightPath:
         reading = self.program.readings[branch.end]
-        components, _ = self.way.read(branch.state)
+        with np.errstate(all="ignore"):
+            components, _ = self.way.read(branch.state)
         parts = [np.broadcast_to(part, self.batch) for part in components]
         stokes = np.stack(parts, axis=-1)
         stokes[..., reading.components :] = np.nan

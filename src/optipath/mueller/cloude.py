@@ -10,26 +10,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import array_of
-from optipath.errors import ValueFault, shown
+from optipath.errors import ValueFault
 from optipath.jax_values import check_known
+from optipath.kernels import FROM_MUELLER, TO_MUELLER
 from optipath.mueller.scaled import precision, scaled, unscaled
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     Array = npt.NDArray[Any]
 
-PAULI = np.array(
-    [[[1, 0], [0, 1]], [[1, 0], [0, -1]], [[0, 1], [1, 0]], [[0, -1j], [1j, 0]]], np.complex128
-)
-"""The matrices s_i for which S_i = <E| s_i |E>, in the order and with the signs of `Light`."""
-
 # Of double precision.
 _TOLERANCE = 1e-9
-
-# M_ij = 1/2 tr(s_i T s_j T*) with T = sum_k c_k s_k, and c_k conj(c_l) gathered into C_kl.
-_TO_MUELLER = 0.5 * np.einsum("iab,kbc,jcd,lda->klij", *[PAULI] * 4).reshape(16, 16)
-_FROM_MUELLER = 0.25 * _TO_MUELLER.conj().T
 
 
 def coherency(matrix: Array) -> Array:
@@ -66,11 +59,30 @@ def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
     >>> print(is_physical(np.eye(4), 0.0))
     True
     """
-    within = _tolerance(tolerance, matrix)
+    return np.asarray(lack(matrix) <= _tolerance(tolerance, matrix))
+
+
+def lack(matrix: Array) -> Array:
+    """Return by which share of the largest eigenvalue the least one is below 0; NaN of NaN.
+
+    Infinite where no eigenvalue is above 0, and one below.
+
+    Examples
+    --------
+    >>> print(lack(np.eye(4)), lack(np.diag([1.0, 1.0, 1.0, -1.0])))
+    0.0 1.0
+    """
     # Near 1, where the largest neither runs over nor fades.
     parts, _ = scaled(matrix)
     values = eigenvalues(unscaled(matrix, parts, 0))
-    return np.asarray(values[..., 3] >= -within * values[..., 0])
+    largest, below = values[..., 0], np.maximum(-values[..., 3], 0.0)
+    share = below / np.where(largest > 0.0, largest, 1.0)
+    return np.asarray(np.where((below > 0.0) & (largest <= 0.0), np.inf, share))
+
+
+def tolerance_for(matrix: Array) -> float:
+    """Return what a matrix may lack, having been rounded in the precision of its numbers."""
+    return max(_TOLERANCE, 100.0 * precision(matrix))
 
 
 def nearest_physical(matrix: Array) -> Array:
@@ -85,14 +97,14 @@ def nearest_physical(matrix: Array) -> Array:
     values, vectors = np.linalg.eigh(gathered(parts))
     kept = vectors * np.maximum(values, 0.0)[..., np.newaxis, :]
     positive = kept @ np.swapaxes(vectors.conj(), -1, -2)
-    found = (positive.reshape(*parts.shape[:-2], 16) @ _TO_MUELLER).real
+    found = (positive.reshape(*parts.shape[:-2], 16) @ TO_MUELLER).real
     return unscaled(matrix, found.reshape(parts.shape), power)
 
 
 def _tolerance(given: Any, matrix: Array) -> float:
     """Return the tolerance of `is_physical`, by the precision of the matrix if none is given."""
     if given is None:
-        return max(_TOLERANCE, 100.0 * precision(matrix))
+        return tolerance_for(matrix)
     check_known("the tolerance of is_physical", given)
     number = array_of("the tolerance of is_physical", given)
     if number.shape == () and number.dtype.kind in "iuf" and 0.0 <= number < np.inf:
@@ -105,5 +117,5 @@ def _tolerance(given: Any, matrix: Array) -> float:
 
 def gathered(parts: Array) -> Array:
     """Return the coherency matrices of matrices whose entries are numbers near 1."""
-    flat = parts.reshape(*parts.shape[:-2], 16) @ _FROM_MUELLER
+    flat = parts.reshape(*parts.shape[:-2], 16) @ FROM_MUELLER
     return np.asarray(flat.reshape(parts.shape))

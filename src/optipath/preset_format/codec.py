@@ -19,6 +19,7 @@ from optipath.domains import (
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean
 from optipath.materials import Material
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.units import dimension_of, format_quantity, parse_quantity, with_article
 from optipath.vertices import VerticesByAngles, VerticesDomain
 
@@ -56,7 +57,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     if isinstance(domain, IndicesDomain):
         if not isinstance(raw, list):
             raise PresetError(
-                f"{raw!r} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
+                f"{shown(raw)} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
             )
         return [decode(one, INDEX, parameters) for one in raw]
     if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
@@ -126,7 +127,7 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
         return dict(zip(complex_parts, (value.real, value.imag), strict=True))
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return format_quantity(value, unit) if unit and np.isfinite(value) else value
-    raise PresetError(f"{value!r} has no form in a preset file; use numbers or parameters")
+    raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
 
 
 def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
@@ -157,8 +158,12 @@ def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dic
 
 
 def _complex(parts: Mapping[str, Any]) -> Any:
-    real, *imaginary = map(np.asarray, parts.values())
-    return (real + 1j * sum(imaginary))[()]
+    try:
+        real, *imaginary = map(np.asarray, parts.values())
+        return (real + 1j * sum(imaginary))[()]
+    except ValueError:
+        names = " and ".join(f"'{name}'" for name in parts)
+        raise UnitError(f"the shapes of {names} do not fit; make all rows equally long") from None
 
 
 def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:
@@ -169,7 +174,7 @@ def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngle
     for key in _ANGLES:
         several = raw.get(key, [])
         if not isinstance(several, list):
-            faults.append(f"{key} must be a list of angles, not {several!r}")
+            faults.append(f"{key} must be a list of angles, not {shown(several)}")
             continue
         for place, angle in enumerate(several):
             try:
@@ -190,12 +195,12 @@ def _number(raw: Any, unit: str) -> Any:
     if isinstance(raw, str):
         return parse_quantity(raw, dimension)
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        raise UnitError(f"{raw!r} is not a number")
+        raise UnitError(f"{shown(raw)} is not a number")
     try:
         number = float(raw)
     except OverflowError:
-        raise UnitError(f"{raw} is too large a number") from None
+        raise UnitError(f"{shown(raw)} is too large a number") from None
     if dimension and np.isfinite(number):
         asked = with_article(dimension)
-        raise UnitError(f"{raw!r} has no unit, but {asked} is asked for; write '{raw} {unit}'")
+        raise UnitError(f"{shown(raw)} has no unit, but {asked} is asked for; write '{raw} {unit}'")
     return number

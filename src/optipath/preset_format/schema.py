@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import did_you_mean
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -47,7 +48,7 @@ def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any])
     found = key_faults(where, table, schema)
     for key, kind in schema.items():
         if key in table and not _is(table[key], kind):
-            found.append(f"{where}: '{key}' must be {_WORDS[kind]}, not {table[key]!r}")
+            found.append(f"{where}: '{key}' must be {_WORDS[kind]}, not {shown(table[key])}")
     return found
 
 

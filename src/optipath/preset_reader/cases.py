@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.cases import Case
 from optipath.errors import did_you_mean
 from optipath.preset_format import decode_given, schema
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,7 +42,9 @@ def read_case(
         if _is_stokes(stokes):
             published[name] = tuple(float(part) for part in stokes)
         else:
-            faults.append(f"{where}.published.{name} must be four finite numbers, not {stokes!r}")
+            faults.append(
+                f"{where}.published.{name} must be four finite numbers, not {shown(stokes)}"
+            )
     return Case(values, published, table.get("note", ""))
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer import LOOPS, partial_faults
 from optipath.domains import ANGLE
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError, did_you_mean, unknown
 from optipath.path_graph import PathGraph
 from optipath.port_names import find_port
 from optipath.preset_format import decode, schema
@@ -14,6 +14,7 @@ from optipath.preset_reader.cases import read_case
 from optipath.preset_reader.elements import read_element, read_frames
 from optipath.preset_reader.faults import Faults
 from optipath.preset_reader.parameters import read_parameter
+from optipath.quoting import shown
 from optipath.units import dimension_of, with_article
 
 if TYPE_CHECKING:
@@ -37,8 +38,8 @@ def read(document: dict[str, Any]) -> PathGraph:
     }
     description = str(document.get("description", ""))
     loops = document.get("loops", LOOPS[0])
-    if isinstance(loops, str) and loops not in LOOPS:
-        faults.append(f"the preset: loops {loops!r} is unknown{did_you_mean(loops, LOOPS)}")
+    if isinstance(loops, str):
+        faults += unknown("the preset: loops", loops, LOOPS)
     loops = loops if loops in LOOPS else LOOPS[-1]
     path = PathGraph(description, declared=tuple(parameters), loops=loops)
     elements = _tables(document, "elements", faults)
@@ -46,14 +47,16 @@ def read(document: dict[str, Any]) -> PathGraph:
         name for name, table in elements.items() if not _add(path, name, table, parameters, faults)
     }
     links = document.get("links", [])
-    linked = [
-        _link(path, f"links[{number}]", table, parameters, lost, faults)
-        for number, table in enumerate(links if isinstance(links, list) else [])
-    ]
+    suspects = set(lost)
+    for number, table in enumerate(links if isinstance(links, list) else []):
+        suspects |= _link(path, f"links[{number}]", table, parameters, lost, faults)
+    ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
     for name, table in _tables(document, "cases", faults).items():
         path.cases[name] = read_case(f"cases.{name}", table, parameters, faults)
-        _check_published(path, name, lost, faults)
-    suspects = lost | {name for names in linked for name in names}
+        for detector in path.cases[name].published:
+            if detector not in ends and detector not in lost:
+                cure = did_you_mean(detector, ends)
+                faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
     if not suspects:
         used = path.parameters
         faults += [
@@ -78,14 +81,6 @@ def _unit_faults(path: PathGraph, parameters: dict[str, Parameter]) -> list[str]
     ]
 
 
-def _check_published(path: PathGraph, case: str, lost: set[str], faults: Faults) -> None:
-    ends = [name for name, e in path.graph.nodes(data="element") if not e.outputs]
-    for name in path.cases[case].published:
-        if name not in ends and name not in lost:
-            cure = did_you_mean(name, ends)
-            faults.append(f"cases.{case}.published: '{name}' is no detector{cure}")
-
-
 def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str, dict[str, Any]]:
     tables = document.get(section, {})
     found = {}
@@ -93,7 +88,7 @@ def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str,
         if isinstance(table, dict):
             found[name] = table
         else:
-            faults.append(f"{section}.{name} must be a table, not {table!r}")
+            faults.append(f"{section}.{name} must be a table, not {shown(table)}")
     return found
 
 
@@ -125,7 +120,7 @@ def _link(
 ) -> set[str]:
     """Add a link; return the nodes whose links are not all there, if it could not be added."""
     if not isinstance(table, dict):
-        faults.append(f"{where} must be a table headed [[links]], not {table!r}")
+        faults.append(f"{where} must be a table headed [[links]], not {shown(table)}")
         return set(path.graph)
     ends = {key: str(table.get(key)).partition(".")[0] for key in ("from", "to")}
     before = len(faults)

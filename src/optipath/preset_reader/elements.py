@@ -9,6 +9,7 @@ from optipath.elements import Element, element_class
 from optipath.frames import Frame
 from optipath.parameters import Parameter
 from optipath.preset_format import decode, schema
+from optipath.quoting import shown
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,7 +26,7 @@ def read_element(
     """Return the element that a table describes; None where its kind is not known."""
     kind = table.get("kind")
     if not isinstance(kind, str):
-        what = f"'kind' must be a text, not {kind!r}" if "kind" in table else "kind is missing"
+        what = f"'kind' must be a text, not {shown(kind)}" if "kind" in table else "kind is missing"
         faults.append(f'{where}: {what}; write kind = "..."')
         return None
     found = faults.attempt(where, element_class, kind)

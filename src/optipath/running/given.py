@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.angles import CosSin
-from optipath.errors import OptipathError, ParameterError, shown
+from optipath.errors import OptipathError, ParameterError
+from optipath.quoting import shown
 from optipath.roundings import is_beyond
 from optipath.running.layout import sliced
 from optipath.shapes import joint_shape

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import reduce
 from math import prod
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -12,9 +13,11 @@ from optipath.faint import FAINT, folded, is_faint
 from optipath.formulas import slack_of
 from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
 from optipath.precision import wide
+from optipath.running.closer import CloserLook
 from optipath.running.gains import check_gains
+from optipath.running.physical import what_matrices_lack
 from optipath.shapes import joint_shape
-from optipath.walk import evaluated, walk
+from optipath.walk import evaluated, walk, whole_matrices
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -98,11 +101,10 @@ class Stepwise:
 
         What several parts of a batch have in common may be given, see `shared`.
         """
-        leaves = self.leaves(given)
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
-        found = self._stacked(leaves, self._ways[self.way], given.batch, own)
+        found = self._stacked(given, self._ways[self.way], own)
         if self.way is Plain and any(np.any(is_faint(s[..., 0])) for s, _ in found):
-            found = self._stacked(leaves, self._ways[Scaled], given.batch, own)
+            found = self._stacked(given, self._ways[Scaled], own)
         return [folded(*light) for light in found]
 
     def shared(self, given: Given) -> Shared:
@@ -124,22 +126,32 @@ class Stepwise:
 
     def matrix(self, given: Given, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
-        leaves = self.leaves(given)
-        columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(given.batch))
         none = self.dtype.type(0.0)
-        emitted: dict[int, Components] = {
-            step: (none, none, none, none) for step, _ in self.program.sources.values()
-        }
         begin, _ = self.program.sources[source]
-        emitted[begin] = columns[:, 0], columns[:, 1], columns[:, 2], columns[:, 3]
-        lights = self._walk(leaves, self._ways[Linear], emitted)
+
+        def emitted(part: Given) -> dict[int, Components]:
+            columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(part.batch))
+            dark = {step: (none,) * 4 for step, _ in self.program.sources.values()}
+            return {**dark, begin: tuple(columns[:, row] for row in range(4))}  # type: ignore[dict-item]
+
+        lights = self._walk(given, self._ways[Linear], emitted)
         stokes = _stack(lights[reading.light][0], (4, *given.batch), reading, self.dtype)
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
 
     def bounds(self, given: Given) -> list[np.ndarray[Any, Any]]:
-        """Return what `Bounds` reads at every end, shape (4, ...)."""
-        way = Bounds(NUMPY, slack_of(self.dtype.name))
-        found = self._walk(self.leaves(given), way)
+        """Return what `Bounds` reads at every end, shape (4, ...).
+
+        Raises
+        ------
+        ParameterError
+            If a Mueller matrix is unphysical.
+        """
+        leaves = self.leaves(given)
+        with np.errstate(all="ignore"):
+            matrices = whole_matrices(self.program, leaves, self._ways[Linear], self.number)
+        lacking = what_matrices_lack(self.program, matrices)
+        way = Bounds(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
+        found = self._walk(given, way, shared=matrices)
         read = []
         for reading in self.program.readings.values():
             parts = np.empty((4, *given.batch), self.dtype)
@@ -152,26 +164,33 @@ class Stepwise:
             read.append(parts)
         return read
 
-    def _stacked(
-        self, leaves: Sequence[Any], way: Way, batch: tuple[int, ...], shared: Shared
-    ) -> list[Any]:
-        lights = self._walk(leaves, way, None, shared)
+    def _stacked(self, given: Given, way: Way, shared: Shared) -> list[Any]:
+        lights = self._walk(given, way, None, shared)
         return [
             (
-                _stack(lights[reading.light][0], batch, reading, self.dtype),
-                np.broadcast_to(lights[reading.light][1], batch),
+                _stack(lights[reading.light][0], given.batch, reading, self.dtype),
+                np.broadcast_to(lights[reading.light][1], given.batch),
             )
             for reading in self.program.readings.values()
         ]
 
     def _walk(
-        self, leaves: Sequence[Any], way: Way, emitted: Any = None, shared: Shared | None = None
-    ) -> Any:
+        self, given: Given, way: Way, emitted: Any = None, shared: Shared | None = None
+    ) -> dict[int, Any]:
         meetings: list[Meeting] = []
+        begin = emitted and emitted(given)
         with np.errstate(all="ignore"):
-            found = walk(self.program, leaves, way, emitted, self.number, shared, meetings)
-        check_gains(meetings)
-        return found
+            leaves = self.leaves(given)
+            found = walk(self.program, leaves, way, begin, self.number, shared, meetings)
+            doubtful = _doubtful(meetings, given.batch)
+            if not np.any(doubtful):
+                return found
+            part = given if np.all(doubtful) else given.part((doubtful,))
+            leaves, meetings = self.leaves(part), []
+            begin, closer = emitted and emitted(part), CloserLook(self, part)
+            again = walk(self.program, leaves, way, begin, self.number, None, meetings, closer.meet)
+            check_gains(meetings)
+        return again if part is given else _instead(found, again, doubtful)
 
     def number(self, number: Any) -> np.ndarray[Any, Any]:
         """Return what a kernel gives in the precision of the plan."""
@@ -195,6 +214,19 @@ class Stepwise:
             for leaf, view in zip(self._known, self.program.leaves, strict=True)
         ]
 
+    def wide_number(self, view: View, given: Given) -> Any:
+        """Return the number behind a view with all digits that are given.
+
+        For an angle that is given by its cosine and sine, these two.
+        """
+        kind, numbers = wide(self.dtype), given.numbers
+        if view.known:
+            return given.cut(np.asarray(view.numbers({}), kind))
+        if view.raw in numbers:
+            return view.of(np.asarray(numbers[view.raw], kind), kind)
+        sign = -1.0 if view.value.negative else 1.0
+        return numbers[view.raw._replace(part="cos")], sign * numbers[view.raw._replace(part="sin")]
+
     def _of_known(self, view: Any) -> Any:
         if view.part == "present":
             return view.present()[()]
@@ -215,6 +247,30 @@ def _given(view: View, numbers: Mapping[Raw, Any], kind: np.dtype[Any]) -> Any:
     if view.part == "cos":
         return cos
     return sign * (sin if view.part == "sin" else np.arctan2(sin, cos))
+
+
+def _doubtful(meetings: Sequence[Meeting], batch: tuple[int, ...]) -> np.ndarray[Any, Any]:
+    """Return for which paths of a batch a loop takes a closer look."""
+    holds = [condition for meeting in meetings for condition in meeting.conditions]
+    return np.broadcast_to(np.logical_not(reduce(np.logical_and, holds, np.True_)), batch)
+
+
+def _instead(
+    found: dict[int, Any], others: Mapping[int, Any], where: np.ndarray[Any, Any]
+) -> dict[int, Any]:
+    """Return lights, those of some paths replaced by others."""
+
+    def put(number: Any, other: Any) -> Any:
+        number = np.asarray(number)
+        several = number.shape[: max(0, number.ndim - where.ndim)]
+        whole = np.array(np.broadcast_to(number, (*several, *where.shape)))
+        whole[..., where] = other
+        return whole
+
+    return {
+        light: (tuple(map(put, components, others[light][0])), put(exponent, others[light][1]))
+        for light, (components, exponent) in found.items()
+    }
 
 
 def _stack(

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.array_likes import as_given
-from optipath.errors import ShapeError, ValueFault, shown
+from optipath.errors import ShapeError, ValueFault
+from optipath.quoting import shown
 from optipath.roundings import rounding_of
 from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from optipath.errors import shown
 from optipath.parameters import Parameter
+from optipath.quoting import shown
 from optipath.vertices.by_angles import VerticesByAngles
 from optipath.vertices.coordinates import Coordinates, coordinates
 
