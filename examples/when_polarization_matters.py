@@ -7,12 +7,15 @@ Unpolarised light meets two surfaces of one material, the second turned by 90 de
 light: the exact intensity beside that of the scalar model, and its certificate.
 """
 
+import io
 import sys
+from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
 
 import optipath as op
+from optipath.written_files import write_file
 
 # n and k at 582 nm: the metals by Johnson & Christy (Phys. Rev. B 6, 4370, 1972, and 9, 5056,
 # 1974), glass as N-BK7.
@@ -53,7 +56,9 @@ def draw(file):
     axes.set_title("Two reflections, planes of incidence crossed; dotted: the certificate")
     axes.legend(loc="upper left", ncols=2, fontsize="small")
     axes.grid(visible=True, alpha=0.3)
-    figure.savefig(file, dpi=120)
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=120, format=Path(file).suffix[1:] or None)
+    write_file(Path(file), drawn.getvalue())  # A picture that is there already stays till then.
 
 
 if __name__ == "__main__":

@@ -281,5 +281,5 @@ def test_a_case_of_what_is_no_mapping_is_refused(odd):
         op.Case(odd)
     with pytest.raises(op.ParameterError, match="published of a case must be a mapping"):
         op.Case({}, odd)
-    with pytest.raises(op.ParameterError, match="a Stokes vector by detector"):
+    with pytest.raises(op.ParameterError, match="published at eye must be numbers"):
         op.Case({}, {"eye": odd if isinstance(odd, str) else "words"})

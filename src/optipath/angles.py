@@ -9,7 +9,7 @@ import numpy as np
 from optipath.array_likes import as_given
 from optipath.errors import ParameterError
 from optipath.frozen import same
-from optipath.jax_values import is_jax, namespace
+from optipath.jax_values import is_jax, is_traced, namespace
 from optipath.memory import refuse_too_large
 from optipath.quoting import shown
 from optipath.roundings import doubles, rounding_of
@@ -65,8 +65,18 @@ class CosSin:
 
     @property
     def angle(self) -> Any:
-        """The angle in radians."""
-        return namespace(self.cos).arctan2(self.sin, self.cos)
+        """The angle in radians; NaN where JAX traces what belongs to no angle."""
+        xp = namespace(self.sin if is_jax(self.sin) else self.cos)
+        angle = xp.arctan2(self.sin, self.cos)
+        if not self.is_traced:
+            return angle
+        apart = xp.abs(xp.square(self.cos) + xp.square(self.sin) - 1.0)
+        return xp.where(apart <= _APART, angle, xp.nan)
+
+    @property
+    def is_traced(self) -> bool:
+        """Whether JAX traces the cosine or the sine."""
+        return is_traced(self.cos) or is_traced(self.sin)
 
     def check(self, what: str) -> None:
         """Raise unless cosine and sine belong to an angle.

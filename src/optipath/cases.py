@@ -28,7 +28,7 @@ class Case:
     Raises
     ------
     ParameterError
-        If values are no mapping, or what is published is no sequence of numbers.
+        If they are no mappings, or what is published are no numbers.
     """
 
     values: Mapping[str, Any]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import and_
 from typing import TYPE_CHECKING, Any
 
 from optipath.array_likes import as_given
@@ -45,6 +46,13 @@ class Use:
         """Whether the value is a parameter that is given when the plan runs."""
         return isinstance(self.value, Parameter) and not self.value.bound
 
+    @property
+    def is_traced(self) -> bool:
+        """Whether the value is known, but to JAX alone, which traces it."""
+        value = self.value
+        known = value.default if isinstance(value, Parameter) and value.bound else value
+        return is_traced(known)
+
     def batch_shape(self, numbers: Any) -> tuple[int, ...]:
         """Return the shape of numbers for this place, the axes of one value left out."""
         if type(numbers) is float:
@@ -62,6 +70,18 @@ class Use:
         """Return the batch shape of a value that is known."""
         value = self.value
         return self.batch_shape(value.default if isinstance(value, Parameter) else value)
+
+    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
+        """Return for which paths a value that JAX traces is allowed; True for any other."""
+        value, parameter = self.value, isinstance(self.value, Parameter)
+        numbers = resolved[value.name].value if self.is_open else value
+        numbers = numbers.default if parameter and value.bound else numbers
+        if not is_traced(numbers):
+            return True
+        signed = -numbers if parameter and value.negative else numbers
+        found = [self.domain.allows(signed), *([value.allows(numbers)] if parameter else [])]
+        batch = len(self.batch_shape(numbers))
+        return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
 
     def check(self) -> None:
         """Check what is known of the value: all of it, or a parameter's unit and default.
@@ -110,12 +130,15 @@ class Inputs:
         Where the open parameters stand.
     shapes : mapping of str to tuple of int
         The batch shapes of arrays that are known, by owner.
+    known : tuple of Use
+        Where values stand that are known, but to JAX alone.
     """
 
     open: Mapping[str, Parameter]
     bound: Mapping[str, Parameter]
     uses: tuple[Use, ...]
     shapes: Mapping[str, tuple[int, ...]]
+    known: tuple[Use, ...] = ()
 
     def resolve(self, given: Mapping[str, Any]) -> tuple[dict[str, Resolved], tuple[int, ...]]:
         """Return the numbers of every open parameter, and the shape of the batch.
@@ -154,6 +177,10 @@ class Inputs:
         if faults:
             raise ParameterError(*faults)
         return resolved, joint_shape(*shapes.values())
+
+    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
+        """Return for which paths all values that JAX traces are allowed; True where it has none."""
+        return reduce(and_, (use.inside(resolved) for use in (*self.uses, *self.known)), True)  # noqa: FBT003
 
     @cached_property
     def limits(self) -> dict[str, tuple[float, float]]:

@@ -8,6 +8,7 @@ intensities along x and y, S2 and S3 of all knots then gives the light at each.
 from __future__ import annotations
 
 from functools import reduce
+from math import inf
 from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -133,6 +134,24 @@ class Meeting:
         """Whether so much of each unknown leaves that nobody needs to look at it."""
         enough = [pivot > LITTLE for pivot in self.pivots if not is_zero(pivot - 1.0)]
         return [*enough, *self.fading(self.pivots)]
+
+    def adds_up(self, slack: float) -> Any:
+        """Return whether what has been found is light that can be, but for roundings.
+
+        Where light gains on each round, its rounds have no sum, and what solves the system is no
+        light: a solution x = b + M x that is one is never less than b + M b + ... + M^n b.
+        """
+        xp, holds = self.way.xp, True
+        for knot in self.loop.knots:
+            parts = [self.found[self._place[knot, part]] for part in range(self.count(knot))]
+            total = sum(parts[:2])
+            size = xp.where(total > 0.0, total, 1.0)
+            x, *others = (part / size for part in parts)
+            y, *across = others or (x,)
+            squares = sum(part * part for part in across)
+            bright = (x >= -slack) & (y >= -slack) & (squares <= 4.0 * x * y + slack)
+            holds = holds & bright & (xp.absolute(total) < inf)
+        return holds
 
     def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:
         """Return whether no light at any knot, however it is polarised, gains on the way to others.

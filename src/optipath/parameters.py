@@ -11,7 +11,7 @@ from optipath.angles import CosSin
 from optipath.array_likes import array_of, as_given
 from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import frozen, same
-from optipath.jax_values import is_traced
+from optipath.jax_values import is_traced, namespace
 from optipath.quoting import shown
 from optipath.roundings import doubles, within
 from optipath.units import dimension_of, format_quantity, parse_quantity
@@ -224,7 +224,7 @@ class Parameter:
                 f"parameter '{self.name}' is no angle, but a cosine and a sine are given; "
                 f"give a number"
             )
-        if not is_traced(given.cos) and not is_traced(given.sin):
+        if not given.is_traced:
             given.check(f"parameter '{self.name}'")
         return given.angle
 
@@ -294,13 +294,17 @@ class Parameter:
         value = self.parse(entry)
         return self.words.get(value) if isinstance(value, str) else value
 
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array, JAX's as well, are finite and within the range."""
+        inside = namespace(numbers).isfinite(numbers)
+        if numbers.dtype.kind == "c":
+            return inside & (self.minimum == -np.inf) & (self.maximum == np.inf)
+        return inside & (numbers >= self.minimum) & (numbers <= self.maximum)
+
     def _check_range(self, array: npt.NDArray[Any]) -> None:
-        bad = ~np.isfinite(array)
-        if array.dtype.kind == "c":
-            if np.isfinite([self.minimum, self.maximum]).any():
-                raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
-        else:
-            bad |= (array < self.minimum) | (array > self.maximum)
+        if array.dtype.kind == "c" and np.isfinite([self.minimum, self.maximum]).any():
+            raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
+        bad = ~self.allows(array)
         if not np.any(bad):
             return
         value = array[bad].ravel()[0]

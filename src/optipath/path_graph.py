@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 
 import networkx as nx
 
+from optipath.array_likes import entries_of
 from optipath.binding import bind
 from optipath.cases import Case
 from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
@@ -103,13 +104,10 @@ class PathGraph:
         self.cases = dict(cases)
         if faults := unknown("loops", loops, LOOPS):
             raise PathError(*faults)
-        if not isinstance(declared, (tuple, list)) or not all(
-            isinstance(name, str) for name in declared
-        ):
-            raise PathError(
-                f"declared must be a list of names of parameters, not {shown(declared)}"
-            )
-        self._graph = nx.MultiDiGraph(declared=tuple(declared), loops=loops)
+        names = entries_of("declared", "names of parameters", declared, PathError)
+        if not all(isinstance(name, str) for name in names):
+            raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
+        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
         self._plan: Plan | None = None
         self._plan_of_all: Plan | None = None
 

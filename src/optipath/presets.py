@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +14,6 @@ from optipath.errors import (
     did_you_mean,
     few_suggestions,
 )
-from optipath.frozen import frozen
 from optipath.quoting import shown
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def load_preset(
     path = read_preset(locate(preset))
     given = dict(values)
     faults: list[str] = []
-    name = case if isinstance(case, str) else shown(frozen(case))
+    name = case if isinstance(case, str) else _number_of(case)
     if case is not None and name not in path.cases:
         cure = did_you_mean(name, path.cases)
         faults.append(f"case '{name}' is unknown in preset '{preset}'{cure}")
@@ -140,6 +140,10 @@ def read_preset(path: Path) -> PathGraph:
             return read(document)
     except OptipathError as error:
         raise PathError(*(f"{path.name}: {fault}" for fault in error.faults)) from None
+
+
+def _number_of(case: object) -> str:
+    return shown(int(case) if isinstance(case, Integral) else case)
 
 
 def _text(path: Path) -> str:

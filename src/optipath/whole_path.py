@@ -38,7 +38,12 @@ class WholePath(Runner):
             resolved, batch = self.inputs.resolve(parameters)
             name = next(n for n, end in self.program.readings.items() if end is reading)
             with self.enough_for(batch, 16, twice=True):
-                found = self.jax.matrix(resolved, batch, parameters, source, name)
+                found, sound = self.jax.matrix(resolved, batch, parameters, source, name)
+            if not self.traces(resolved) and not np.all(sound):
+                given = self.sorter.sort(parameters)
+                parts = [self.stepwise.matrix(p, source, reading) for p in self.parts(given)]
+                found = joined(parts, given.batch, (4, 4))
+            found = self.nan_outside(found, resolved, 2)
             self.refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
         given = self.sorter.sort(parameters)

@@ -6,20 +6,21 @@ import platform
 import subprocess
 import sys
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 from optipath.bench.timing import race
 from optipath.bench.values import random_values
 from optipath.composer import Composer
-from optipath.engines import is_installed
+from optipath.engines import ENGINES, is_installed, missing
 from optipath.kernels import METHODS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from optipath.path_graph import PathGraph
+    from optipath.plan import Plan
 
 _DTYPES = ("float64", "float32")
 _OUTPUTS = ("stokes", "mueller")
@@ -53,7 +54,7 @@ def bench(
     load: Callable[[], object],
     *,
     largest: int = 1_000_000,
-    engines: Iterable[str] = ("numpy", "numba", "jax"),
+    engines: Iterable[str] = (),
     threads: int = 1,
     progress: Callable[[str], object] = lambda _: None,
 ) -> Report:
@@ -68,7 +69,7 @@ def bench(
     largest : int
         The largest batch; batches grow by tens from 1.
     engines : iterable of str
-        Those that are not installed are left out.
+        Which are measured; all that are installed by default.
     threads : int
         How many threads share a large batch.
     progress : callable
@@ -76,10 +77,23 @@ def bench(
 
     Raises
     ------
+    MissingExtraError
+        If an engine is not installed.
     ParameterError
         If the path has no open parameter that can be varied.
     """
-    found = [engine for engine in engines if is_installed(engine)]
+    found = [*engines] or [
+        engine for engine in ENGINES if engine != "auto" and is_installed(engine)
+    ]
+    for engine in found:
+        if not is_installed(engine):
+            raise missing(engine)
+
+    @cache
+    def plan_of(engine: str, dtype: str, method: str) -> Plan:
+        # Kept, so that nothing is compiled for one batch after the other.
+        return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
+
     report = Report(software=software(("numpy", "networkx", *found)))
     plan = Composer().compose(path)
     one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
@@ -92,10 +106,11 @@ def bench(
     }
     timings = race(single, tick=progress)
     report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
+    # First, since their first calls tell how long they take to be compiled.
+    report.methods.extend(_methods(plan_of, min(_COMPARED, largest), found, progress))
     sizes = [10**power for power in range(20) if 10**power <= largest]
     for size in sizes:
-        report.batches.extend(_batches(path, size, found, threads, progress))
-    report.methods.extend(_methods(path, min(_COMPARED, largest), found, progress))
+        report.batches.extend(_batches(plan_of, size, found, progress))
     return report
 
 
@@ -111,17 +126,16 @@ def software(names: Iterable[str]) -> dict[str, str]:
 
 
 def _batches(
-    path: PathGraph,
+    plan_of: Callable[..., Plan],
     size: int,
     engines: list[str],
-    threads: int,
     progress: Callable[[str], object],
 ) -> list[dict[str, Any]]:
     contenders: dict[str, Callable[[], object]] = {}
     about = {}
     for engine in engines:
         for dtype in _DTYPES:
-            plan = Composer(engine=engine, dtype=dtype, threads=threads).compose(path)
+            plan = plan_of(engine, dtype, "stable")
             values = random_values(plan, size)
             values = {name: value.astype(dtype) for name, value in values.items()}
             for output in _OUTPUTS:
@@ -134,13 +148,16 @@ def _batches(
 
 
 def _methods(
-    path: PathGraph, size: int, engines: list[str], progress: Callable[[str], object]
+    plan_of: Callable[..., Plan],
+    size: int,
+    engines: list[str],
+    progress: Callable[[str], object],
 ) -> list[dict[str, Any]]:
     contenders: dict[str, Callable[[], object]] = {}
     about = {}
     for engine in engines:
         for method in METHODS:
-            plan = Composer(engine=engine, method=method).compose(path)
+            plan = plan_of(engine, "float64", method)
             name = f"{engine}, {method}"
             about[name] = {"engine": engine, "method": method, "paths": size}
             contenders[name] = partial(_finished, plan.run_all, random_values(plan, size))

@@ -56,14 +56,13 @@ def _bench(
     def load() -> Any:
         return load_preset(preset, case=case, **values)
 
-    chosen = engines or ENGINES
-    steps = 5 + len(chosen) * (4 * len(str(largest)) + 4)
+    steps = 5 + len(engines or ENGINES) * (4 * len(str(largest)) + 4)
     with progress_bar(steps) as tell:
         report = bench(
             _opened(preset, case, values),
             load,
             largest=largest,
-            engines=chosen,
+            engines=engines,
             threads=threads,
             progress=lambda what: tell(what, advance=1),
         )

@@ -17,13 +17,14 @@ from optipath.cli.accuracy import accuracy
 from optipath.cli.bench import bench
 from optipath.cli.chart import chart
 from optipath.cli.explain import explain
+from optipath.cli.interrupts import interruptible
 from optipath.cli.polarization import polarization
 from optipath.cli.presets import presets
 from optipath.cli.run import run
 from optipath.cli.show import show
 from optipath.errors import LoopWarning, OptipathError
 from optipath.quoting import printable
-from optipath.starting import INTERRUPTED, interruptible
+from optipath.starting import INTERRUPTED
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -106,11 +106,18 @@ class PresetGroup(click.Group):
         help_ = f"Named set of values: {cases}."
         options += [click.Option(["--case"], metavar="NAME", help=help_), *self.options]
         return click.Command(
-            printable(cmd_name),
+            cmd_name,
             callback=callback,
             params=options,
             help=printable(path.description),
         )
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the command of a preset, by a name that help may print."""
+        name, command, rest = super().resolve_command(ctx, args)
+        return printable(name or ""), command, rest
 
     def _reserved(self) -> set[str]:
         flags = {flag.lstrip("-") for option in self.options for flag in option.opts}

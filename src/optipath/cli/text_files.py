@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from optipath.quoting import shown
 from optipath.written_files import write_file
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ class NewFile(click.Path):
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path; refuse an empty one, which would be the folder one stands in."""
         if not str(value) or "\0" in str(value):
-            self.fail(f"{str(value)!r} is no name of a file.", param, ctx)
+            self.fail(f"{shown(str(value))} is no name of a file.", param, ctx)
         return super().convert(value, param, ctx)
 
 

@@ -108,7 +108,7 @@ class Composer:
     keep: str = "ends"
 
     def __post_init__(self) -> None:
-        faults = []
+        faults: list[str] = []
         for option, choices in CHOICES.items():
             value = getattr(self, option)
             if value is not None or option != "loops":

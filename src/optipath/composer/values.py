@@ -76,6 +76,7 @@ class Values:
             bound={name: p for name, p in self.parameters.items() if p.bound},
             uses=tuple(use for use in self.uses if use.is_open),
             shapes=self.known_shapes,
+            known=tuple(use for use in self.uses if use.is_traced),
         )
 
     def faults(self) -> list[str]:

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.array_likes import as_given
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
-from optipath.jax_values import is_traced
+from optipath.jax_values import is_traced, namespace
 from optipath.parameters import Parameter
 from optipath.quoting import shown
 from optipath.roundings import doubles, rounding_of
@@ -61,22 +61,41 @@ class Domain:
         ValueFault
             Naming the owner, the value, and what is asked for.
         """
-        if self.quickly_allows(value) or is_traced(value):
-            return value if is_traced(value) else np.array(value)
+        if self.quickly_allows(value):
+            return np.array(value)
+        if is_traced(value):
+            self._check_shape(owner, value.shape)
+            return value  # type: ignore[no-any-return]
         given = as_given(owner, value)
         array = doubles(given, (self.minimum, self.maximum))
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         if array.dtype.kind not in "fc":
             raise ValueFault(f"{owner} must be {self.described()}, not {shown(value)}")
-        if self.tail and array.shape[-len(self.tail) :] != self.tail:
-            wanted = ", ".join(map(str, ("...", *self.tail)))
-            raise ValueFault(f"{owner} must have shape ({wanted}), not {array.shape}")
+        self._check_shape(owner, array.shape)
         if not np.all(np.isfinite(array)):
             found = array[~np.isfinite(array)].ravel()[0]
             raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
         self._check_numbers(owner, array, rounding_of(given))
         return array
+
+    def _check_shape(self, owner: str, shape: tuple[int, ...]) -> None:
+        if self.tail and shape[-len(self.tail) :] != self.tail:
+            wanted = ", ".join(map(str, ("...", *self.tail)))
+            raise ValueFault(f"{owner} must have shape ({wanted}), not {shape}")
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed, or for which paths; JAX's as well.
+
+        Examples
+        --------
+        >>> Domain("share", minimum=0.0, maximum=1.0).allows(np.array([0.5, 2.0, np.nan]))
+        array([ True, False, False])
+        """
+        inside = namespace(numbers).isfinite(numbers)
+        if numbers.dtype.kind == "c":
+            return inside & False
+        return inside & (numbers >= self.minimum) & (numbers <= self.maximum)
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
         """Say what is wrong with a parameter standing here, whatever its value; mostly nothing.
@@ -133,7 +152,7 @@ class Domain:
             return
         # Limits are doubles, and what rounds to one of them is inside.
         rounded = array.astype(np.float64, copy=False)
-        bad = (rounded < self.minimum) | (rounded > self.maximum)
+        bad = ~self.allows(rounded)
         if np.any(bad):
             value = self._text(float(array[bad].ravel()[0]))
             raise ValueFault(f"{owner} is {value}; give {self.described()}")

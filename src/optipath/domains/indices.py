@@ -12,6 +12,7 @@ from optipath.array_likes import entries_of
 from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
+from optipath.jax_values import namespace
 from optipath.materials import Material
 from optipath.quoting import shown
 
@@ -50,9 +51,14 @@ class IndexDomain(Domain):
         """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed."""
+        there = namespace(numbers).isfinite(numbers)
+        return there & (numbers.real >= 0.0) & (numbers.imag >= 0.0)
+
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         del rounding
-        bad = (array.real < 0.0) | (array.imag < 0.0)
+        bad = ~self.allows(array)
         if np.any(bad):
             value = array[bad].ravel()[0]
             cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
@@ -96,6 +102,10 @@ class LitBehind(OutsideDomain):
             "a real index of refraction above 0, since light comes from there too (by port "
             "'back'), and let a Medium absorb between"
         )
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed; a complex one without an imaginary part."""
+        return super().allows(numbers.real) & (numbers.imag == 0.0)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         # A complex number without an imaginary part will do.

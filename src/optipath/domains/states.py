@@ -7,9 +7,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from optipath.array_likes import rounding_of
 from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
+from optipath.jax_values import namespace
 
 _ROUNDING = 1e-12
 _SINGLE_ROUNDING = 1e-6
@@ -34,11 +36,16 @@ class AmplitudeDomain(Domain):
         """Say in words which values are allowed."""
         return f"a real or complex {self.name} of a size of 1 or less"
 
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed."""
+        xp = namespace(numbers)
+        # Cut off, so that squares of what is far too much do not overflow.
+        parts = (xp.minimum(abs(part), 2.0) for part in (numbers.real, numbers.imag))
+        return xp.hypot(*parts) <= 1.0 + _SINGLE_ROUNDING
+
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         del rounding
-        # Cut off, so that squares of what is far too much do not overflow.
-        parts = (np.minimum(np.abs(part), 2.0) for part in (array.real, array.imag))
-        bad = np.hypot(*parts) > 1.0 + _SINGLE_ROUNDING
+        bad = ~self.allows(array)
         if np.any(bad):
             raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
 
@@ -54,20 +61,31 @@ class StokesDomain(Domain):
         """Return a value that nobody can change, in the precision by which it is judged."""
         return frozen(value, widened=False)
 
+    def allows(self, numbers: Any) -> Any:
+        """Return which vectors of an array are allowed."""
+        finite = super().allows(numbers).all(axis=-1)
+        return finite & (numbers[..., 0] >= 0.0) & _can_be(numbers, rounding_of(numbers))
+
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         super()._check_numbers(owner, array, rounding)
         negative = array[..., 0] < 0.0
         if np.any(negative):
             value = array[..., 0][negative].ravel()[0]
             raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
-        dark = array[..., :1] == 0.0
-        shares = np.abs(array[..., 1:]) / np.where(dark, 1.0, array[..., :1])
-        # Cut off, so that squares of what is far too much do not overflow.
-        polarised = np.linalg.norm(np.minimum(shares, 2.0), axis=-1)
-        most = 1.0 + max(_ROUNDING, rounding * (1.0 + rounding))
-        bad = polarised > np.where(dark[..., 0], 0.0, most)
+        bad = ~_can_be(array, rounding)
         if np.any(bad):
             state = array[bad].reshape(-1, 4)[0].tolist()
             raise ValueFault(
                 f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
             )
+
+
+def _can_be(stokes: Any, rounding: float) -> Any:
+    """Return which Stokes vectors are polarised by 100 % at most."""
+    xp = namespace(stokes)
+    dark = stokes[..., :1] == 0.0
+    shares = abs(stokes[..., 1:]) / xp.where(dark, 1.0, stokes[..., :1])
+    # Cut off, so that squares of what is far too much do not overflow.
+    polarised = xp.linalg.norm(xp.minimum(shares, 2.0), axis=-1)
+    most = 1.0 + max(_ROUNDING, rounding * (1.0 + rounding))
+    return polarised <= xp.where(dark[..., 0], 0.0, most)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from functools import cache
+from dataclasses import replace
+from functools import cache, reduce
+from operator import and_
 from typing import TYPE_CHECKING, Any
 
 import jax
@@ -20,18 +22,13 @@ from optipath.views import part_of
 from optipath.walk import walk
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
-    from optipath.kernels import Way
+    from optipath.kernels import Components, Way
+    from optipath.loops import Meeting
     from optipath.parameters import Resolved
     from optipath.program import Program, Reading
     from optipath.views import View
-
-
-def _sqrt(number: Any) -> Any:
-    # With a slope of 0 at 0, in place of one that is not finite.
-    there = number > 0.0
-    return jnp.where(there, jnp.sqrt(jnp.where(there, number, 1.0)), 0.0)
 
 
 def _frexp(number: Any) -> tuple[Any, Any]:
@@ -48,9 +45,49 @@ def _ldexp(number: Any, power: Any) -> Any:
     return number * jnp.ldexp(one, half) * jnp.ldexp(one, power - half)
 
 
+def _apart(function: Callable[..., tuple[Any, ...]]) -> Callable[..., tuple[Any, ...]]:
+    """Make a kernel a function of its own for XLA, too, and not a part of whatever calls it.
+
+    On a CPU, XLA fuses all that comes before a result into its loop, again for each result: its
+    time grows with the square of what is in one piece. Numbers that are known stay so.
+    """
+
+    def called(*given: Any) -> tuple[Any, ...]:
+        known: dict[int, Any] = {}
+
+        def of_arrays(arrays: dict[int, Any]) -> dict[int, Any]:
+            found, plain = _parted(function(*(arrays.get(i, n) for i, n in enumerate(given))))
+            known.update(plain)
+            return found
+
+        with _not_inlined():
+            found = jax.jit(of_arrays)(_parted(given)[0])
+        together = found | known
+        return tuple(together[place] for place in range(len(together)))
+
+    return called
+
+
+def _parted(numbers: Sequence[Any]) -> tuple[dict[int, Any], dict[int, Any]]:
+    """Return numbers by their places: those that are JAX's, and those that are not."""
+    places = dict(enumerate(numbers))
+    arrays = {place: number for place, number in places.items() if is_jax(number)}
+    return arrays, {place: number for place, number in places.items() if place not in arrays}
+
+
+def _not_inlined() -> Any:
+    if jax.default_backend() != "cpu":
+        return nullcontext()
+    try:
+        from jax.experimental.xla_metadata import set_xla_metadata  # noqa: PLC0415 - newer versions
+    except ImportError:
+        return nullcontext()
+    return set_xla_metadata(inlineable="false")
+
+
 JAX = Primitives(
     where=jnp.where,
-    sqrt=_sqrt,
+    sqrt=jnp.sqrt,
     absolute=jnp.abs,
     maximum=jnp.maximum,
     minimum=jnp.minimum,
@@ -63,7 +100,32 @@ JAX = Primitives(
     two_product=product_and_rest,
     hidden=is_hidden,
     fixed=jax.lax.stop_gradient,
+    apart=_apart,
 )
+
+
+@cache
+def sloped(dtype: np.dtype[Any]) -> Primitives:
+    """Return the primitives for slopes in a precision."""
+    # So near to an edge no slope has changed yet, but its sixth power is still a number.
+    within = 2.0**-60 if dtype == np.float64 else 2.0**-20
+
+    def root(number: Any) -> Any:
+        # At 0 as well with the slope that it has there within: at 0 itself it has none.
+        raised = jnp.where(number > 0.0, 0.0, within**2 - JAX.fixed(number))
+        return jnp.sqrt(number + raised)
+
+    return replace(JAX, sqrt=root, within=within)
+
+
+@jax.custom_jvp
+def _with_slopes(value: Any, of: Any) -> Any:
+    """Return a value with the slopes of another number."""
+    del of
+    return value
+
+
+_with_slopes.defjvps(None, lambda tangent, *_: tangent)
 
 
 class JaxPath:
@@ -91,12 +153,16 @@ class JaxPath:
 
     def lights(
         self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], given: Mapping[str, Any]
-    ) -> list[Any]:
-        """Return Stokes vectors (..., 4) at every end; a component that is not read is NaN."""
+    ) -> tuple[list[Any], Any]:
+        """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
+
+        A component that is not read is NaN, and so is light that gains going round.
+        """
         values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_lights if self._known_traced else self._lights
-            return list(run(values, batch=batch, absent=absent))
+            found, sound = run(values, batch=batch, absent=absent)
+        return list(found), sound
 
     def matrix(
         self,
@@ -106,7 +172,7 @@ class JaxPath:
         source: str,
         reading: str,
     ) -> Any:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading."""
+        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
         values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_matrix if self._known_traced else self._matrix
@@ -114,22 +180,11 @@ class JaxPath:
 
     def _traced_lights(
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
-    ) -> tuple[Any, ...]:
+    ) -> tuple[tuple[Any, ...], Any]:
         leaves = self._leaves(values, absent)
-        found = walk(self.program, leaves, self.way, number=self._number)
-        # Where the smaller of two intensities changes, the light that is carried has no slope,
-        # but what matrices make of it has: light comes from the one, its slope from the other.
-        smooth = walk(self.program, leaves, Linear(JAX), number=self._number)
-        stokes = []
-        for reading in self.program.readings.values():
-            components, exponent = found[reading.light]
-            if not isinstance(exponent, int):
-                components = tuple(_ldexp(part, exponent) for part in components)
-            slopes, _ = smooth[reading.light]
-            both = zip(components, slopes, strict=True)
-            parts = [slope + jax.lax.stop_gradient(part - slope) for part, slope in both]
-            stokes.append(self._stacked(parts, reading, batch))
-        return tuple(stokes)
+        found, meetings = self._stokes(leaves, self.way, batch)
+        factor = self._factor(meetings, batch)[..., np.newaxis]
+        return tuple(factor * stokes for stokes in found.values()), _are_sound(meetings)
 
     def _traced_matrix(
         self,
@@ -141,16 +196,49 @@ class JaxPath:
         reading: str,
     ) -> Any:
         leaves = self._leaves(values, absent)
-        end = self.program.readings[reading]
-        columns = []
+        columns: list[Any] = []
+        meetings: list[Meeting] = []
         for column in np.eye(4, dtype=self.dtype):
             emitted = {
                 step: tuple(map(self._number, column if name == source else 0.0 * column))
                 for name, (step, _) in self.program.sources.items()
             }
-            found = walk(self.program, leaves, Linear(JAX), emitted, self._number)
-            columns.append(self._stacked(found[end.light][0], end, batch))
-        return jnp.stack(columns, axis=-1)
+            found, others = self._stokes(leaves, Linear(JAX), batch, emitted)
+            columns.append(found[reading])
+            # All light gains no more than unpolarised light does, which has some of each.
+            meetings = meetings or others
+        factor = self._factor(meetings, batch)[..., np.newaxis, np.newaxis]
+        return factor * jnp.stack(columns, axis=-1), _are_sound(meetings)
+
+    def _factor(self, meetings: Sequence[Meeting], batch: tuple[int, ...]) -> Any:
+        """Return 1 where light that goes round adds up, and NaN where it gains."""
+        slack = float(np.sqrt(np.finfo(self.dtype).eps))
+        holds = reduce(and_, (meeting.adds_up(slack) for meeting in meetings), True)  # noqa: FBT003
+        # As a factor it makes slopes NaN as well, and those of light that fades stay as they are.
+        return self._number(jnp.broadcast_to(jnp.where(holds, 1.0, jnp.nan), batch))
+
+    def _stokes(
+        self,
+        leaves: Sequence[Any],
+        way: Way,
+        batch: tuple[int, ...],
+        emitted: Mapping[int, Components] | None = None,
+    ) -> tuple[dict[str, Any], list[Meeting]]:
+        """Return the Stokes vector of every reading, and what has been solved for loops."""
+        meetings: list[Meeting] = []
+        fixed = JAX.fixed(leaves)
+        found = walk(self.program, fixed, way, emitted, self._number, None, meetings)
+        # Where the smaller of two intensities changes, the light that is carried has no slope,
+        # but what matrices make of it has: light comes from the one, its slope from the other.
+        smooth = walk(self.program, leaves, Linear(sloped(self.dtype)), emitted, self._number)
+        stokes = {}
+        for name, reading in self.program.readings.items():
+            components, exponent = found[reading.light]
+            if not isinstance(exponent, int):
+                components = tuple(_ldexp(part, exponent) for part in components)
+            both = components, smooth[reading.light][0]
+            stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
+        return stokes, meetings
 
     def _number(self, number: Any) -> Any:
         if isinstance(number, jax.Array):
@@ -190,6 +278,7 @@ class JaxPath:
     def _done(self, view: View, value: Any) -> Any:
         value = self._number(value)
         if view.part in ("cos", "sin"):
+            # 0 at a right angle, but with its slope.
             return (cosine if view.part == "cos" else sine)(JAX)(value)
         return value
 
@@ -232,6 +321,12 @@ class JaxPath:
                 "with dtype='float32'"
             )
         return _double()(True)  # noqa: FBT003 - as JAX has it
+
+
+def _are_sound(meetings: Sequence[Meeting]) -> Any:
+    """Return whether so much light leaves every loop that nobody needs to look at it."""
+    conditions = [condition for meeting in meetings for condition in meeting.conditions]
+    return jnp.all(jnp.stack([jnp.all(holds) for holds in conditions])) if conditions else True
 
 
 @cache

@@ -11,6 +11,7 @@ import numpy as np
 from optipath.formulas.operations import OPERATIONS
 from optipath.formulas.symbol import Symbol
 from optipath.kernels import Primitives
+from optipath.kernels.primitives import is_hidden
 from optipath.kernels.trigonometry import DIGITS, any_quadrant
 
 
@@ -52,7 +53,7 @@ def _circular(name: str, angle: Any) -> Any:
 
 def _hidden(larger: Any, number: Any) -> Any:
     # A sine that is given has digits of its own.
-    return np.False_ if _of_pair(larger) else record("equal", larger + number, larger)
+    return np.False_ if _of_pair(larger) else is_hidden(larger, number)
 
 
 SYMBOLIC = Primitives(

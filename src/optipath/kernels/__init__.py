@@ -45,6 +45,7 @@ from optipath.kernels.powers_way import Powers
 from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
 from optipath.kernels.refraction import Refracting, refraction
 from optipath.kernels.scaled import Scaled
+from optipath.kernels.sloped import Sloped
 from optipath.kernels.stable import (
     denser_reflection,
     lossless_reflection,
@@ -104,20 +105,34 @@ REFLECTION = _family(
         powers=(reflected_powers, lossless_powers, denser_powers),
     ),
     compensated=_fresnel(
-        _REFLECTED, "compensated", compensated_reflection, compensated_lossless_reflection
+        _REFLECTED,
+        "compensated",
+        Sloped(compensated_reflection, stable_reflection),
+        Sloped(compensated_lossless_reflection, lossless_reflection),
     ),
-    amplitude=_fresnel(_REFLECTED, "amplitude", Refracting(amplitude_reflection)),
-    textbook=_fresnel(_REFLECTED, "textbook", Refracting(textbook_reflection)),
+    amplitude=_fresnel(
+        _REFLECTED, "amplitude", Sloped(Refracting(amplitude_reflection), stable_reflection)
+    ),
+    textbook=_fresnel(
+        _REFLECTED, "textbook", Sloped(Refracting(textbook_reflection), stable_reflection)
+    ),
 )
 _REFRACTED = "Fresnel transmission"
 TRANSMISSION = _family(
     _REFRACTED,
     stable=_fresnel(_REFRACTED, "stable", stable_transmission, lossless_transmission),
     compensated=_fresnel(
-        _REFRACTED, "compensated", compensated_transmission, compensated_lossless_transmission
+        _REFRACTED,
+        "compensated",
+        Sloped(compensated_transmission, stable_transmission),
+        Sloped(compensated_lossless_transmission, lossless_transmission),
     ),
-    amplitude=_fresnel(_REFRACTED, "amplitude", Refracting(amplitude_transmission)),
-    textbook=_fresnel(_REFRACTED, "textbook", Refracting(textbook_transmission)),
+    amplitude=_fresnel(
+        _REFRACTED, "amplitude", Sloped(Refracting(amplitude_transmission), stable_transmission)
+    ),
+    textbook=_fresnel(
+        _REFRACTED, "textbook", Sloped(Refracting(textbook_transmission), stable_transmission)
+    ),
 )
 METHODS = tuple(REFLECTION.methods)
 

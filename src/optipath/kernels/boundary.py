@@ -55,13 +55,25 @@ def near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     >>> near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
     """
-    frexp, ldexp, maximum = xp.frexp, xp.ldexp, xp.maximum
+    frexp, ldexp, maximum, inside = xp.frexp, xp.ldexp, xp.maximum, from_within(xp)
 
     def divided(*indices: Any) -> tuple[Any, ...]:
         _, exponent = frexp(reduce(maximum, indices))
-        return tuple(ldexp(index, -exponent) for index in indices)
+        return tuple(ldexp(inside(index), -exponent) for index in indices)
 
     return divided
+
+
+def from_within(xp: Primitives, power: int = 1) -> Callable[[Any], Any]:
+    """Make ``number -> number`` for one that is not negative; for slopes, one just above 0 for 0.
+
+    At grazing incidence, and without absorption, branches for exactly that have no slopes. How far
+    above is a power of ``xp.within``.
+    """
+    where, within = xp.where, xp.within**power
+    if not within:
+        return lambda number: number
+    return lambda number: number + where(number > 0.0, 0.0, within)
 
 
 _SMALL, _FAR = 2.0**-60, 2.0**100
@@ -135,11 +147,14 @@ def absorbing_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     The indices come out divided; the angle is that in the medium n1.
     """
     divided, wave, absolute = near_one(xp), _wave(xp), xp.absolute
+    # Much nearer to its edge than the square of a cosine to its own: a medium without absorption
+    # is one at grazing incidence, too.
+    inside = from_within(xp, 6)
 
     def absorbing(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
         *n0, c, s = angle
         # The absolute value makes -0 a 0.
-        n1, n, k, *n0 = divided(n1, n, absolute(k), *n0)
+        n1, n, k, *n0 = divided(n1, n, inside(absolute(k)), *n0)
         return n1, n, k, *wave(n1, n, k, *n0, c, s)
 
     return absorbing
@@ -190,7 +205,7 @@ def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
 
 def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    where, behind = xp.where, refracted_wave(xp)
+    where, behind, inside = xp.where, refracted_wave(xp), from_within(xp)
 
     def wave(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
         """Return the cosine and sine in n1, p, n^2 - n1^2, and Re g^2."""
@@ -198,7 +213,7 @@ def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         if len(angle) > 2:
             c, s, p, squared = behind(n1, n, *angle)
             return c, s, p, contrast, squared - k * k
-        c, s = angle
+        c, s = inside(angle[0]), angle[1]
         p = n1 * c
         y = n1 * s
         # Re g^2, from whichever of cos and sin is small: that one carries the digits.
@@ -215,8 +230,10 @@ def refracted_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     keeps.
     """
     where, sqrt, maximum, minimum = xp.where, xp.sqrt, xp.maximum, xp.minimum
+    inside = from_within(xp)
 
     def refracted(n1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
+        c0 = inside(c0)
         p0, y = n0 * c0, n0 * s0
 
         def along(m: Any) -> Any:

@@ -95,7 +95,7 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
     >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
     (0.0, -0.1)
     """
-    return xp.where((weak < 0.0) & _vanishes(weak, _SEVERAL * size), 0.0, weak)
+    return _taken_as_0(xp, (weak < 0.0) & _vanishes(weak, _SEVERAL * size), weak)
 
 
 def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
@@ -107,7 +107,14 @@ def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
     >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
     (0.0, 1e-06)
     """
-    return xp.where(_vanishes(number, _SEVERAL * size), 0.0, number)
+    return _taken_as_0(xp, _vanishes(number, _SEVERAL * size), number)
+
+
+def _taken_as_0(xp: Primitives, condition: Any, number: Any) -> Any:
+    """Return a number, 0 where a condition holds; its slope stays."""
+    if xp.within:
+        return number - xp.where(condition, xp.fixed(number), 0.0)
+    return xp.where(condition, 0.0, number)
 
 
 def _vanishes(number: Any, beside: Any) -> Any:

@@ -9,6 +9,7 @@ digits however little that is, and no energy gets lost.
 from __future__ import annotations
 
 from functools import reduce
+from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
 
     from optipath.kernels.primitives import Primitives
 
+
+_LITTLE = 2.0**-26
+"""A difference of 1 and a gain that has lost half of its digits."""
 
 _LEAST = 2.0**-53
 """What a pivot is at least that may be 0 by chance."""
@@ -69,6 +73,7 @@ class Elimination:
         self._xp = xp
         self._fading = fading
         self._quotient = _quotient(xp)
+        self._difference = _difference(xp)
         self._back = [{to: g for to, g in column.items() if not is_zero(g)} for column in back]
         self._leaves = list(leaves)
         self._intensities = intensities
@@ -109,7 +114,9 @@ class Elimination:
                 pivot, more = self._moved(pivot)
                 self._leaves[unknown] = self._leaves[unknown] + more
         else:
-            pivot = 1.0 - self._back[unknown].get(unknown, 0.0)
+            pivot = 1.0
+            if unknown in self._back[unknown]:
+                pivot = self._difference(1.0 - self._back[unknown][unknown])
             if self._fading is not None:
                 pivot, _ = self._moved(pivot)
         for source in sorted(self._feeds[unknown]):
@@ -138,6 +145,13 @@ def _quotient(xp: Primitives) -> Callable[..., Any]:
         return number / xp.where(closed & (number == 0.0) if of_light else closed, 1.0, pivot)
 
     return quotient
+
+
+def _difference(xp: Primitives) -> Callable[[Any], Any]:
+    if not xp.within:
+        return lambda difference: difference
+    # What has all but cancelled next to an edge says nothing of the slope.
+    return lambda left: xp.where(xp.absolute(left) > _LITTLE, left, nan)
 
 
 def is_zero(number: Any) -> bool:

@@ -28,7 +28,11 @@ class Primitives:
     slope, where an engine takes gradients, and the value itself elsewhere.
     ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
     a small number is no more than the rounding of a larger one, in double precision at most.
-    ``multiply_add`` is a b + c, rounded once where that costs no more than twice.
+    ``multiply_add`` is a b + c, rounded once where that costs no more than twice. ``apart`` is a
+    function as a piece of its own, where an engine would compile one large piece too slowly.
+    ``within`` is 0 but where numbers are computed for the sake of their slopes, their values
+    being known: forms that have the right slopes then take the place of those that have the right
+    digits, and at an edge of a domain slopes are those so far within it.
     """
 
     where: Callable[[Any, Any, Any], Any]
@@ -46,6 +50,8 @@ class Primitives:
     hidden: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
+    apart: Callable[[Any], Any] = lambda function: function
+    within: float = 0.0
 
 
 @cache
@@ -58,12 +64,12 @@ def _itself(value: Any) -> Any:
     return value
 
 
-_SMALL = 1e-6
-
-
 def is_hidden(larger: Any, number: Any) -> Any:
-    """Tell whether a small number is no more than the rounding of a larger one."""
-    return (larger + number == larger) & (abs(number) < _SMALL)
+    """Tell whether a number is no more than the rounding of a larger one, its square of 1.
+
+    A sine that is taken as 0 so takes no energy from cos^2 + sin^2.
+    """
+    return (larger + number == larger) & (1.0 + number * number == 1.0)
 
 
 def _hidden_in_arrays(larger: Any, number: Any) -> Any:

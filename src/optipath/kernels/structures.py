@@ -193,9 +193,8 @@ def _rotation_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row
 
 def _block_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     Fs, Fp, B, C, S = numbers
-    # So A is never less than |B|, not even by a rounding; where B is 0, this form of |B| has
-    # the slope 0.
-    A = xp.minimum(Fs, Fp) + xp.maximum(B, -B)
+    # The first is never less than |B|, not even by a rounding, the second is smooth.
+    A = 0.5 * (Fs + Fp) if xp.within else xp.minimum(Fs, Fp) + xp.absolute(B)
     return (A, B, 0.0, 0.0), (B, A, 0.0, 0.0), (0.0, 0.0, C, S), (0.0, 0.0, -S, C)
 
 

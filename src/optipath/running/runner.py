@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.angles import CosSin
 from optipath.engines import compile_array_path, engine_for, jax_path
 from optipath.errors import ParameterError
 from optipath.formulas import lights_formula
-from optipath.jax_values import is_jax, is_traced
+from optipath.jax_values import is_jax, is_traced, namespace
 from optipath.memory import CURE, enough_for
 from optipath.running.given import Given, Sorter
 from optipath.running.layout import Layout
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from optipath.formulas import Formula
     from optipath.inputs import Inputs
     from optipath.kernels import Way
+    from optipath.parameters import Resolved
     from optipath.program import Program
     from optipath.running.many import Results
     from optipath.views import Raw
@@ -127,13 +129,37 @@ class Runner:
 
     def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
-        traced = self.has_traced or any(map(is_jax, parameters.values()))
+        traced = self.has_traced or any(map(_is_of_jax, parameters.values()))
         if traced and self.manner.engine not in ("auto", "jax"):
             raise ParameterError(
                 f"values of JAX were given, but the plan was composed for engine "
                 f"'{self.manner.engine}'; compose with engine='jax' or 'auto'"
             )
         return traced or self.manner.engine == "jax"
+
+    def traces(self, resolved: Mapping[str, Resolved]) -> bool:
+        """Tell whether JAX traces a value of the path, or one that is given."""
+        return self.has_traced or any(is_traced(given.value) for given in resolved.values())
+
+    def nan_outside(self, numbers: Any, resolved: Mapping[str, Resolved], axes: int) -> Any:
+        """Return what JAX gives, NaN where a value that it traces is not allowed.
+
+        Parameters
+        ----------
+        numbers : Array
+            Of the shape of the batch, with some axes behind it.
+        resolved : mapping of str to Resolved
+            What is given.
+        axes : int
+            How many there are behind the batch.
+        """
+        inside = self.inputs.inside(resolved)
+        if inside is True:
+            return numbers
+        xp = namespace(numbers)
+        # As a factor it makes slopes NaN as well, and those of what is allowed stay as they are.
+        factor = xp.where(inside, 1.0, xp.nan).astype(numbers.dtype)
+        return numbers * factor.reshape(*factor.shape, *[1] * axes)
 
     def filled(
         self,
@@ -235,7 +261,10 @@ class Runner:
         ParameterError
             Telling what they are not for.
         """
-        if self.has_traced or any(map(is_traced, parameters.values())):
+        if self.has_traced or any(
+            value.is_traced if type(value) is CosSin else is_traced(value)
+            for value in parameters.values()
+        ):
             raise ParameterError(
                 f"{what} of numbers, not of values that JAX traces; do it outside of jit and grad"
             )
@@ -244,3 +273,9 @@ class Runner:
     def has_traced(self) -> bool:
         """Whether a value of the path is one that JAX traces."""
         return any(view.traced for view in self.program.leaves)
+
+
+def _is_of_jax(value: Any) -> bool:
+    """Tell whether a value is JAX's, or an angle by such a cosine and sine."""
+    parts = (value.cos, value.sin) if type(value) is CosSin else (value,)
+    return any(map(is_jax, parts))

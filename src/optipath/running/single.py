@@ -113,11 +113,11 @@ class Single:
         raws = list(given.numbers)
         optional = {raw.name for raw in raws if raw.part == "present"}
         parts = Counter(raw.name for raw in raws if raw.part != "present")
-        plain = {raw.name for raw in raws if raw.part == "value"}
         order = []
         for place in places:
             default = self.inputs.open[raws[place].name].default
-            if raws[place].name not in plain or type(default) not in (float, int, NoneType):
+            # One number may be given to several kernels, an index as its two parts.
+            if raws[place].part != "value" or type(default) not in (float, int, NoneType):
                 return None
             order.append((raws[place].name, default))
         asked = {name for name, _ in order}

@@ -11,6 +11,7 @@ from optipath.array_likes import array_of
 from optipath.domains import Domain, Quantity
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
+from optipath.jax_values import namespace
 from optipath.kernels import LONGEST, SHORTEST
 from optipath.vertices.by_angles import VerticesByAngles
 from optipath.vertices.naming import of_chain, pieces_of
@@ -83,6 +84,10 @@ class VerticesDomain(Domain):
         where, given = of_chain(chain, array.shape[:-2]), chains[chain, vertex].tolist()
         return f"{owner}: vertex {vertex}{where}{_COUNTED}, is {given}; give finite coordinates"
 
+    def allows(self, numbers: Any) -> Any:
+        """Return which chains of an array are allowed."""
+        return super().allows(numbers).all(axis=(-2, -1)) & _legs_fit(numbers).all(axis=-1)
+
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         super()._check_numbers(owner, array, rounding)
         chains = array.reshape(-1, *array.shape[-2:])
@@ -90,14 +95,19 @@ class VerticesDomain(Domain):
             some = chains[piece]
             if _are_surely_apart(some):
                 continue
-            legs = some[:, 1:] - some[:, :-1]
             with np.errstate(over="ignore"):
-                squares = np.einsum("...i,...i", legs, legs)
-            bad = ~((squares >= _LEAST) & (squares <= _MOST))
+                bad = ~_legs_fit(some)
             if bad.any():
                 chain, place = (int(found[0]) for found in np.nonzero(bad))
                 where = of_chain(piece.start + chain, array.shape[:-2])
                 raise ValueFault(_leg_fault(owner, some[chain], place, where))
+
+
+def _legs_fit(chains: Any) -> Any:
+    """Return which legs of chains are within the limits."""
+    legs = chains[..., 1:, :] - chains[..., :-1, :]
+    squares = namespace(chains).einsum("...i,...i", legs, legs)
+    return (squares >= _LEAST) & (squares <= _MOST)
 
 
 def _are_surely_apart(chains: npt.NDArray[Any]) -> bool:
