@@ -154,3 +154,49 @@ def test_a_ring_without_reflections_needs_a_limit():
         path.paths(bounces=3)
     found = path.paths(limit=3)
     np.testing.assert_allclose([way.light.intensity for way in found], [0.25, 0.0625, 0.015625])
+
+
+@pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
+def test_a_search_ends_though_roundings_make_gains_of_reflections():
+    # Of these faces, `amplitude` makes more light than there was, by the last digit.
+    path, rng = op.load_preset("coated-metal"), np.random.default_rng(0)
+    plan = op.Composer(method="amplitude").compose(path)
+    for apart in 10.0 ** rng.uniform(-10, -1, 12):
+        given = {"theta": float(np.pi / 2 - apart), "k_metal": float(rng.choice([0.0, 5.0]))}
+        given["n_metal"] = float(rng.choice([0.0, rng.uniform(0, 2)]))
+        ways = plan.paths(limit=4, n=float(rng.uniform(1, 3)), **given)
+        intensities = np.array([way.intensity for way in ways])
+        assert np.all(np.diff(intensities) <= 1e-14 * intensities[0])
+
+
+def test_a_search_ends_though_an_element_amplifies_in_a_loop():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(1.0)) >> path.add("join", op.Combiner())
+    path.add("amplifier", op.MuellerElement(np.diag([1.5, 0.1, 0.1, 0.1])))
+    path.add("split", op.BeamSplitter(0.5))
+    path.connect("join.out", "amplifier.in")
+    path.connect("amplifier.out", "split.in")
+    path.connect("split.reflected", "join.in")
+    path.add("eye", op.Detector())
+    path.connect("split.transmitted", "eye.in")
+    ways = path.paths(limit=5)
+    np.testing.assert_allclose([way.intensity for way in ways], 0.75 ** np.arange(1, 6))
+
+
+def test_light_of_which_none_arrives_is_not_followed_for_ever():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(1.0, [1, 1, 0, 0])) >> path.add("join", op.Combiner())
+    for name in "abc":
+        path.add(name, op.BeamSplitter(0.5))
+    path.connect("join.out", "a.in")
+    path.connect("a.reflected", "b.in")
+    path.connect("a.transmitted", "b.back")
+    path.connect("b.reflected", "join.in")
+    path.connect("b.transmitted", "c.in")
+    path.connect("c.reflected", "join.in")
+    path.add("crossed", op.Polarizer(np.pi / 2))
+    path.connect("c.transmitted", "crossed.in")
+    path.add("eye", op.Detector())
+    path.connect("crossed.out", "eye.in")
+    with pytest.raises(op.ParameterError, match="none arrives anywhere; give a smaller limit"):
+        path.paths(limit=3)

@@ -76,6 +76,10 @@ class PathError(OptipathError):
     """A path graph that cannot be composed; carries every fault found."""
 
 
+class CacheError(OptipathError):
+    """A cache of compiled code that cannot be used, or whose folder is not to be trusted."""
+
+
 class LoopWarning(UserWarning):
     """Nearly all of the light that goes round in a loop comes back each time."""
 

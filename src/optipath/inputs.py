@@ -73,7 +73,8 @@ class Use:
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths a value that JAX traces is allowed; True for any other."""
-        value, parameter = self.value, isinstance(self.value, Parameter)
+        value: Any = self.value
+        parameter = isinstance(value, Parameter)
         numbers = resolved[value.name].value if self.is_open else value
         numbers = numbers.default if parameter and value.bound else numbers
         if not is_traced(numbers):

@@ -13,6 +13,7 @@ from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels import (
+    SCALE,
     Elimination,
     Plain,
     energy,
@@ -206,11 +207,23 @@ class Meeting:
                     waiting.append((user, after))
                 else:
                     leaves = leaves + passed[-1]
-            size = sum(map(xp.absolute, passed), start=xp.absolute(there))
-            # What a lossless element seems to absorb is its rounding.
-            absorbed = not_above_rounding(xp, there - sum(passed), size)
+            absorbed = there - sum(passed)
+            if not self._only_dims(light):
+                # What a lossless element seems to absorb is its rounding.
+                size = sum(map(xp.absolute, passed), start=xp.absolute(there))
+                absorbed = not_above_rounding(xp, absorbed, size)
             column = Column(column.back, leaves + absorbed)
         return column
+
+    def _only_dims(self, light: int) -> bool:
+        """Tell whether light goes one way only, and is dimmed there: the difference is exact."""
+        users = self.program.used_by[light]
+        if len(users) != 1 or self.program.times_read[light]:
+            return False
+        evaluation = self.program.steps[users[0]].evaluation
+        if evaluation is None:
+            return False
+        return self.program.evaluations[evaluation].kernel.structure is SCALE
 
     def _behind(self, user: int, state: Carried) -> Carried:
         step, count = self.program.steps[user], self.count(user)

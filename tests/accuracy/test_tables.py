@@ -6,7 +6,8 @@ from pathlib import Path
 import pytest
 
 import optipath as op
-from optipath.accuracy.tables import BEGIN, END, put_tables, tables
+from optipath.accuracy.regions import REGIONS
+from optipath.accuracy.tables import BEGIN, END, SEARCHED, put_tables, tables
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "accuracy.md"
 
@@ -31,6 +32,16 @@ def test_the_published_tables_are_true():
             assert both_fail or abs(before - now) <= 0.5 * max(before, now) + 0.3
         elif isinstance(before, str) and isinstance(now, str):
             assert before == now
+
+
+def test_the_published_worst_cases_are_within_the_promised_limits():
+    published = DOCUMENT.read_text("utf-8")
+    found = published.split(SEARCHED[0])[1].split(SEARCHED[1])[0]
+    stable, single, compensated = found.split("Worst cases found of ")[1:]
+    for text, limit in ((stable, 20.0), (single, 20.0), (compensated, 1.5)):
+        errors = [word for word in numbers(text) if isinstance(word, float)]
+        assert len(errors) == len(REGIONS) * 8
+        assert max(errors) <= limit
 
 
 def test_a_document_without_a_place_for_tables_is_refused():

@@ -17,7 +17,7 @@ def test_no_formula_is_compiled_twice(monkeypatch):
         return compiled(formula)
 
     monkeypatch.setattr(numpy_engine, "compiled", counted)
-    monkeypatch.setattr(report, "race", lambda contenders, tick: run_once(contenders))
+    monkeypatch.setattr(report, "race", lambda contenders, _: run_once(contenders))
     bench(op.load_preset("npgr026"), lambda: None, largest=10_000, engines=["numpy"])
     assert len(texts) > 2
     assert set(texts.values()) == {1}

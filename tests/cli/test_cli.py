@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 import optipath as op
+from optipath.accuracy.regions import REGIONS
+from optipath.accuracy.tables import SEARCHED
 from optipath.cli import main
 
 
@@ -338,6 +340,18 @@ def test_accuracy_prints_its_tables_and_writes_them_into_their_place(tmp_path, c
     assert "exactly 90 deg" in capsys.readouterr().out
 
 
+def test_accuracy_searches_for_worst_cases_and_writes_them_into_their_place(tmp_path, monkeypatch):
+    monkeypatch.setattr("optipath.accuracy.tables.REGIONS", REGIONS[:1])
+    document = tmp_path / "accuracy.md"
+    begin, end = SEARCHED
+    document.write_text(f"a {begin} b {end} c", "utf-8")
+    assert main(["accuracy", "--search", "1", "--write", str(document)]) == 0
+    text = document.read_text("utf-8")
+    assert text.startswith(f"a {begin}")
+    assert "Worst cases found of compensated, float64" in text
+    assert text.count("| generic |") == 3
+
+
 def test_a_feature_whose_extra_is_missing_says_which(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "mpmath", None)
     for name in [name for name in sys.modules if name.startswith("optipath.accuracy")]:
@@ -399,3 +413,27 @@ def test_complex_numbers_are_read_and_told_as_what_they_are(capsys, tmp_path):
     _, out, _ = run(capsys, "run", str(file), "--r=-0.3+0.2j", "--json")
     told = json.loads(out)["parameters"]
     assert told == {"r": {"re": -0.3, "im": 0.2}, "m": {"n": 0.2, "k": 3.0}}
+
+
+def test_the_cache_of_compiled_code_is_shown_and_cleared(capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "cache"))
+    monkeypatch.setenv("OPTIPATH_CACHE_BYTES", "5000")
+    (tmp_path / "cache").mkdir(mode=0o700)
+    (tmp_path / "cache" / "one.code").write_bytes(bytes(1234))
+    shown = {"folder": str(tmp_path / "cache"), "entries": 1, "bytes": 1234, "limit": 5000}
+    assert json.loads(run(capsys, "cache", "--json")[1]) == shown
+    _, out, _ = run(capsys, "cache")
+    assert str(tmp_path / "cache") in out
+    assert "1,234" in out
+    assert "removed 1 " in run(capsys, "cache", "--clear")[1]
+    assert json.loads(run(capsys, "cache", "--json")[1])["entries"] == 0
+
+
+def test_trouble_with_the_cache_is_one_line(capsys, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("in the way")
+    monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path / "file"))
+    for arguments in (["cache"], ["cache", "--clear"], ["cache", "--json"]):
+        status, out, err = run(capsys, *arguments)
+        assert (status, out) == (2, "")
+        assert "is no folder" in err
+        assert err.count("\n") == 1

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.path_reference import exact_lights
+from optipath.accuracy.path_reference import exact_lights, exact_stokes
 
 RNG = np.random.default_rng(3)
 
@@ -107,3 +107,24 @@ def test_light_from_behind_refuses_a_substrate_that_absorbs():
 def test_jones_columns_cannot_pass_a_stack():
     with pytest.raises(op.ComposerError, match=r"stack\.reflected.*may depolarise"):
         op.Composer(composing="jones").compose(path_of(op.LayerStack([1.0, 1.5, 1.0], 0.5)))
+
+
+def test_all_components_keep_their_digits_though_next_to_nothing_gets_through():
+    rng = np.random.default_rng(4)
+    for number in range(60):
+        angle = np.pi / 2 - 10.0 ** rng.uniform(-12, 0) if number % 2 else rng.uniform(0, 1e-3)
+        scale = 10.0 ** rng.uniform(-8, 8) if number % 3 == 0 else 1.0
+        media = scale * rng.uniform(1.0, 2.5, rng.integers(3, 5))
+        media[[0, -1]] = 1.0, rng.choice([1.0, media[-1]])
+        substrate = complex(media[-1], rng.uniform(0, 3)) if number % 4 == 1 else media[-1]
+        path = op.PathGraph()
+        path.add("lamp", op.Source(1.0, [1.0, 0.6, 0.64, 0.48]))
+        path.add("stack", op.LayerStack([*media[:-1], substrate], float(angle)))
+        path.connect("lamp.out", "stack.in")
+        for port in ("reflected", "transmitted"):
+            path.add(port[0], op.Detector())
+            path.connect(f"stack.{port}", f"{port[0]}.in")
+        exact = exact_stokes(path)
+        for name, light in path.trace_all().items():
+            expected = np.array([float(part) for part in exact[name]])
+            np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=2e-14 * expected[0])

@@ -100,3 +100,15 @@ def test_next_to_grazing_incidence_the_light_is_that_of_fifty_digits(dtype):
             exact = float(exact_lights(PATH, theta=float(theta))["eye"].stokes[0])
             found = plan.run(theta=np.full(1100, theta)).intensity[0]
             assert abs(found - exact) <= 100 * np.finfo(dtype).eps * exact
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_parts_of_a_grid_next_to_grazing_incidence_are_like_the_whole(engine):
+    theta, n = np.pi / 2 - OFF[:, np.newaxis], np.linspace(1.3, 1.8, 1100)
+    wanted = plan_of("numpy", "float64").run(theta=theta, n=n).intensity
+    plan = plan_of(engine, "float32")
+    for part in plan.stream(1100, theta=theta, n=n):
+        np.testing.assert_allclose(part.light.intensity, wanted[part.where], rtol=1e-5)
+    theta[2] = 2.0
+    with pytest.raises(op.ParameterError, match="theta"):
+        list(plan.stream(1100, theta=theta, n=n))

@@ -1,5 +1,8 @@
 """Slopes by JAX at every edge and singular point, against differences in 100 digits."""
 
+import os
+from functools import cache
+
 import mpmath
 import numpy as np
 import pytest
@@ -8,9 +11,10 @@ import optipath as op
 from optipath.accuracy import reference
 from optipath.accuracy.boundary_reference import stack
 from optipath.accuracy.many_digits import cos_sin, exact_angle
-from optipath.kernels import METHODS
+from optipath.kernels import METHODS, REFLECTION, TRANSMISSION
 
 jax = pytest.importorskip("jax")
+sloped = pytest.importorskip("optipath.engines.jax_engine").sloped
 
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40
@@ -83,9 +87,9 @@ def surface(what):
     return path
 
 
-def layers(count, what):
-    """A stack of so many media as one element."""
-    media = [op.Parameter(f"n{place}") for place in range(count - 1)]
+def layers(what):
+    """A layer on a substrate as one element."""
+    media = [op.Parameter("n0"), op.Parameter("n1")]
     path = op.PathGraph()
     path.add("lamp", op.Source(stokes=LIGHT))
     substrate = op.Material(op.Parameter("n"), op.Parameter("k"))
@@ -135,14 +139,14 @@ def agree(found, expected, points, limit=1e-10):
 
 
 def apart_from_critical(n1, n, k, angle):
-    return k > 0.0 or (abs(n - n1 * np.sin(angle)) > 1e-3)
+    return k > 0.0 or abs(n - n1 * np.sin(angle)) > 1e-3
 
 
 def singular_points(seed):
     """Every edge and singular point of one boundary, with random partners."""
     rng = np.random.default_rng(seed)
     found = []
-    for _ in range(3):
+    for _ in range(SETS):
         n1, n, k = rng.uniform(1.0, 2.0), rng.uniform(0.2, 4.0), rng.uniform(0.01, 5.0)
         angle = rng.uniform(0.1, 1.5)
         brewster = float(np.arctan2(n, n1))
@@ -153,27 +157,158 @@ def singular_points(seed):
             if each > 0.0:
                 found.append((n1, 0.0, 0.0, each))
             found += [(n1, n1, k, each), (n1, n1 * (1.0 + 1e-9), 0.0, each)]
-        total = rng.uniform(1.05 * n1 / 4.0, 0.9) if n1 < 2.0 else 0.9
-        found.append((n1, n1 * np.sin(total) * 0.9, 0.0, total))
+        found.append((n1, n1 * np.sin(angle) * 0.9, 0.0, angle))
     return [point for point in found if apart_from_critical(*point)]
 
 
-POINTS = [*singular_points(1), (1.0, 1.5, 0.0, np.pi / 2), (1.0, 0.2, 3.0, np.pi / 2)]
 NAMES = ("n1", "n", "k", "angle")
+SEED = int(os.environ.get("OPTIPATH_SEED", "1"))
+SETS = int(os.environ.get("OPTIPATH_SETS", "2"))
+"""Random partners: other ones, and how many of each kind."""
+
+
+@cache
+def expected_at(what, seed):
+    return np.array([differences(one_boundary(what), point) for point in points_of(seed)])
+
+
+def points_of(seed):
+    return [*singular_points(seed), (1.0, 1.5, 0.0, np.pi / 2), (1.0, 0.2, 3.0, np.pi / 2)]
 
 
 @pytest.mark.parametrize("what", ["reflection", "transmission"])
 @pytest.mark.parametrize("method", METHODS)
 def test_slopes_are_those_of_many_digits_at_every_singular_point(what, method):
-    plan = op.Composer(method=method).compose(surface(what))
-    expected = np.array([differences(one_boundary(what), point) for point in POINTS])
-    agree(slopes(plan, NAMES, POINTS, jax.jacfwd), expected, POINTS)
+    plan, points = op.Composer(method=method).compose(surface(what)), points_of(SEED)
+    agree(slopes(plan, NAMES, points, jax.jacfwd), expected_at(what, SEED), points)
 
 
 @pytest.mark.parametrize("composing", ["stokes", "jones"])
 @pytest.mark.parametrize("what", ["reflection", "transmission"])
 def test_slopes_backwards_are_those_of_many_digits_too(what, composing):
-    points = singular_points(2)
-    plan = op.Composer(composing=composing).compose(surface(what))
-    expected = np.array([differences(one_boundary(what), point) for point in points])
-    agree(slopes(plan, NAMES, points, jax.jacrev), expected, points)
+    plan, points = op.Composer(composing=composing).compose(surface(what)), points_of(SEED)
+    agree(slopes(plan, NAMES, points, jax.jacrev), expected_at(what, SEED), points)
+
+
+@pytest.mark.parametrize("build", [slab, layers])
+@pytest.mark.parametrize("what", ["reflection", "transmission"])
+def test_slopes_of_stacks_and_loops_are_those_of_many_digits(what, build):
+    plan, points = op.Composer().compose(build(what)), stacks(SEED)
+    light = several(reflected=what == "reflection")
+    expected = np.array([differences(light, point) for point in points])
+    agree(slopes(plan, ("n0", *NAMES), points, jax.jacfwd), expected, points)
+
+
+def stacks(seed):
+    """A layer on a substrate at every edge, but for what keeps all light at grazing incidence."""
+    rng = np.random.default_rng(seed)
+    found = []
+    for _ in range(SETS):
+        first, layer, last = rng.uniform(1.0, 2.0), *rng.uniform(0.5, 3.0, 2)
+        k, angle = rng.uniform(0.1, 3.0), rng.uniform(0.1, 1.4)
+        for each in (0.0, angle, float(np.arctan2(layer, first)), np.pi / 2):
+            for media in ((first, layer, last), (first, layer, first), (first, layer, layer)):
+                y, closed = first * np.sin(each), media[2] <= first < layer
+                for absorbed in (0.0, k):
+                    if each == np.pi / 2 and closed and not absorbed:
+                        continue
+                    if all(abs(n - y) > 1e-3 for n in media[1:]):
+                        found.append((*media, absorbed, each))
+            if each < np.pi / 2:
+                found.append((first, first, last, 0.0, each))
+    return found
+
+
+def test_a_slab_at_grazing_incidence_has_the_slopes_of_the_closed_form():
+    # T = T_s / (2 - T_s), and T_p likewise: half of 4 c / g and of 4 n^2 c / g, g^2 = n^2 - 1.
+    n = 1.7
+    along, across = (2.0 * f / np.sqrt(n * n - 1.0) for f in (1.0, n * n))
+    expected = [-0.5 * (along + across), -0.5 * (along - across)]
+    slab_of_glass = op.load_preset("glass-slab", n=n)
+    slope = jax.jacfwd(lambda angle: slab_of_glass.trace(theta=angle).stokes)(np.pi / 2)
+    np.testing.assert_allclose(slope[:2], expected, rtol=1e-12)
+    path = op.PathGraph()
+    stack_of_glass = op.LayerStack([1.0, n, 1.0], op.Parameter("angle"))
+    path.add("lamp", op.Source(stokes=[1.0, 0.0, 0.5, 0.0]))
+    path.add("pane", stack_of_glass)
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", "pane.in")
+    path.connect("pane.transmitted", "eye.in")
+    slope = jax.jacrev(lambda angle: path.trace(angle=angle).stokes)(np.pi / 2)
+    np.testing.assert_allclose(slope[:2], expected, rtol=1e-12)
+    # S2 goes by T_s T_p / (1 - R_s R_p), which is T_s T_p / (T_s + T_p) where both are little.
+    product = along * across / (along + across)
+    np.testing.assert_allclose(slope[2:], [-product, 0.0], rtol=1e-12, atol=1e-15)
+
+
+def test_matrices_have_the_slopes_of_lights():
+    plan = op.Composer().compose(surface("reflection"))
+    matrix = jax.jacfwd(lambda angle: plan.mueller(n1=1.0, n=1.5, k=0.0, angle=angle).matrix)
+    expected = differences(one_boundary("reflection"), (1.0, 1.5, 0.0, np.pi / 2))[3]
+    np.testing.assert_allclose(matrix(np.pi / 2) @ np.array(LIGHT), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("what", ["reflection", "transmission"])
+def test_second_slopes_are_those_of_many_digits(what):
+    points = [point for point in points_of(SEED) if point[1] > 0.0 and point[:2] != (1.0, 0.2)]
+    points = [p for p in points if p[2] > 0.0 or abs(p[1] - p[0]) > 1e-3]
+    plan = op.Composer().compose(surface(what))
+
+    def stokes(*given):
+        return plan.run(**dict(zip(NAMES, given, strict=True))).stokes
+
+    second = jax.jit(jax.vmap(jax.jacfwd(jax.jacfwd(stokes, (0, 1, 2, 3)), (0, 1, 2, 3))))
+    found = second(*np.array(points).T)
+    found = np.stack([found[place][place] for place in range(4)], axis=1)
+    expected = [differences(one_boundary(what), point, order=2) for point in points]
+    agree(found, np.array(expected), points, limit=1e-9)
+
+
+def test_values_are_the_same_whether_slopes_are_taken_or_not():
+    plan, points = op.Composer().compose(surface("transmission")), np.array(points_of(SEED)).T
+    given = dict(zip(NAMES, points, strict=True))
+
+    def stokes(angle):
+        return plan.run(**given | {"angle": angle}).stokes
+
+    alone, beside = (f(given["angle"]) for f in (stokes, lambda x: jax.jvp(stokes, (x,), (x,))[0]))
+    np.testing.assert_allclose(beside, alone, rtol=1e-13, atol=1e-16)
+    assert np.all(np.asarray(beside)[points[3] == np.pi / 2] == 0.0)
+
+
+def test_single_precision_has_slopes_at_the_edges_too():
+    plan, points = op.Composer(dtype="float32").compose(surface("transmission")), points_of(SEED)
+    # Next to a right angle, and to an equal medium, float32 is somewhere else.
+    points = [p for p in points if p[3] != 1e-9 and abs(p[3] - np.pi / 2) != 1e-9]
+    points = [p for p in points if p[0] == p[1] or abs(p[0] - p[1]) > 1e-6]
+    near = [p for p in points if apart_from_critical(*p[:3], p[3])]
+    expected = np.array([differences(one_boundary("transmission"), p) for p in near])
+    agree(slopes(plan, NAMES, near, jax.jacfwd), expected, near, limit=2e-3)
+
+
+@pytest.mark.parametrize("kernel", [REFLECTION, TRANSMISSION])
+@pytest.mark.parametrize("absorbing", [True, False])
+def test_infinite_slopes_are_no_number_that_could_be_one(kernel, absorbing):
+    # sin = n: g is 0, and its slope in whatever changes it is infinite.
+    chosen = kernel.by_method("stable")
+    given = (1.0, 0.6, 0.0, 0.8, 0.6) if absorbing else (1.0, 0.6, 0.8, 0.6)
+    made = (chosen if absorbing else chosen.without[1]).made_for(sloped(np.dtype(float)))
+    for place in (1, len(given) - 1):
+        slope = jax.grad(lambda *given: made(*given)[0], argnums=place)(*given)
+        assert not abs(slope) < 1e8
+
+
+def test_slopes_at_grazing_incidence_on_an_equal_medium_are_those_just_before_it():
+    # There, any contrast reflects all light at once.
+    plan = op.Composer().compose(surface("reflection"))
+    (found,) = slopes(plan, NAMES, [(1.3, 1.3, 0.0, np.pi / 2)], jax.jacfwd)
+    np.testing.assert_allclose(found, 0.0, atol=1e-15)
+
+
+def test_what_a_loop_loses_has_a_slope_where_it_loses_nothing_yet():
+    # exp(-2 a length) goes round with what both faces reflect: dT/da at a = 0, and unpolarised.
+    path, n, length = op.load_preset("glass-slab"), 1.5, 5e-3
+    slope = jax.grad(lambda a: path.trace(theta=0.0, n=n, absorption=a).intensity)(0.0)
+    R = ((n - 1.0) / (n + 1.0)) ** 2
+    expected = -length * (1.0 - R) ** 2 * (1.0 + R * R) / (1.0 - R * R) ** 2
+    assert float(slope) == pytest.approx(expected, rel=1e-12)

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optipath.kernels import FLOAT, NUMPY, DoubleDouble
+from optipath.kernels import FLOAT, NUMPY, DoubleDouble, twice
 
 NUMBERS = st.floats(1e-20, 1e20)
 PAIRS = st.tuples(NUMBERS, st.floats(-0.4, 0.4)).map(lambda p: (p[0], p[1] * 2.0**-53 * p[0]))
@@ -56,3 +56,43 @@ def test_a_product_and_its_rounding_are_exact_in_every_precision(dtype):
                 for v in (a[i], b[i], product[i], rest[i])
             )
             assert p + r == x * y
+
+
+@pytest.mark.parametrize("xp", [FLOAT, NUMPY], ids=["float", "numpy"])
+@given(
+    angle=st.one_of(st.floats(-10, 10), st.floats(1e-300, 1e-3), st.floats(-1e15, 1e15)),
+    rest=st.floats(-0.4, 0.4),
+)
+def test_sines_and_cosines_have_twice_the_digits(xp, angle, rest):
+    kind = float if xp is FLOAT else np.float64
+    number = DoubleDouble(xp, kind(angle), kind(rest * 2.0**-53 * angle))
+    with mpmath.workdps(80):
+        x = exactly(number)
+        pairs = [(twice(xp).sin, mpmath.sin(x)), (twice(xp).cos, mpmath.cos(x))]
+    for function, exact in pairs:
+        with mpmath.workdps(80):
+            assert abs(exactly(function(number)) - exact) <= 16 * UNIT * UNIT * abs(exact) + 1e-305
+
+
+@pytest.mark.parametrize("xp", [FLOAT, NUMPY], ids=["float", "numpy"])
+@given(number=st.floats(-600, 600), y=st.floats(-1e9, 1e9), x=st.floats(-1e9, 1e9))
+def test_exponentials_and_angles_have_twice_the_digits(xp, number, y, x):
+    with mpmath.workdps(80):
+        exact = mpmath.exp(mpmath.mpf(number)), mpmath.atan2(mpmath.mpf(y), mpmath.mpf(x))
+    kind = float if xp is FLOAT else np.float64
+    double = twice(xp)
+    assert off(double.exp(DoubleDouble(xp, kind(number))), exact[0]) <= 64 * UNIT * UNIT
+    if min(abs(x), abs(y)) > 1e-200:
+        found = double.atan2(DoubleDouble(xp, kind(y)), DoubleDouble(xp, kind(x)))
+        assert off(found, exact[1]) <= 64 * UNIT * UNIT
+
+
+def test_angles_known_to_no_right_angle_are_those_of_floats():
+    found = twice(NUMPY).sin(DoubleDouble(NUMPY, np.float64(1e300)))
+    assert found.high == np.sin(1e300)
+
+
+def test_what_is_the_same_to_all_digits_is_equal():
+    third = 1.0 / DoubleDouble(FLOAT, 3.0)
+    assert third + third + third == 1.0
+    assert third != 1.0 / 3.0

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from optipath.kernels import FLOAT, Elimination
+from optipath.kernels import FLOAT, DoubleDouble, Elimination, twice
 
 
 def system(rng, size, leak):
@@ -54,6 +54,17 @@ def test_a_pivot_that_is_not_above_zero_tells_of_a_gain():
 def test_what_keeps_all_of_its_light_is_dark_where_none_arrives():
     found = Elimination(FLOAT, [{0: 0.5}, {1: 1.0}], [0.5, 0.0], [True, True]).solved([1.0, 0.0])
     assert found == [2.0, 0.0]
+
+
+def test_a_pivot_that_is_0_by_chance_is_moved_where_light_may_gain():
+    # Of x, all comes back as x and as much as y; of y, minus as much: none in the second round.
+    xp = twice(FLOAT)
+    back = [{0: 1.0, 1: 1.0}, {0: -1.0, 1: -1.0}]
+    columns = [{to: DoubleDouble(FLOAT, gain) for to, gain in column.items()} for column in back]
+    leaves = [DoubleDouble(FLOAT, -1.0), DoubleDouble(FLOAT, 3.0)]
+    system = Elimination(xp, columns, leaves, [True, True], fading=False)
+    found = system.solved([DoubleDouble(FLOAT, 1.0), 0.0])
+    np.testing.assert_allclose([number.high for number in found], [2.0, 1.0], rtol=1e-15)
 
 
 def test_unknowns_without_intensity_are_solved_beside_others():

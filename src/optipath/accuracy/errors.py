@@ -63,12 +63,12 @@ def errors(
             size = abs(values[0])
             instead = size if against_first else 0
             componentwise[row] = [
-                _in_ulp(d, value or instead, dtype) / (1.0 + condition)
+                in_ulp(d, value or instead, dtype) / (1.0 + condition)
                 for d, value, condition in zip(off, values, conditions, strict=True)
             ]
             shares = [abs(v) * c for v, c in zip(values, conditions, strict=True)]
             most = float(max(shares) / size) if size else 0.0
-            normwise[row] = _in_ulp(max(off), size, dtype) / (1.0 + most)
+            normwise[row] = in_ulp(max(off), size, dtype) / (1.0 + most)
     return Errors(componentwise, normwise)
 
 
@@ -76,7 +76,8 @@ def _distance(number: Any, value: Any) -> Any:
     return abs(exactly(number) - value) if np.isfinite(number) else mpmath.inf
 
 
-def _in_ulp(distance: Any, value: Any, dtype: str) -> float:
+def in_ulp(distance: Any, value: Any, dtype: str) -> float:
+    """Return a distance in units in the last place of a value."""
     if not distance:
         return 0.0
     kind = np.finfo(dtype)

@@ -74,12 +74,36 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     >>> [float(component) for component in lights["eye"].stokes]
     [0.5, 0.5, 0.0, 0.0]
     """
+    given = _single(path, parameters)
+    return _exact(Wiring(path.graph), given, (), ())
+
+
+def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
+    """Return the Stokes vector at every detector and dump of a path, as `exact_lights` has it.
+
+    It takes one passage of light, and not one for each angle of the path.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]
+    [0.5, 0.5, 0.0, 0.0]
+    """
+    given = _single(path, parameters)
+    wiring = Wiring(path.graph)
+    scout = Reader(given, (), ())
+    _Walk(wiring, scout).stokes()
+    with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):
+        return _Walk(wiring, Reader(given, (), ())).stokes()
+
+
+def _single(path: PathGraph, parameters: Mapping[str, Any]) -> Mapping[str, Resolved]:
     if not isinstance(path, PathGraph):
         raise PathError(f"a reference is of a PathGraph, not of {shown(path)}")
     given, batch = path.compose().inputs.resolve(parameters)
     if batch:
         raise ParameterError(f"a reference takes single values, not a batch of shape {batch}")
-    return _exact(Wiring(path.graph), given, (), ())
+    return given
 
 
 def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str, ExactLight]]:

@@ -54,21 +54,47 @@ class Region:
         >>> REGIONS[0].samples(3).n.shape
         (3,)
         """
-        dice = _Dice(count, [seed, *self.name.encode()], np.finfo(dtype))
-        return Samples(*(np.broadcast_to(x, count).astype(dtype) for x in self.draw(dice)))
+        random = np.random.default_rng([seed, *self.name.encode()])
+        return self._drawn(_Dice(count, lambda: random.random(count), np.finfo(dtype)), dtype)
+
+    def at(self, units: Floats, dtype: str = "float64") -> Samples:
+        """Return what comes of numbers within 0 .. 1 in place of random ones.
+
+        Examples
+        --------
+        >>> REGIONS[0].at(np.full((REGIONS[0].dimensions, 2), 0.5)).n
+        array([2.55, 2.55])
+        """
+        rows = iter(units)
+        return self._drawn(_Dice(units.shape[1], lambda: next(rows), np.finfo(dtype)), dtype)
+
+    @property
+    def dimensions(self) -> int:
+        """How many random numbers a sample is made of."""
+        rolls: list[Floats] = []
+
+        def roll() -> Floats:
+            rolls.append(np.full(1, 0.5))
+            return rolls[-1]
+
+        self.draw(_Dice(1, roll, np.finfo(np.float64)))
+        return len(rolls)
+
+    def _drawn(self, dice: _Dice, dtype: str) -> Samples:
+        return Samples(*(np.broadcast_to(x, dice.count).astype(dtype) for x in self.draw(dice)))
 
 
 class _Dice:
-    """Random numbers for one region."""
+    """Numbers for one region, made of others within 0 .. 1 that are rolled."""
 
-    def __init__(self, count: int, seed: list[int], precision: Any) -> None:
+    def __init__(self, count: int, roll: Callable[[], Floats], precision: Any) -> None:
         self.count = count
         self.precision = precision
-        self._random = np.random.default_rng(seed)
+        self._roll = roll
 
     def even(self, low: float, high: float) -> Floats:
         """Return numbers spread evenly."""
-        numbers: Floats = self._random.uniform(low, high, self.count)
+        numbers: Floats = low + (high - low) * self._roll()
         # What is computed from them has the digits of the precision, if that is more.
         return numbers.astype(np.result_type(self.precision.dtype, np.float64))
 

@@ -9,6 +9,7 @@ import numpy as np
 from optipath.accuracy.errors import LIMIT
 from optipath.accuracy.interface_errors import interface_errors
 from optipath.accuracy.regions import REGIONS
+from optipath.accuracy.search import COMPONENTS, worst
 from optipath.errors import OptipathError
 from optipath.kernels import METHODS
 
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from optipath.accuracy.regions import Region
 
 BEGIN, END = "<!-- tables: optipath accuracy -->", "<!-- end of tables -->"
+SAMPLED = BEGIN, END
+SEARCHED = "<!-- worst cases: optipath accuracy --search -->", "<!-- end of worst cases -->"
+"""The lines between which tables stand in a document."""
 
 
 class TextTable(NamedTuple):
@@ -48,7 +52,13 @@ def tables(samples: int) -> list[TextTable]:
     ]
 
 
-def put_tables(text: str, found: Sequence[TextTable]) -> str:
+def searched_tables(generations: int) -> list[TextTable]:
+    """Return the worst cases that searches find, where the method promises any digits."""
+    wanted = (("stable", "float64"), ("stable", "float32"), ("compensated", "float64"))
+    return [_worst_cases(method, dtype, generations) for method, dtype in wanted]
+
+
+def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = SAMPLED) -> str:
     """Return a Markdown text with the tables between the two lines that mark their place.
 
     Raises
@@ -62,11 +72,12 @@ def put_tables(text: str, found: Sequence[TextTable]) -> str:
     >>> print(put_tables(f"{BEGIN}{END}", [table]).splitlines()[2])
     All
     """
-    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise OptipathError(f"the tables have no place; put '{BEGIN}' and '{END}' into the file")
-    before, rest = text.split(BEGIN)
-    behind = rest.split(END)[1]
-    return f"{before}{BEGIN}\n\n{''.join(map(_markdown, found))}{END}{behind}"
+    begin, end = marks
+    if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
+        raise OptipathError(f"the tables have no place; put '{begin}' and '{end}' into the file")
+    before, rest = text.split(begin)
+    behind = rest.split(end)[1]
+    return f"{before}{begin}\n\n{''.join(map(_markdown, found))}{end}{behind}"
 
 
 def shown(error: float) -> str:
@@ -110,6 +121,22 @@ def _transmission(samples: int) -> TextTable:
         rows.append(tuple(row))
     header = ("region", *(f"{method} {name}" for method in methods for name in ("A", "B", "C")))
     title = "Transmission, float64: worst in ulp*; C where nothing absorbs"
+    return TextTable(title, header, tuple(rows))
+
+
+def _worst_cases(method: str, dtype: str, generations: int) -> TextTable:
+    sides = [("reflection", name) for name in COMPONENTS] + [
+        ("transmission", name) for name in "ABC"
+    ]
+    rows = []
+    for region in REGIONS:
+        found = (
+            worst(method, region, name, what, dtype, generations=generations).error
+            for what, name in sides
+        )
+        rows.append((region.name, *map(shown, found)))
+    header = ("region", *(f"{what[0].upper()} {name}" for what, name in sides))
+    title = f"Worst cases found of {method}, {dtype}: reflection (R), transmission (T)"
     return TextTable(title, header, tuple(rows))
 
 

@@ -15,6 +15,7 @@ from click.shell_completion import shell_complete
 
 from optipath.cli.accuracy import accuracy
 from optipath.cli.bench import bench
+from optipath.cli.cache import cache
 from optipath.cli.chart import chart
 from optipath.cli.explain import explain
 from optipath.cli.interrupts import interruptible
@@ -45,6 +46,7 @@ cli.add_command(run)
 cli.add_command(explain)
 cli.add_command(polarization)
 cli.add_command(bench)
+cli.add_command(cache)
 cli.add_command(chart)
 cli.add_command(accuracy)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -71,7 +71,7 @@ def vanishes(view: View) -> bool:
     return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
 
 
-@cache
+@lru_cache(1024)
 def _symbolic(kernel: Kernel, known: tuple[Entry, ...]) -> Entries:
     recorder = Recorder(np.dtype(np.float64))
     arguments = [

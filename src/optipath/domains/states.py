@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from optipath.array_likes import rounding_of
 from optipath.domains.domain import Domain
 from optipath.errors import ValueFault
 from optipath.frozen import frozen
 from optipath.jax_values import namespace
+from optipath.roundings import rounding_of
 
 _ROUNDING = 1e-12
 _SINGLE_ROUNDING = 1e-6

@@ -1,80 +1,378 @@
-"""Compiled code, kept on disk so that a second process need not wait for it again."""
+"""The cache of compiled code, in memory and on disk."""
 
 from __future__ import annotations
 
 import hashlib
 import logging
 import os
-import sys
+import platform
+import stat
 import tempfile
+from collections import OrderedDict
+from contextlib import suppress
 from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from threading import RLock
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import numba as nb
+from optipath.errors import CacheError
 
-from optipath.engines import numba_helpers
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from optipath.engines.machine_code import MachineCode
 
 _LOGGER = logging.getLogger("optipath")
+_SUFFIX, _DRAFT = ".code", ".draft"
+_CHECKSUM = hashlib.sha256().digest_size
+_TROUBLE = (OSError, RuntimeError, CacheError)
+"""What the folder may do to us; a circle of links is a RuntimeError."""
+_CURE = "set OPTIPATH_CACHE to a folder of your own"
+
+
+class Entry(NamedTuple):
+    """A file of the cache: where it is, how long, and when it was last used."""
+
+    file: Path
+    length: int
+    used: float
+
+
+class CodeCache:
+    """Keeps what has been compiled, for this process and for the next.
+
+    Notes
+    -----
+    *It never changes a result.* The key of an entry is a hash of the text, of the sources of
+    what the text calls, of the versions of optipath, Numba, llvmlite, NumPy and Python, of the
+    settings of Numba in the environment, and of the processor with its features. A checksum of
+    the key and of all that follows is checked before anything of it is used; an entry that does
+    not fit is removed, and compiled anew.
+
+    *It runs nobody else's code.* Entries are machine code, and nothing is ever unpickled. The
+    folder is made for its owner alone. A folder that others own, that others may write to or
+    may put another in place of, and files that others own or may write, are not used. Whoever
+    may write to the folder may run code as its owner: that is what is trusted.
+
+    *It never stops a computation.* Whatever is wrong with the folder (none, full, read-only,
+    damaged, of others, emptied meanwhile) is told to the log ``optipath``, once a process, and
+    what is not kept is compiled. Files appear whole under their names; the drafts of processes
+    that were killed are removed by the next.
+
+    *It is bounded.* On disk by ``OPTIPATH_CACHE_BYTES`` (128 MiB), in memory by
+    ``OPTIPATH_CACHE_FUNCTIONS`` (256): what has not been used for longest goes first. The
+    memory of a function is free again when no plan holds it either; of each that a process has
+    compiled itself, some 0.2 MB stay with Numba and LLVM.
+
+    Examples
+    --------
+    >>> CodeCache().limit
+    134217728
+    """
+
+    def __init__(self) -> None:
+        self._functions: OrderedDict[str, MachineCode] = OrderedDict()
+        self._lock = RLock()
+        self._told: set[str] = set()
+        self._tidied: set[Path] = set()
+
+    @property
+    def folder(self) -> Path:
+        """Where entries are: ``OPTIPATH_CACHE``, or a folder of the user's cache.
+
+        Raises
+        ------
+        CacheError
+            If the user has no home.
+        """
+        try:
+            if own := os.environ.get("OPTIPATH_CACHE"):
+                return Path(own).absolute()
+            base = Path(os.environ.get("XDG_CACHE_HOME", ""))
+            found = (base if base.is_absolute() else Path.home() / ".cache") / "optipath"
+        except (OSError, RuntimeError):
+            found = Path()
+        if not found.is_absolute():
+            raise CacheError(f"there is no home folder; {_CURE}")
+        return found
+
+    @property
+    def limit(self) -> int:
+        """How many bytes are kept on disk."""
+        return _number("OPTIPATH_CACHE_BYTES", 1 << 27)
+
+    @property
+    def most_functions(self) -> int:
+        """How many functions are kept in memory."""
+        return _number("OPTIPATH_CACHE_FUNCTIONS", 256)
+
+    def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
+        """Return the function of a text, compiled where it is not kept.
+
+        That something is compiled is told to the log, so that nobody wonders what he waits for.
+        """
+        from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
+
+        with self._lock:
+            if text not in self._functions:
+                code = self.load(text)
+                if code is None:
+                    _LOGGER.warning("compiling a path for Numba")
+                    code = compiled(text)
+                    self.keep(text, code)
+                self._functions[text] = MachineCode(code)
+            self._functions.move_to_end(text)
+            found = self._functions[text]
+            try:
+                most = self.most_functions
+            except CacheError as error:
+                most = 1
+                self.tell(str(error))
+            while len(self._functions) > most:
+                self._functions.popitem(last=False)
+            return found
+
+    def load(self, text: str) -> bytes | None:
+        """Return what is kept on disk for a text, or None."""
+        try:
+            folder = self._own_folder()
+            key = _key(text)
+            file = folder / (key.hex() + _SUFFIX)
+            stored = _read(file)
+            if stored[:_CHECKSUM] == _checksum(key, stored[_CHECKSUM:]):
+                self._used(file)
+                return stored[_CHECKSUM:]
+            self.tell("a file of compiled code is damaged; it is compiled anew")
+            file.unlink()
+        except FileNotFoundError:
+            pass
+        except _TROUBLE as error:
+            self._tell_of(error)
+        return None
+
+    def keep(self, text: str, code: bytes) -> None:
+        """Keep what has been compiled for a text."""
+        try:
+            if len(code) + _CHECKSUM > self.limit:
+                return
+            folder = self._own_folder(make=True)
+            key = _key(text)
+            handle, draft = tempfile.mkstemp(dir=folder, suffix=_DRAFT)
+            try:
+                with os.fdopen(handle, "wb") as stream:
+                    stream.write(_checksum(key, code) + code)
+                Path(draft).replace(folder / (key.hex() + _SUFFIX))
+            except BaseException:
+                Path(draft).unlink(missing_ok=True)
+                raise
+            self._shrink()
+        except _TROUBLE as error:
+            self._tell_of(error)
+
+    def entries(self) -> list[Entry]:
+        """Return what is on disk, that which has not been used for longest first.
+
+        Raises
+        ------
+        CacheError
+            If the folder is not to be used, or cannot be read.
+        """
+        try:
+            found = [*self._files(self._own_folder(), _SUFFIX)]
+        except FileNotFoundError:
+            return []
+        except (OSError, RuntimeError) as error:
+            raise self._fault(error) from None
+        return sorted(found, key=lambda entry: entry.used)
+
+    def clear(self) -> int:
+        """Remove what is on disk, drafts too; return how many entries there were.
+
+        Raises
+        ------
+        CacheError
+            If the folder is not to be used, or nothing can be removed from it.
+        """
+        entries = self.entries()
+        try:
+            drafts = [*self._files(self._own_folder(), _DRAFT)]
+            for entry in (*entries, *drafts):
+                entry.file.unlink(missing_ok=True)
+        except FileNotFoundError:
+            pass
+        except (OSError, RuntimeError) as error:
+            raise self._fault(error) from None
+        return len(entries)
+
+    def tell(self, what: str) -> None:
+        """Tell the log something, once a process."""
+        if what not in self._told:
+            self._told.add(what)
+            _LOGGER.warning(what)
+
+    def _tell_of(self, error: BaseException) -> None:
+        self.tell(f"compiled code is not kept: {self._fault(error)}")
+
+    def _fault(self, error: BaseException) -> CacheError:
+        """Return what is wrong with the folder as a sentence with its cure."""
+        if isinstance(error, CacheError):
+            return error
+        reason = getattr(error, "strerror", None) or error
+        return CacheError(f"the cache '{self.folder}' cannot be used ({reason}); {_CURE}")
+
+    def _own_folder(self, *, make: bool = False) -> Path:
+        """Return the folder, made if need be, if nobody else may change what is in it.
+
+        Raises
+        ------
+        CacheError
+            If somebody may.
+        OSError
+            If it is not there, or is no folder.
+        """
+        folder = self.folder
+        if make:
+            for place in reversed((folder, *folder.parents)):
+                if not place.exists():
+                    place.mkdir(0o700, exist_ok=True)
+        if hasattr(os, "getuid"):
+            _refuse_shared(folder)
+        if folder not in self._tidied:
+            for draft in self._files(folder, _DRAFT):
+                draft.file.unlink(missing_ok=True)
+            self._tidied.add(folder)
+        return folder
+
+    @staticmethod
+    def _files(folder: Path, suffix: str) -> list[Entry]:
+        found = []
+        for file in folder.iterdir():
+            if file.suffix == suffix:
+                try:
+                    about = file.lstat()
+                except FileNotFoundError:  # another process was faster
+                    continue
+                found.append(Entry(file, about.st_size, about.st_mtime))
+        return found
+
+    @staticmethod
+    def _used(file: Path) -> None:
+        """Note when an entry was used, where that can be noted."""
+        with suppress(OSError):
+            os.utime(file)
+
+    def _shrink(self) -> None:
+        """Remove the entries that have not been used for longest, down to the limit."""
+        entries = self.entries()
+        length = sum(entry.length for entry in entries)
+        for entry in entries:
+            if length <= self.limit:
+                break
+            entry.file.unlink(missing_ok=True)
+            length -= entry.length
+
+
+def _number(name: str, usual: int) -> int:
+    text = os.environ.get(name) or str(usual)
+    if not text.isascii() or not text.isdigit() or len(text) > 18:
+        raise CacheError(f"{name} is {text[:40]!r}; set it to a whole number such as {usual}")
+    return int(text)
+
+
+def _refuse_shared(folder: Path) -> None:
+    """Refuse a folder that others may write to, or may put something else in place of."""
+    if folder.is_symlink():
+        raise CacheError(
+            f"the cache '{folder}' is a link; set OPTIPATH_CACHE to the folder it leads to"
+        )
+    about = folder.lstat()
+    if not stat.S_ISDIR(about.st_mode):
+        raise CacheError(f"the cache '{folder}' is no folder; {_CURE}")
+    if about.st_uid != os.getuid():
+        raise CacheError(f"the cache '{folder}' belongs to another user; {_CURE}")
+    if about.st_mode & 0o022:
+        raise CacheError(
+            f"others may write to the cache '{folder}'; remove it, and it is made anew for you "
+            f"alone"
+        )
+    for place in _way(folder):
+        about = place.lstat()
+        shared = not stat.S_ISLNK(about.st_mode) and about.st_mode & 0o022
+        if about.st_uid not in (0, os.getuid()) or (shared and not about.st_mode & stat.S_ISVTX):
+            raise CacheError(
+                f"others may replace the cache '{folder}', since they own '{place}' or may write "
+                f"to it; {_CURE}"
+            )
+
+
+def _way(place: Path) -> Iterator[Path]:
+    """Yield every folder and every link that the way to a place leads through."""
+    for parent in place.parents:
+        yield parent
+        if parent.is_symlink():
+            target = parent.parent / parent.readlink()
+            yield target
+            yield from _way(target)
+
+
+def _read(file: Path) -> bytes:
+    """Return what is in a file of one's own.
+
+    Raises
+    ------
+    CacheError
+        If others own it, or may write to it.
+    """
+    # What is no file, such as a pipe, is not waited for.
+    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
+    with os.fdopen(os.open(file, flags | getattr(os, "O_BINARY", 0)), "rb") as stream:
+        about = os.fstat(stream.fileno())
+        shared = hasattr(os, "getuid") and (
+            about.st_uid != os.getuid() or bool(about.st_mode & 0o022)
+        )
+        if shared or not stat.S_ISREG(about.st_mode):
+            raise CacheError(
+                f"'{file}' in the cache is not a file of your own; remove it, or see who made it"
+            )
+        return stream.read()
+
+
+def _checksum(key: bytes, code: bytes) -> bytes:
+    return hashlib.sha256(key + code).digest()
+
+
+def _key(text: str) -> bytes:
+    """Return the hash of a text, and of all else that its machine code depends on."""
+    settings = sorted((k, v) for k, v in os.environ.items() if k.startswith("NUMBA_"))
+    return hashlib.sha256(repr((text, settings, _maker())).encode()).digest()
 
 
 @cache
-def compiled_once(text: str) -> Any:
-    """Return the compiled function ``path`` of a text.
+def _maker() -> Any:
+    """Return what makes code of a text: sources, versions, the processor."""
+    import llvmlite.binding as llvm  # noqa: PLC0415 - an extra
 
-    The text is kept as a file, since Numba keeps what it compiles beside the file of the
-    source. That a path is going to be compiled is told to the log ``optipath``, as a warning,
-    so that nobody wonders what he waits for.
-    """
-    file = _file_of(text)
-    # What Numba loads from disk belongs to a module that can be imported.
-    space: dict[str, Any] = {"__name__": numba_helpers.__name__}
-    exec(compile(text, file or "<formula>", "exec"), space)  # noqa: S102 - our own text
-    options: dict[str, Any] = {"error_model": "numpy", "nogil": True, "cache": file is not None}
-    for name in ("ldexp", "path"):
-        space[name] = nb.njit(**options)(space[name])
-    if file is None:
-        _LOGGER.warning("compiling a path for Numba; it cannot be kept in %s", folder())
-    elif not _is_compiled(Path(file)):
-        _LOGGER.warning("compiling a path for Numba, once; it is kept in %s", folder())
-    return space["path"]
-
-
-def _is_compiled(file: Path) -> bool:
-    version = f"py{sys.version_info.major}{sys.version_info.minor}"
-    return any(file.parent.glob(f"__pycache__/{file.stem}.path-*.{version}*.nbi"))
-
-
-def forget(text: str) -> None:
-    """Remove what is kept of a text, such as a file that was damaged."""
-    compiled_once.cache_clear()
-    kept = folder() / "__pycache__"
-    for file in kept.glob(f"formula_{_name_of(text)}.*"):
-        file.unlink(missing_ok=True)
-
-
-def _name_of(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()[:32]
-
-
-def folder() -> Path:
-    """Return where compiled code is kept: ``OPTIPATH_CACHE``, or a folder of the user's cache."""
-    if own := os.environ.get("OPTIPATH_CACHE"):
-        return Path(own)
-    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    return Path(base) / "optipath"
-
-
-def _file_of(text: str) -> str | None:
-    """Return the file that holds a text, written if need be; None where none can be written."""
-    file = folder() / f"formula_{_name_of(text)}.py"
+    here = files("optipath.engines")
+    sources = [(here / name).read_text("utf-8") for name in ("numba_helpers.py", "machine_code.py")]
+    packages = [_version(name) for name in ("optipath", "numba", "llvmlite", "numpy")]
     try:
-        if not file.exists():
-            file.parent.mkdir(parents=True, exist_ok=True)
-            handle, draft = tempfile.mkstemp(dir=file.parent, suffix=".draft")
-            with os.fdopen(handle, "w", encoding="utf-8") as stream:
-                stream.write(text)
-            Path(draft).replace(file)
-    except (OSError, RuntimeError):
-        return None
-    return str(file)
+        features = llvm.get_host_cpu_features().flatten()
+    except RuntimeError:  # LLVM does not know them of every processor
+        features = ""
+    processor = (llvm.get_process_triple(), llvm.get_host_cpu_name(), features)
+    return sources, packages, platform.python_version(), processor
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        if package == "optipath":  # a folder of sources, which are in the key themselves
+            return ""
+        raise CacheError(f"the version of {package} is not known; install it with pip") from None
+
+
+CODE = CodeCache()
+"""The cache of this process."""

@@ -118,12 +118,13 @@ def sloped(dtype: np.dtype[Any]) -> Primitives:
     return replace(JAX, sqrt=root, within=within)
 
 
-@jax.custom_jvp
-def _with_slopes(value: Any, of: Any) -> Any:
-    """Return a value with the slopes of another number."""
+def _first(value: Any, of: Any) -> Any:
     del of
     return value
 
+
+_with_slopes = jax.custom_jvp(_first)
+"""``(value, of)``: the value, with the slopes of another number."""
 
 _with_slopes.defjvps(None, lambda tangent, *_: tangent)
 

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.code_cache import compiled_once, forget
+from optipath.engines import numpy_engine
+from optipath.engines.code_cache import CODE
 from optipath.engines.expressions import assignments
+from optipath.engines.machine_code import address
+from optipath.engines.machine_code import compiled as compiled_text
 from optipath.formulas import Symbol, left_formula
 
 if TYPE_CHECKING:
@@ -20,43 +24,45 @@ from math import atan2, cos, exp, inf, nan, sin, sqrt
 
 import numpy as np
 from optipath.engines.numba_helpers import exponent, fused as multiply_add
-from optipath.engines.numba_helpers import ldexp as scaled, product_rest
+from optipath.engines.numba_helpers import {ldexp} as ldexp, product_rest
 
 T = np.{dtype}
-
-
-def ldexp(number, power):
-    return T(scaled(number, power))
 
 
 """
 
 
 def compiled(formula: Formula) -> ArrayPath:
-    """Return a function that does what a formula says, to arrays."""
-    text = source(formula)
-    function = compiled_once(text)
+    """Return a function that does what a formula says, to arrays.
+
+    Where the user has forbidden Numba to compile (``NUMBA_DISABLE_JIT``), it is NumPy's.
+    """
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        CODE.tell("NUMBA_DISABLE_JIT is set, so that NumPy runs what Numba would compile")
+        return numpy_engine.compiled(formula)
+    function = CODE.function(source(formula), compiled_text)
+    arrays = [place for place, s in enumerate(formula.inputs) if formula.place_of(s) != "one"]
+    shape, kind = (len(_splits(formula)[0]), _BLOCK), formula.dtype
 
     def path(
         rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
     ) -> bool:
-        nonlocal function
-        try:
-            return bool(function(*rows, *columns, *given, out, at))
-        except Exception:  # noqa: BLE001 - a damaged file may raise anything while it is read
-            forget(text)
-            function = compiled_once(text)
-            return bool(function(*rows, *columns, *given, out, at))
+        own = np.empty(shape, kind) if shape[0] else out
+        places = list(given)
+        for place in arrays:
+            places[place] = address(given[place])
+        first, last = address(own), address(out)
+        return function(*rows, *columns, *places, first, last, out.shape[1], at) != 0
 
     return path
 
 
 def source(formula: Formula) -> str:
-    """Return the text of a function ``path(top, bottom, start, stop, *given, out, at) -> bool``.
+    """Return the text of a function of what `ArrayPath` takes, arrays by their addresses.
 
-    One number for the whole batch is done before the loops, one for a row before the inner
-    loop. Arrays are cut to the block before it, so that its index begins at 0: a loop whose
-    index might be negative is not vectorised.
+    ``path(top, bottom, start, stop, *given, own, out, paths, at)``; ``own`` has room for what is
+    split, and ``paths`` is the length of the rows of ``out``. One number for the whole batch is
+    done before the loops, one for a row before the inner loop.
     """
     constants: dict[str, str] = {}
 
@@ -71,16 +77,16 @@ def source(formula: Formula) -> str:
     before += assignments(formula.prologue, written)
     inside += assignments(formula.body, written)
     for row, result in enumerate(formula.computed):
-        cuts.append(f"o{row} = out[{row}, at + first + begin:at + first + end]")
-        inside.append(f"o{row}[i] = {written(result)}")
+        cuts.append(f"o{row} = {row} * paths + at + first + begin")
+        inside.append(f"out[o{row} + i] = {written(result)}")
     inside.append(f"good = good & {written(formula.holds)}")
-    parts, splits = _splits(formula)
+    rooms, splits = _splits(formula)
     lines = [
         *(f"{name} = T({number})" for number, name in constants.items()),
         *before,
+        *(f"{name} = {place * _BLOCK}" for place, name in enumerate(rooms)),
         "good = True",
         "width = stop - start",
-        *(f"{name} = np.empty({_BLOCK}, T)" for name in parts),
         "for row in range(top, bottom):",
         *_indented(
             "first = (row - top) * width", *in_row, f"for begin in range(0, width, {_BLOCK}):"
@@ -88,66 +94,75 @@ def source(formula: Formula) -> str:
         *_indented(*_indented(f"end = min(begin + {_BLOCK}, width)", *cuts, *splits)),
         "        for i in range(end - begin):",
         *_indented(*_indented(*_indented(*inside))),
-        "return good",
+        "return 1 if good else 0",
     ]
-    given = "".join(f"a{s.index}, " for s in formula.inputs)
-    head = _HEAD.format(dtype=formula.dtype.name)
-    text = f"def path(top, bottom, start, stop, {given}out, at):"
-    return "\n".join([head, text, *_indented(*lines), ""])
+    kind = formula.dtype.name
+    given = [f"a{s.index}: '{_kind(formula, s)}'" for s in formula.inputs]
+    places = ", ".join(f"{name}: 'int64'" for name in ("top", "bottom", "start", "stop"))
+    ends = f"own: '*{kind}', out: '*{kind}', paths: 'int64', at: 'int64'"
+    head = _HEAD.format(dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp")
+    text = f"def path({', '.join([places, *given, ends])}):"
+    return "\n".join([head + text, *_indented(*lines), ""])
 
 
-_CUTS = {
-    "column": "x{0} = a{0}[start + begin:start + end]",
-    "cell": "x{0} = a{0}[first + begin:first + end]",
-}
+def _kind(formula: Formula, symbol: Symbol) -> str:
+    """Return what is given for an input, as `MachineCode` names it."""
+    if formula.place_of(symbol) == "one":
+        return "float64"
+    if symbol.kind != "float":
+        return "*uint8"
+    return "*float64" if formula.name_of(symbol) in formula.wide else f"*{formula.dtype.name}"
+
+
+_STARTS = {"column": "x{0} = start + begin", "cell": "x{0} = first + begin"}
 
 
 def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]]:
     """Return what is read before the loops, in a row, at a block, and in the inner loop."""
-    before, in_row, cuts = [], [], []
-    inside = []
+    before, in_row, starts, inside = [], [], [], []
     for symbol in formula.inputs:
         n, place = symbol.index, formula.place_of(symbol)
-        kind = "T" if symbol.kind == "float" else ""
+        form = "t{0} = T({1})" if symbol.kind == "float" else "t{0} = {1} != 0"
         if place == "one":
-            before.append(f"t{n} = {kind}(a{n})")
+            before.append(form.format(n, f"a{n}"))
         elif place == "row":
-            in_row.append(f"t{n} = {kind}(a{n}[row])")
+            in_row.append(form.format(n, f"a{n}[row]"))
         else:
-            cuts.append(_CUTS[place].format(n))
-            array = "h" if formula.name_of(symbol) in formula.wide else "x"
-            inside.append(f"t{n} = {kind}({array}{n}[i])")
+            starts.append(_STARTS[place].format(n))
+            wide = formula.name_of(symbol) in formula.wide
+            inside.append(form.format(n, f"own[h{n} + i]" if wide else f"a{n}[x{n} + i]"))
     for left in formula.lefts:
         if left.uniform:
             lines = _left(left, f"a{formula.whole_of(left).index}")
             before += [*lines, f"t{left.index} = T({lines[-1].split()[0]})"]
         else:
-            inside.append(f"t{left.index} = l{left.index}[i]")
-    return before, in_row, cuts, inside
+            inside.append(f"t{left.index} = own[l{left.index} + i]")
+    return before, in_row, starts, inside
 
 
 def _splits(formula: Formula) -> tuple[list[str], list[str]]:
-    """Return the arrays for numbers of more digits, and the lines that make them.
+    """Return the rooms for numbers of more digits, and the lines that make them.
 
     In loops of their own, since the widest number in a loop says how many fit at a time.
     """
-    arrays, loops = [], []
+    rooms, loops = [], []
     for symbol in formula.inputs:
         n = symbol.index
         if formula.name_of(symbol) in formula.wide:
-            arrays.append(f"h{n}")
+            rooms.append(f"h{n}")
             low, most = formula.wide[formula.name_of(symbol)]
             lines = [
-                f"good = good & ({low!r} <= x{n}[i]) & (x{n}[i] <= {most!r})",
-                f"h{n}[i] = T(x{n}[i])",
+                f"given = a{n}[x{n} + i]",
+                f"good = good & ({low!r} <= given) & (given <= {most!r})",
+                f"own[h{n} + i] = T(given)",
             ]
             for left in formula.lefts:
                 if formula.whole_of(left) is symbol:
-                    arrays.append(f"l{left.index}")
-                    lines += _left(left, f"x{n}[i]")
-                    lines.append(f"l{left.index}[i] = T({lines[-1].split()[0]})")
+                    rooms.append(f"l{left.index}")
+                    lines += _left(left, "given")
+                    lines.append(f"own[l{left.index} + i] = T({lines[-1].split()[0]})")
             loops += ["for i in range(end - begin):", *_indented(*lines)]
-    return arrays, loops
+    return rooms, loops
 
 
 def _left(left: Symbol, angle: str) -> list[str]:

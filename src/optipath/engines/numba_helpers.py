@@ -58,3 +58,9 @@ def ldexp(number: Any, power: Any) -> Any:
     half = power >> 1
     first, second = (half + 1023) << 52, (power - half + 1023) << 52
     return np.float64(number) * _number_of(first) * _number_of(second)
+
+
+@nb.njit(error_model="numpy")
+def ldexp_single(number: Any, power: Any) -> Any:
+    """Return a number times two to a power, in single precision."""
+    return np.float32(ldexp(number, power))

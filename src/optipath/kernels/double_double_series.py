@@ -64,17 +64,19 @@ def cosine(angle: DoubleDouble) -> DoubleDouble:
 
 def _circular(angle: DoubleDouble, quarter: int) -> DoubleDouble:
     """Return the sine of an angle and some right angles."""
-    turns, small = _near_zero(angle, _RIGHT_PARTS)
+    known = abs(angle.high) < _HUGE
+    parts = (np.where(known, part, 0.0)[()] for part in (angle.high, angle.low))
+    turns, small = _near_zero(DoubleDouble(angle.xp, *parts), _RIGHT_PARTS)
     square = small * small
     sin, cos = small * _series(_SIGNED[1::2], square), _series(_SIGNED[::2], square)
     turns = np.remainder(turns + quarter, 4.0)
     odd, back = np.remainder(turns, 2.0) == 1.0, turns >= 2.0
     plain = (np.sin, np.cos)[quarter](angle.high)
-    parts = []
+    found = []
     for one, other, rough in ((sin.high, cos.high, plain), (sin.low, cos.low, 0.0 * plain)):
-        found = np.where(odd, other, one)
-        parts.append(np.where(abs(angle.high) < _HUGE, np.where(back, -found, found), rough)[()])
-    return DoubleDouble(angle.xp, *parts)
+        part = np.where(odd, other, one)
+        found.append(np.where(known, np.where(back, -part, part), rough)[()])
+    return DoubleDouble(angle.xp, *found)
 
 
 def exponential(number: DoubleDouble) -> DoubleDouble:

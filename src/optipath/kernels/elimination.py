@@ -9,7 +9,6 @@ digits however little that is, and no energy gets lost.
 from __future__ import annotations
 
 from functools import reduce
-from math import nan
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -137,12 +136,16 @@ class Elimination:
 
 
 def _quotient(xp: Primitives) -> Callable[..., Any]:
+    def dark(number: Any) -> Any:
+        # Next to an edge, less may get through than any slope there lets through.
+        return xp.absolute(number) < xp.within**5 if xp.within else number == 0.0
+
     def quotient(number: Any, pivot: Any, *, of_light: bool = False) -> Any:
         if isinstance(pivot, (float, np.floating)) and pivot != 0.0:
             return number / pivot
         # What would keep all light that gets there is no matter as long as none does.
         closed = pivot == 0.0
-        return number / xp.where(closed & (number == 0.0) if of_light else closed, 1.0, pivot)
+        return number / xp.where(closed & dark(number) if of_light else closed, 1.0, pivot)
 
     return quotient
 
@@ -150,8 +153,8 @@ def _quotient(xp: Primitives) -> Callable[..., Any]:
 def _difference(xp: Primitives) -> Callable[[Any], Any]:
     if not xp.within:
         return lambda difference: difference
-    # What has all but cancelled next to an edge says nothing of the slope.
-    return lambda left: xp.where(xp.absolute(left) > _LITTLE, left, nan)
+    # What has all but cancelled next to an edge says nothing of slopes; none come of dividing by 0.
+    return lambda left: xp.where(xp.absolute(left) > _LITTLE, left, 0.0)
 
 
 def is_zero(number: Any) -> bool:

@@ -26,13 +26,14 @@ class Boundaries(NamedTuple):
     ----------
     reflected, transmitted : list of Rows
         The same from either side.
-    intensity : bool
-        Whether the part is an intensity, of which nothing gets lost.
+    leaves : list of (tuple, tuple)
+        What of each part is neither reflected nor let through into another layer: at a boundary
+        behind which the light is out of the stack, and at one behind which it is not.
     """
 
     reflected: list[Rows]
     transmitted: list[Rows]
-    intensity: bool
+    leaves: list[tuple[tuple[Any, ...], tuple[Any, ...]]]
 
 
 @dataclass(frozen=True)
@@ -70,8 +71,12 @@ class Stack:
                 absorbs = k if place == len(indices) - 2 else 0.0
                 media = (*indices[place : place + 2], absorbs)
                 numbers.append(self._boundary(xp, *media, *before, c, s))
-            channels = (self._came_out(xp, _channel(numbers, rows)) for rows in _CHANNELS)
-            (Fs,), (Fp,), (C, minus_s) = channels
+            (Fs,), (Fp,) = (self._came_out(xp, _intensity(numbers, part)) for part in (0, 1))
+            # Where light is turned over at each reflection, S2 and S3 are those of -(S2, S3).
+            sign = xp.where(numbers[0][0][3] < 0.0, -1.0, 1.0)
+            C, minus_s = self._came_out(xp, _across(xp, numbers, sign))
+            if not self.through:
+                C, minus_s = sign * C, sign * minus_s
             return Fs, Fp, 0.5 * (Fs - Fp), C, -minus_s
 
         return stacked
@@ -93,7 +98,7 @@ class Stack:
             xp,
             [back for back, _ in columns],
             [leaves for _, leaves in columns],
-            [at.intensity] * len(columns),
+            [True] * len(columns),
         )
         lights = system.solved([*first, *[0.0] * (len(columns) - width)])
         down, up = lights[-2 * width : -width], lights[width : 2 * width]
@@ -105,17 +110,40 @@ class Stack:
         ]
 
 
-_CHANNELS: tuple[Callable[[Any], Rows], ...] = (
-    lambda block: ((block[0],),),
-    lambda block: ((block[1],),),
-    lambda block: ((block[3], block[4]), (-block[4], block[3])),
-)
-"""The parts of light that boundaries keep apart: along s, along p, and (S2, S3)."""
+def _intensity(numbers: Sequence[Any], part: int) -> Boundaries:
+    """Return what boundaries do to the intensity along s, or along p."""
+    reflected: list[Rows] = [((pair[0][part],),) for pair in numbers]
+    transmitted: list[Rows] = [((pair[1][part],),) for pair in numbers]
+    leaves: list[Any] = [((pair[1][part],), (0.0,)) for pair in numbers]
+    return Boundaries(reflected, transmitted, leaves)
 
 
-def _channel(numbers: Sequence[Any], rows: Callable[[Any], Rows]) -> Boundaries:
-    reflected, transmitted = ([rows(pair[side]) for pair in numbers] for side in (0, 1))
-    return Boundaries(reflected, transmitted, len(reflected[0]) == 1)
+def _across(xp: Primitives, numbers: Sequence[Any], sign: Any) -> Boundaries:
+    """Return what boundaries do to (S2, S3), of which a sign is taken at each reflection.
+
+    What is left of 1 when C and that of the other side are taken away is the sum of what each
+    leaves of (Fs + Fp) / 2, which is not computed as a difference where C is near to that.
+    """
+    reflected, transmitted, leaves = [], [], []
+    for (Fs, Fp, B, *turned), (Ts, Tp, D, c, s) in numbers:
+        C, S = (sign * number for number in turned)
+        reflected.append(_rows(C, S))
+        transmitted.append(_rows(c, s))
+        lost = _beside(xp, Fs, Fp, B, C, S)
+        out, on = lost + 0.5 * (Ts + Tp), lost + _beside(xp, Ts, Tp, D, c, s)
+        leaves.append(((out + S, out - S), (on + S + s, on - S - s)))
+    return Boundaries(reflected, transmitted, leaves)
+
+
+def _beside(xp: Primitives, Fs: Any, Fp: Any, B: Any, C: Any, S: Any) -> Any:
+    """Return (Fs + Fp) / 2 - C, where Fs Fp = C^2 + S^2."""
+    both, near = Fs + Fp, C > 0.0
+    small = 2.0 * (B * B + S * S) / xp.where(near, both + 2.0 * C, 1.0)
+    return xp.where(near, small, 0.5 * both - C)
+
+
+def _rows(C: Any, S: Any) -> Rows:
+    return (C, S), (-S, C)
 
 
 def _columns(at: Boundaries) -> list[tuple[dict[int, Any], Any]]:
@@ -138,7 +166,7 @@ def _columns(at: Boundaries) -> list[tuple[dict[int, Any], Any]]:
                 passed = [row[part] for row in at.transmitted[boundary]]
                 if onwards is not None:
                     back |= {onwards + i: number for i, number in enumerate(passed)}
-                leaves = passed[0] if onwards is None and at.intensity else 0.0
+                leaves = at.leaves[boundary][onwards is not None][part]
                 columns.append((back, leaves))
     return columns
 

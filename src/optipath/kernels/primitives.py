@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -54,7 +54,7 @@ class Primitives:
     within: float = 0.0
 
 
-@cache
+@lru_cache(4096)
 def made(factory: Callable[[Primitives], T], primitives: Primitives) -> T:
     """Return what a factory makes of primitives, made once and kept."""
     return factory(primitives)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from heapq import heappop, heappush
+from heapq import heapify, heappop, heappush
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
@@ -24,9 +24,10 @@ if TYPE_CHECKING:
 _FAINTEST = 1e-200
 """What is not followed any further, as a share of what a source emits."""
 
-_IN_VAIN = 1 << 14
-"""How many branches are followed one after the other of which nothing arrives, and more of them
-the longer the path is."""
+_PATIENCE = 1 << 10
+"""How many branches may hope to be brighter than what arrives, one after the other, and more of
+them the longer the path is, before those that have waited longest have their turn: in a loop that
+hardly any light leaves, others would hope for ever."""
 
 
 @dataclass(order=True)
@@ -64,9 +65,10 @@ class Search:
             self._ends.setdefault(reading.light, []).append(name)
         self._count = count()
         self._waiting: list[_Branch] = []
+        self._arriving: list[_Branch] = []
         self._most = self._most_that_arrives()
         self._least = 0.0
-        self._most_in_vain = _IN_VAIN + 64 * len(self.program.steps)
+        self._patience = _PATIENCE + 64 * len(self.program.steps)
 
     def paths(self, bounces: int | None) -> Iterator[LightPath]:
         """Yield the ways with so many bounces at most.
@@ -82,14 +84,14 @@ class Search:
             self._least = max(self._least, _FAINTEST * self._brightness(state))
             self._add(light, state, (self.program.steps[light].label,), 0)
         followed = 0
-        while self._waiting:
-            branch = heappop(self._waiting)
-            if branch.end:
-                yield self._arrived(branch)
-                followed = 0
+        while self._waiting or self._arriving:
+            if self._arriving and (followed >= self._patience or self._is_brightest()):
+                followed = max(0, followed - self._patience // 16)
+                yield self._arrived(heappop(self._arriving))
                 continue
+            branch = self._oldest() if followed >= self._patience else heappop(self._waiting)
             followed += 1
-            if followed > self._most_in_vain:
+            if followed > 2 * self._patience:
                 place = self.program.steps[branch.light].label
                 raise ParameterError(
                     f"of {followed} ways of light, followed as far as '{place}', none arrives "
@@ -120,7 +122,18 @@ class Search:
         hope = self._brightness(state) * (1.0 if end else self._most[light])
         if hope > self._least:
             branch = _Branch(-hope, next(self._count), light, state, route, bounces, end)
-            heappush(self._waiting, branch)
+            heappush(self._arriving if end else self._waiting, branch)
+
+    def _oldest(self) -> _Branch:
+        """Take the branch that has waited longest."""
+        branch = min(self._waiting, key=lambda waiting: waiting.number)
+        self._waiting.remove(branch)
+        heapify(self._waiting)
+        return branch
+
+    def _is_brightest(self) -> bool:
+        """Tell whether nothing can be brighter than what has arrived."""
+        return not self._waiting or self._arriving[0] < self._waiting[0]
 
     @staticmethod
     def _brightness(state: Carried) -> float:

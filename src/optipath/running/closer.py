@@ -75,12 +75,12 @@ class CloserLook:
             self._leaves[place] = self._number(self.program.leaves[place])
         return self._leaves[place]
 
-    def _number(self, view: View) -> DoubleDouble:
+    def _number(self, view: View) -> Any:
         whole = view if view.part not in ("cos", "sin") else replace(view, part="value")
         number = self.stepwise.wide_number(whole, self.given)
         if isinstance(number, tuple):
             c, s = _of_an_angle(*map(_longer, number))
-            return {"cos": c, "sin": s}.get(str(view.part)) or _TWICE.atan2(s, c)
+            return {"cos": c, "sin": s}.get(str(view.part), _TWICE.atan2(s, c))
         if whole is view:
             return _longer(number)
         return (_COS if view.part == "cos" else _SIN)(_longer(number))

@@ -117,8 +117,8 @@ class _Judged:
         first = self._doubtful(least)
         if len(self.meeting.unknowns) ** 2 > _MOST:
             closed = np.where(self.fades, closed, ~self._adds_up())
-            leaves = float(least.min(initial=1.0))
-            return Worst(bool(closed.any()), leaves, 2.0 / max(leaves, np.finfo(float).tiny))
+            left = float(least.min(initial=1.0))
+            return Worst(bool(closed.any()), left, 2.0 / max(left, np.finfo(float).tiny))
         if not first.size:
             return _HARMLESS
         matrices = self._matrices(first)

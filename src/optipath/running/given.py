@@ -58,7 +58,7 @@ class Given(NamedTuple):
     def part(self, where: tuple[Any, ...]) -> Given:
         """Return a part of what is given: an index for each axis, or a mask of the paths."""
         numbers = {
-            raw: sliced(n, self.batch, where) if isinstance(n, np.ndarray) else n
+            raw: _one_number(sliced(n, self.batch, where)) if isinstance(n, np.ndarray) else n
             for raw, n in self.numbers.items()
         }
         return Given(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
@@ -171,7 +171,7 @@ class Sorter:
         array = np.asarray(value)
         if array.dtype.char not in "fd?" or not array.dtype.isnative:
             array = array.astype(self._widest)
-        return array if array.size != 1 or array.dtype.char == "g" else array.item()
+        return _one_number(array)
 
     def _is_plain(self, name: str, value: Any) -> bool:
         """Tell whether a value may be used as it is: a float, or an array of them."""
@@ -192,6 +192,11 @@ class Sorter:
             if use.value.name == name:
                 use.check_given(resolved.value)
         return resolved
+
+
+def _one_number(array: np.ndarray[Any, Any]) -> Any:
+    """Return an array of one number as that number."""
+    return array if array.size != 1 or array.dtype.char == "g" else array.item()
 
 
 def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:

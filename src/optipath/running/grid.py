@@ -82,5 +82,5 @@ class Grid:
 
     def _cut(self, array: Array, piece: Piece) -> Array:
         """Return the numbers of a piece, one after the other."""
-        found = np.broadcast_to(array, self.batch)[piece.where]
-        return np.ascontiguousarray(found).reshape(-1)
+        whole = array if array.shape == self.batch else np.broadcast_to(array, self.batch)
+        return np.ascontiguousarray(whole[piece.where]).reshape(-1)

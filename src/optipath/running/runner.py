@@ -38,6 +38,10 @@ CACHED = 8192
 """How many paths are taken at once, step after step."""
 
 
+MOST_LAYOUTS = 64
+"""For how many kinds of batches a program is kept compiled; the oldest goes first."""
+
+
 class Manner(NamedTuple):
     """How programs are run, as `Composer` takes it."""
 
@@ -177,12 +181,13 @@ class Runner:
         arrays = {str(raw): n for raw, n in given.numbers.items() if isinstance(n, np.ndarray)}
         layout = Layout(given.batch, arrays | known)
         key = engine, what, forms, layout.key
-        if key not in self._many:
+        many = self._many.get(key)
+        if many is None:
             made = formula(dict(forms), layout.axes)
             if len(made.steps) > self.most_operations:
                 engine = "numpy"
             compiled = partial(compile_array_path, engine)
-            self._many[key] = Many(
+            many = Many(
                 made,
                 compiled,
                 layout,
@@ -190,7 +195,9 @@ class Runner:
                 read=read,
                 staged=not self.as_it_stands,
             )
-        many = self._many[key]
+            for oldest in list(self._many)[: max(0, len(self._many) - MOST_LAYOUTS + 1)]:
+                self._many.pop(oldest, None)
+            self._many[key] = many
         if many.formula.unread or not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)
         found, failed = many.results(

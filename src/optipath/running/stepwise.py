@@ -132,7 +132,7 @@ class Stepwise:
         def emitted(part: Given) -> dict[int, Components]:
             columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(part.batch))
             dark = {step: (none,) * 4 for step, _ in self.program.sources.values()}
-            return {**dark, begin: tuple(columns[:, row] for row in range(4))}  # type: ignore[dict-item]
+            return {**dark, begin: tuple(columns[:, row] for row in range(4))}
 
         lights = self._walk(given, self._ways[Linear], emitted)
         stokes = _stack(lights[reading.light][0], (4, *given.batch), reading, self.dtype)

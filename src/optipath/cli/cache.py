@@ -1,0 +1,31 @@
+"""``optipath cache``: the compiled code that is kept on disk."""
+
+from __future__ import annotations
+
+import json
+
+import click
+
+from optipath.engines.code_cache import CODE
+
+
+@click.command()
+@click.option("--clear", is_flag=True, help="Remove all that is kept.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
+def cache(*, clear: bool, as_json: bool) -> None:
+    """Show the folder of compiled code and how much it holds, or clear it."""
+    removed = CODE.clear() if clear else 0
+    entries = CODE.entries()
+    found = {
+        "folder": str(CODE.folder),
+        "entries": len(entries),
+        "bytes": sum(entry.length for entry in entries),
+        "limit": CODE.limit,
+    }
+    if as_json:
+        click.echo(json.dumps(found | ({"removed": removed} if clear else {})))
+    elif clear:
+        click.echo(f"removed {removed} entries from {found['folder']}")
+    else:
+        for name, value in found.items():
+            click.echo(f"{name:8} {value if isinstance(value, str) else f'{value:,}'}")
