@@ -75,7 +75,7 @@ class Use:
         """Return for which paths a value that JAX traces is allowed; True for any other."""
         value: Any = self.value
         parameter = isinstance(value, Parameter)
-        numbers = resolved[value.name].value if self.is_open else value
+        numbers: Any = resolved[value.name].value if self.is_open else value
         numbers = numbers.default if parameter and value.bound else numbers
         if not is_traced(numbers):
             return True
