@@ -77,5 +77,5 @@ def _counting(counts: Counter[str]) -> tuple[Primitives, _Counted]:
     pair: Callable[..., Any] = lambda *_: (number, number)  # noqa: E731
     names = ("where", "absolute", "maximum", "minimum", "sin", "cos", "exp", "atan2")
     others = ("ldexp", "hidden", "fixed")
-    functions = dict.fromkeys((*names, *others), one)
+    functions: dict[str, Any] = dict.fromkeys((*names, *others), one)
     return Primitives(sqrt=root, frexp=pair, two_product=pair, **functions), number

@@ -73,13 +73,8 @@ def sloped(dtype: np.dtype[Any]) -> Primitives:
     return replace(JAX, sqrt=root, within=within)
 
 
-@jax.custom_jvp
-def _with_slopes(value: Any, of: Any) -> Any:
-    """Return a value with the slopes of another number."""
-    del of
-    return value
-
-
+_with_slopes: Any = jax.custom_jvp(lambda value, of: value)  # noqa: ARG005 - its slopes
+"""A value with the slopes of another number."""
 _with_slopes.defjvps(None, lambda tangent, *_: tangent)
 
 
