@@ -118,14 +118,8 @@ def sloped(dtype: np.dtype[Any]) -> Primitives:
     return replace(JAX, sqrt=root, within=within)
 
 
-def _first(value: Any, of: Any) -> Any:
-    del of
-    return value
-
-
-_with_slopes = jax.custom_jvp(_first)
-"""``(value, of)``: the value, with the slopes of another number."""
-
+_with_slopes: Any = jax.custom_jvp(lambda value, of: value)  # noqa: ARG005 - its slopes
+"""A value with the slopes of another number."""
 _with_slopes.defjvps(None, lambda tangent, *_: tangent)
 
 
