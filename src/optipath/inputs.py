@@ -74,8 +74,8 @@ class Use:
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths a value that JAX traces is allowed; True for any other."""
         value, parameter = self.value, isinstance(self.value, Parameter)
-        numbers = resolved[value.name].value if self.is_open else value
-        numbers = numbers.default if parameter and value.bound else numbers
+        numbers: Any = value.default if parameter and value.bound else value
+        numbers = resolved[value.name].value if self.is_open else numbers
         if not is_traced(numbers):
             return True
         signed = -numbers if parameter and value.negative else numbers
