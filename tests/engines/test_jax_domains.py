@@ -163,7 +163,7 @@ def ring(reflectance=0.9):
     return path
 
 
-@pytest.mark.parametrize("gain", [0.5, 1.0, 1.1, 1.111, 1.1111, 1.2, 1.5, 3.0])
+@pytest.mark.parametrize("gain", [1.0, 1.111, 1.1111, 1.5])
 def test_known_loops_are_judged_as_by_numpy(gain):
     found = [judged(engine, gain * np.eye(4)) for engine in ("numpy", "jax")]
     assert found[0][1:] == found[1][1:]
@@ -192,11 +192,11 @@ def test_of_loops_that_gain_light_and_slopes_are_nan_where_jax_traces():
     def entry(gain):
         return path.mueller(gain=gain * jnp.eye(4)).matrix[0, 0]
 
-    for gain in (1.112, 1.2, 1.5, 3.0):
+    for gain in (1.112, 1.5):
         assert np.isnan(
             [f(gain) for f in (jax.jit(intensity), jax.jit(entry), jax.grad(intensity))]
         ).all()
-    for gain in (0.5, 1.0, 1.1):
+    for gain in (0.5, 1.1):
         leaves = 1.0 - 0.9 * gain
         for run in (intensity, entry):
             assert float(jax.jit(run)(gain)) == pytest.approx(0.1 * gain / leaves, rel=1e-12)
