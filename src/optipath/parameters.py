@@ -142,12 +142,11 @@ class Parameter:
                 f"parameter '{self.name}' cannot have the word {shown(word)}; begin with a letter, "
                 f"and keep '{ABSENT}' for an element that is left out"
             )
-        number = self.resolve(value).value
-        if isinstance(value, str) or number.ndim or number.dtype.kind == "c":
-            raise ParameterError(
-                f"the word '{word}' of parameter '{self.name}' must be a number, not {shown(value)}"
-            )
-        return float(number)
+        what = f"the word '{word}' of parameter '{self.name}'"
+        number = array_of(what, value, ParameterError, (self.minimum, self.maximum))
+        if isinstance(value, str) or number.ndim or number.dtype.kind not in "iuf":
+            raise ParameterError(f"{what} must be a number, not {shown(value)}")
+        return float(self.resolve(value).value)
 
     def _as_number(self, value: Any) -> Any:
         """Return a default with its texts read; words stay words."""

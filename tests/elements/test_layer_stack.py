@@ -85,9 +85,9 @@ def test_a_stack_goes_into_a_file_and_back():
 @pytest.mark.parametrize(
     ("indices", "message"),
     [
-        (1.5, "give a list of two indices or more"),
+        (1.5, "must be a sequence of two indices or more, not 1.5"),
         ([1.5], "give a list of two indices or more"),
-        (None, "give a list of two indices or more"),
+        (None, "must be a sequence of two indices or more, not None"),
         (op.Parameter("n"), "cannot be the parameter 'n'; give a list"),
         ([1.0, 1.5 + 1j, 1.0], r"indices\[1\] is complex.*Interfaces with a Medium"),
         ([1.0, op.Material(1.5, 0.1), 1.0], r"indices\[1\]\.k is 0\.1"),

@@ -156,7 +156,7 @@ class IndicesDomain(Domain):
         ValueFault
             Always, since good lists are checked by their parts.
         """
-        entries_of(owner, "indices", value)
+        entries_of(owner, "two indices or more", value)
         raise ValueFault(
             f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
             f"first and the substrate last"
