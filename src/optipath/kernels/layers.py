@@ -110,6 +110,9 @@ class Stack:
         ]
 
 
+_LITTLE = 1e-3
+
+
 def _intensity(numbers: Sequence[Any], part: int) -> Boundaries:
     """Return what boundaries do to the intensity along s, or along p."""
     reflected: list[Rows] = [((pair[0][part],),) for pair in numbers]
@@ -137,7 +140,8 @@ def _across(xp: Primitives, numbers: Sequence[Any], sign: Any) -> Boundaries:
 
 def _beside(xp: Primitives, Fs: Any, Fp: Any, B: Any, C: Any, S: Any) -> Any:
     """Return (Fs + Fp) / 2 - C, where Fs Fp = C^2 + S^2."""
-    both, near = Fs + Fp, C > 0.0
+    # Below, the difference has digits enough beside what else leaves.
+    both, near = Fs + Fp, C > _LITTLE
     small = 2.0 * (B * B + S * S) / xp.where(near, both + 2.0 * C, 1.0)
     return xp.where(near, small, 0.5 * both - C)
 
