@@ -265,7 +265,7 @@ def _unit(name: str, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64
     if np.any(scale == 0.0):
         raise FrameError(f"{name} has no length; give a vector with a direction of its own")
     scaled = vectors / scale
-    return scaled / np.linalg.norm(scaled, axis=-1, keepdims=True)  # type: ignore[no-any-return]
+    return scaled / np.linalg.norm(scaled, axis=-1, keepdims=True)  # type: ignore[no-any-return,unused-ignore]
 
 
 def _text(vector: npt.NDArray[np.float64]) -> str:

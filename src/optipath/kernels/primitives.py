@@ -111,7 +111,7 @@ _SPLITTERS = {kind: _splitter(kind) for kind in "fdg"}
 
 def _fused_two_product(a: float, b: float) -> tuple[float, float]:
     product = a * b
-    return product, math.fma(a, b, -product)  # type: ignore[attr-defined] # Python 3.13
+    return product, math.fma(a, b, -product)  # type: ignore[attr-defined,unused-ignore] # Python 3.13
 
 
 NUMPY = Primitives(
