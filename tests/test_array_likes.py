@@ -332,3 +332,23 @@ def test_the_user_may_interrupt_an_array_of_his_own():
 
 def test_what_cannot_be_compared_is_not_equal():
     assert not operator.eq(op.Rotator(Raises()), op.Rotator(0.5))
+
+
+@pytest.mark.parametrize("endless", [range(10**12), range(2**62)])
+def test_more_numbers_than_there_is_memory_for_are_refused_before_they_are_made(endless):
+    for give in (
+        lambda: path().trace(theta=endless),
+        lambda: op.fresnel_reflection(1.5, endless, 0.8),
+        lambda: op.Light(endless),
+        lambda: op.Parameter("x", endless),
+    ):
+        with pytest.raises(op.OptipathError, match="entries, more than this machine has memory"):
+            give()
+
+
+@pytest.mark.parametrize("most", [np.longdouble("1e400"), -np.longdouble("1e400")])
+def test_what_is_beyond_a_double_is_refused_in_a_sentence(most):
+    if not np.isfinite(most):
+        pytest.skip("longdouble is float64 here")
+    with pytest.raises(op.OptipathError):
+        op.load_preset("glass-slab").trace_all(length=most, absorption=np.zeros(3, "g"))

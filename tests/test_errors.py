@@ -8,6 +8,7 @@ from multiprocessing import get_context
 import pytest
 
 import optipath as op
+from failing import fails
 from optipath import errors, quoting
 
 KINDS = [
@@ -43,14 +44,10 @@ def test_an_error_is_the_same_after_a_copy(error):
         assert again.__dict__ == error.__dict__
 
 
-def fails(_):
-    raise errors.MissingExtraError("plots", "matplotlib", "plot")
-
-
 def test_an_error_comes_out_of_another_process():
     told = pytest.raises(errors.MissingExtraError, match=r"optipath\[plot\]")
     with get_context("spawn").Pool(1) as pool, told:
-        pool.apply_async(fails, (1,)).get(timeout=60)
+        pool.apply_async(fails).get(timeout=60)
 
 
 class Unprintable:

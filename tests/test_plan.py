@@ -283,3 +283,17 @@ def test_a_case_of_what_is_no_mapping_is_refused(odd):
         op.Case({}, odd)
     with pytest.raises(op.ParameterError, match="published at eye must be numbers"):
         op.Case({}, {"eye": odd if isinstance(odd, str) else "words"})
+
+
+@pytest.mark.parametrize("give", ["threads", "tolerance", "limit", "count", "size"])
+def test_a_duration_is_no_number(give):
+    days = np.timedelta64(3, "D")
+    path = op.load_preset("malus")
+    with pytest.raises(op.OptipathError, match="must be a"):
+        {
+            "threads": lambda: op.Composer(threads=days),
+            "tolerance": lambda: op.Composer(tolerance=days),
+            "limit": lambda: path.paths(limit=days),
+            "count": lambda: path.compose().engine_for(days),
+            "size": lambda: next(path.compose().stream(days, angle=[0.1])),
+        }[give]()

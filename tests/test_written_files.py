@@ -76,3 +76,19 @@ def test_devices_are_written_to_and_not_replaced():
 def test_the_longest_names_can_be_written(tmp_path):
     write_file(tmp_path / ("a" * 255), b"new")
     assert names(tmp_path) == ["a" * 255]
+
+
+def test_a_pipe_is_written_to_by_any_of_its_names():
+    reads, writes = os.pipe()
+    write_file(Path(f"/dev/fd/{writes}"), b"light")
+    os.close(writes)
+    with os.fdopen(reads, "rb") as pipe:
+        assert pipe.read() == b"light"
+
+
+def test_links_that_lead_to_each_other_are_left_as_they_are(tmp_path):
+    (tmp_path / "a").symlink_to("b")
+    (tmp_path / "b").symlink_to("a")
+    with pytest.raises(OSError, match="Too many levels"):
+        write_file(tmp_path / "a", b"light")
+    assert (tmp_path / "a").is_symlink()

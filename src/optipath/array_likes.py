@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault
+from optipath.memory import memory
 from optipath.quoting import shown
 from optipath.roundings import ENDLESS, NARROW, RIGHT_ANGLES, doubles, with_limits
 
@@ -20,6 +21,8 @@ _PLAIN = frozenset(
     {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
 )
 _DEEPEST = 64
+_NUMBER = 8
+"""How many bytes a number takes."""
 _LABELS = ("to_numpy", "dims", "coords", "columns")
 _UNITS = ("unit", "units")
 _CURES = {"to_numpy": ".to_numpy()", "values": ".values"}
@@ -81,12 +84,13 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
         return np.asarray(value)
     try:
         _refuse_endless(value)
+        _refuse_too_long(value)
         kinds = _kinds(value, set())
         array = np.asarray(value)
     except _MoreThanNumbers as more:
         raise error(f"{what} {more}") from None
     except MemoryError:
-        raise
+        raise error(f"{what} takes more memory than there is; give fewer numbers") from None
     except Exception as fault:  # noqa: BLE001 - what is given may raise anything
         raise error(f"{what} {_reason(fault)}") from None
     if array.dtype.kind == "U" and not isinstance(value, str):
@@ -122,6 +126,7 @@ def entries_of(
     """
     try:
         _refuse_more(value)
+        _refuse_too_long(value)
         # What never ends has no length.
         if len(value) >= 0 and not isinstance(value, (str, bytes, AbstractSet, Mapping)):
             return tuple(value)
@@ -129,7 +134,7 @@ def entries_of(
     except _MoreThanNumbers as more:
         reason = str(more)
     except MemoryError:
-        raise
+        reason = "takes more memory than there is"
     except Exception:  # noqa: BLE001 - what is given may raise anything
         reason = f"must be a sequence of {each}, not {shown(value)}; for one, write [...]"
     raise error(f"{what} {reason}")
@@ -163,6 +168,13 @@ def _refuse_endless(value: Any) -> None:
         value, depth = value[0], depth + 1
         if depth > _DEEPEST:
             raise _MoreThanNumbers(f"is a list in lists, more than {_DEEPEST} deep; give numbers")
+
+
+def _refuse_too_long(value: Any) -> None:
+    """Refuse a sequence that says how long it is, and is longer than there is memory for."""
+    long = not isinstance(value, (str, bytes, np.ndarray)) and hasattr(type(value), "__len__")
+    if long and (length := len(value)) * _NUMBER > memory():
+        raise _MoreThanNumbers(f"has {length:.3g} entries, more than this machine has memory for")
 
 
 def _refuse_more(value: Any) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from difflib import get_close_matches
 from numbers import Integral
@@ -194,8 +194,9 @@ def whole_number(what: str, number: object, least: int = 1) -> list[str]:
     >>> whole_number("threads", 1.5), whole_number("threads", 2)
     (['threads must be a whole number of 1 or more, not 1.5'], [])
     """
-    if isinstance(number, Integral) and not isinstance(number, bool) and int(number) >= least:
-        return []
+    with suppress(TypeError):  # NumPy's durations are integers that no number is compared with
+        if isinstance(number, Integral) and not isinstance(number, bool) and int(number) >= least:
+            return []
     return [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
 
 

@@ -13,7 +13,7 @@ from optipath.errors import ParameterError, UnitError, did_you_mean
 from optipath.frozen import frozen, same
 from optipath.jax_values import is_traced, namespace
 from optipath.quoting import shown
-from optipath.roundings import doubles, within
+from optipath.roundings import doubles, traced_within, within
 from optipath.units import dimension_of, format_quantity, parse_quantity
 
 if TYPE_CHECKING:
@@ -199,9 +199,9 @@ class Parameter:
         """
         if isinstance(raw, CosSin):
             raw = self._angle(raw)
-        if is_traced(raw):
-            return Resolved(raw, np.ones((), dtype=bool))
         limits = limits or (self.minimum, self.maximum)
+        if is_traced(raw):
+            return Resolved(traced_within(raw, limits), np.ones((), dtype=bool))
         # Arrays stay in the precision in which they are given, by which some are judged.
         array = within(as_given(f"parameter '{self.name}'", raw, ParameterError), limits)
         present = np.ones(array.shape, dtype=bool)

@@ -50,7 +50,8 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
         return with_limits(array.astype(np.float64), array.dtype.type, limits)
     if array.dtype.type is np.longdouble and limits != ENDLESS:
         beyond = (array < limits[0]) | (array > limits[1])
-        near = array.astype(np.float64)
+        with np.errstate(over="ignore"):
+            near = array.astype(np.float64)
         return np.where(beyond & np.isin(near, limits), near, array)
     return array
 
@@ -70,6 +71,23 @@ def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
     return bool(
         (low < limits[0] and array.min() == low) or (high > limits[1] and array.max() == high)
     )
+
+
+def traced_within(numbers: Any, limits: tuple[float, float]) -> Any:
+    """Return numbers that JAX traces as `within` does, with their slopes.
+
+    Examples
+    --------
+    >>> float(traced_within(np.float32(np.pi / 2.0), (0.0, np.pi / 2.0))) == np.pi / 2.0
+    True
+    """
+    kind = np.dtype(numbers.dtype).type
+    if kind in NARROW:
+        for limit, rounded in zip(limits, _rounded(kind, limits), strict=True):
+            if limit != rounded:
+                # The difference is exact, and a sum keeps slopes.
+                numbers = numbers - (numbers == kind(rounded)) * np.float64(rounded - limit)
+    return numbers
 
 
 def rounding_of(array: Array) -> float:

@@ -29,10 +29,13 @@ def write_file(file: Path, content: bytes) -> None:
     ...     [(file.name, file.read_bytes()) for file in Path(folder).iterdir()]
     [('a.txt', b'light')]
     """
-    place = Path(os.path.realpath(file))
-    if place.exists() and not place.is_file():
-        place.write_bytes(content)
+    # The real path of a pipe is none.
+    if file.exists() and not file.is_file():
+        file.write_bytes(content)
         return
+    place = Path(os.path.realpath(file))
+    if place.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
     if place.exists() and not os.access(place, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
     draft = place.with_name(f".{secrets.token_hex(8)}.draft")

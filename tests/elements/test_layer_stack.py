@@ -128,3 +128,19 @@ def test_all_components_keep_their_digits_though_next_to_nothing_gets_through():
         for name, light in path.trace_all().items():
             expected = np.array([float(part) for part in exact[name]])
             np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=2e-14 * expected[0])
+
+
+@pytest.mark.parametrize("n", [1e-3, 1e20, 1e45, 1e59])
+def test_a_layer_of_any_index_lets_through_what_the_closed_form_says(n):
+    # With T of one face, T / (2 - T) of both; T_s = 4 c / n and T_p = 4 / (c n) for large n.
+    c = np.cos(0.9)
+    total = np.sin(0.9) > n
+    expected = 0.0 if total else (2.0 * c + 2.0 / c) / (2.0 * n)
+    found = op.LayerStack([1.0, n, 1.0], 0.9).mueller("in", "transmitted")
+    np.testing.assert_allclose(found.matrix[0, 0], expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("n", [1e61, 1e-61, 1e150])
+def test_an_index_whose_waves_have_squares_that_vanish_is_refused(n):
+    with pytest.raises(op.OptipathError, match=r"indices\[1\] is .* within 1e-60 \.\. 1e\+60"):
+        op.LayerStack([1.0, n, 1.0], 0.9).mueller("in", "transmitted")

@@ -219,3 +219,29 @@ def test_random_rings_are_nan_exactly_where_they_are_refused():
                 assert np.isnan(traced(gain)).all()
                 continue
         np.testing.assert_allclose(traced(gain), expected, rtol=1e-9, atol=1e-9 * expected[0])
+
+
+@pytest.mark.parametrize("method", ["stable", "amplitude"])
+def test_a_traced_right_angle_of_single_precision_is_grazing_incidence(method):
+    path = op.PathGraph()
+    for name, element in {
+        "lamp": op.Source(),
+        "glass": op.Interface(1.5, op.Parameter("a")),
+        "back": op.Detector(),
+        "on": op.Detector(),
+    }.items():
+        path.add(name, element)
+    path.connect("lamp.out", "glass.in")
+    path.connect("glass.reflected", "back.in")
+    path.connect("glass.transmitted", "on.in")
+    plan = op.Composer(method=method, engine="jax").compose(path)
+
+    def lights(angle):
+        return {name: light.stokes for name, light in plan.run_all(a=angle).items()}
+
+    right = jax.numpy.float32(np.pi / 2.0)
+    found, exact = jax.jit(lights)(right), lights(np.pi / 2.0)
+    slope, wide = jax.jacfwd(lights)(right), jax.jacfwd(lights)(np.pi / 2.0)
+    for name, stokes in exact.items():
+        np.testing.assert_array_equal(found[name], stokes)
+        np.testing.assert_allclose(slope[name], wide[name], rtol=1e-6)

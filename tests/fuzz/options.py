@@ -38,7 +38,7 @@ def _compared(seed, *, loops, options, times):
     for _ in range(times):
         found = plan.run_all(**draw.values)
         for name, light in expected.items():
-            check_light(found[name], emitted)
+            check_light(found[name])
             read = ~np.isnan(found[name].stokes)
             error = np.abs(found[name].stokes - light.stokes)[read]
             assert (error <= 1e-11 * emitted).all(), f"{name} is off by {error.max():g}"

@@ -139,7 +139,8 @@ class Composer:
         given = self.tolerance
         if given is None:
             return []
-        if isinstance(given, bool) or not isinstance(given, Real) or not 0.0 < given < 1.0:
+        is_number = isinstance(given, Real) and type(given).__name__ not in ("bool", "timedelta64")
+        if not is_number or not 0.0 < given < 1.0:
             allowed = "a number between 0 and 1, such as 0.01 for 1 %"
             return [
                 f"tolerance must be {allowed}, not {shown(given)}; leave it out for exact plans"

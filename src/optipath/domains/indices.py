@@ -119,8 +119,8 @@ class InnerDomain(OutsideDomain):
     def described(self) -> str:
         """Say in words which values are allowed."""
         return (
-            "a real index of refraction above 0; what a layer absorbs depends on how thick it is: "
-            "link Interfaces with a Medium between"
+            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; what a layer "
+            f"absorbs depends on how thick it is: link Interfaces with a Medium between"
         )
 
 
@@ -185,5 +185,6 @@ INDEX = IndexDomain("index of refraction")
 OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
 OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=_LEAST)
 LIT_BEHIND = LitBehind("index of refraction", minimum=_LEAST)
-INNER = InnerDomain("index of refraction", minimum=_LEAST)
+# Beyond, waves across a layer have squares that vanish.
+INNER = InnerDomain("index of refraction", minimum=1e-60, maximum=1e60)
 INDICES = IndicesDomain("indices of refraction")

@@ -114,16 +114,9 @@ class CodeCache:
 
         That something is compiled is told to the log, so that nobody wonders what he waits for.
         """
-        from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
-
         with self._lock:
             if text not in self._functions:
-                code = self.load(text)
-                if code is None:
-                    _LOGGER.warning("compiling a path for Numba")
-                    code = compiled(text)
-                    self.keep(text, code)
-                self._functions[text] = MachineCode(code)
+                self._functions[text] = self._kept(text) or self._made(text, compiled)
             self._functions.move_to_end(text)
             found = self._functions[text]
             try:
@@ -134,6 +127,24 @@ class CodeCache:
             while len(self._functions) > most:
                 self._functions.popitem(last=False)
             return found
+
+    def _kept(self, text: str) -> MachineCode | None:
+        from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
+
+        code = self.load(text)
+        try:
+            return None if code is None else MachineCode(code)
+        except (RuntimeError, ValueError):
+            self.tell("a file of compiled code cannot be run; it is compiled anew")
+        return None
+
+    def _made(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
+        from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
+
+        _LOGGER.warning("compiling a path for Numba")
+        code = compiled(text)
+        self.keep(text, code)
+        return MachineCode(code)
 
     def load(self, text: str) -> bytes | None:
         """Return what is kept on disk for a text, or None."""

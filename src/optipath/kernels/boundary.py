@@ -79,23 +79,30 @@ def from_within(xp: Primitives, power: int = 1) -> Callable[[Any], Any]:
 _SMALL, _FAR = 2.0**-60, 2.0**100
 """What has a square that may vanish in float32, and what takes it back among the others."""
 
+_VANISHING = 2.0**-500
+
 
 def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
-    """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0 within 1e-180 .. 1e18, or 0.
+    """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0, the larger of at most 1e18.
+
+    Below 1e-150 it is the larger, as it is where the other is much smaller.
 
     Examples
     --------
     >>> from optipath.kernels import FLOAT
-    >>> hypotenuse(FLOAT)(3e-170, 4e-170)
-    5e-170
+    >>> hypotenuse(FLOAT)(3e-140, 4e-140), hypotenuse(FLOAT)(1e-240, 0.0)
+    (5e-140, 1e-240)
     """
     sqrt, where, maximum = xp.sqrt, xp.where, xp.maximum
 
     def length(x: Any, y: Any) -> Any:
-        small = maximum(x, y) < _SMALL
+        longer = maximum(x, y)
+        small = longer < _SMALL
         x, y = where(small, _FAR * x, x), where(small, _FAR * y, y)
         squared = sqrt(x * x + y * y)
-        return where(small, squared * (1.0 / _FAR), squared)
+        # Where even these squares vanish, it is the longer side.
+        near = where(longer < _VANISHING, longer, squared * (1.0 / _FAR))
+        return where(small, near, squared)
 
     return length
 
