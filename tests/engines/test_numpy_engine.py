@@ -3,6 +3,7 @@
 from functools import reduce
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -79,3 +80,38 @@ def test_lights_are_let_go_when_nothing_reads_them_any_more():
     program = chain([op.Rotator(0.1)] * 3, [1.0, 0, 0, 0]).compose().program
     assert program.light_uses == (1,) * len(program.steps)
     assert sum(program.evaluation_uses) == len(program.steps)
+
+
+N, K, M, A = map(op.Parameter, "nkma")
+ENTERED = {
+    "glass": op.Interface(N, A),
+    "metal": op.Interface(op.Material(N, K), A),
+    "glass from a denser medium": op.Interface(N, A, outside=M),
+    "a later face": op.Interface(N, A, outside=M, incidence_in=1.2),
+    "a layer": op.LayerStack([1.0, M, N], A),
+    "a layer of glass": op.LayerStack([1.0, 1.5, N], A),
+    "glass in water": op.Interface(N, A, outside=1.33),
+    "a layer on metal": op.LayerStack([1.0, M, op.Material(N, K)], A),
+}
+
+
+@pytest.mark.parametrize("element", ENTERED)
+@pytest.mark.parametrize("port", ["reflected", "transmitted"])
+@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+def test_formulas_give_what_the_steps_give_by_every_method(element, port, method):
+    rng = np.random.default_rng(3)
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=[1.3, 0.4, -0.55, 0.6]))
+    path.add("it", ENTERED[element])
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", "it.in")
+    path.connect(f"it.{port}", "eye.in")
+    plan = op.Composer(method=method, engine="numpy").compose(path)
+    for most in (2.0, 0.0):
+        spans = {"n": (0.7, 2.2), "m": (1.2, 2.2), "k": (0.0, most), "a": (0.0, 1.5)}
+        values = {name: rng.uniform(*spans[name], 3000) for name in plan.inputs.open}
+        few = plan.run(**{name: numbers[:9] for name, numbers in values.items()}).stokes
+        # From the fourth on, single runs are compiled.
+        each = [{name: float(numbers[i]) for name, numbers in values.items()} for i in range(9)]
+        np.testing.assert_allclose(plan.run(**values).stokes[:9], few, atol=1e-11)
+        np.testing.assert_allclose([plan.run(**one).stokes for one in each], few, atol=1e-11)

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.formulas.left import FROM_ANY, FROM_NEARER
 from optipath.formulas.recorder import ONE_AXIS
+from optipath.formulas.symbol import Symbol
 from optipath.formulas.symbolic import SYMBOLIC, record, with_polynomials
 from optipath.kernels import cosine, sine, without_rounding
 from optipath.kernels.trigonometry import DIGITS, any_quadrant, first_quadrant
@@ -130,6 +131,8 @@ class Leaves:
         if view.part == "cos":
             return cos
         found = sin if view.part == "sin" else record("arctan2", sin, cos)
+        if found is not sin and isinstance(found, Symbol):
+            self.recorder.pairs[found.index] = sin, cos
         return -found if view.value.negative else found
 
     def _part(self, raw: Raw, least: float) -> Any:

@@ -32,8 +32,8 @@ def _of_pair(angle: Any) -> tuple[Any, Any] | None:
     """Return (sin, cos) of an angle, or twice one, that is known by its sine and cosine."""
     if not isinstance(angle, Symbol):
         return None
-    if angle.operation == "arctan2":
-        return angle.operands
+    if angle.index in angle.recorder.pairs:
+        return angle.recorder.pairs[angle.index]
     if angle.operation == "negative":
         pair = _of_pair(angle.operands[0])
         return pair and (-pair[0], pair[1])
