@@ -352,3 +352,7 @@ def test_what_is_beyond_a_double_is_refused_in_a_sentence(most):
         pytest.skip("longdouble is float64 here")
     with pytest.raises(op.OptipathError):
         op.load_preset("glass-slab").trace_all(length=most, absorption=np.zeros(3, "g"))
+    with pytest.raises(op.OptipathError):
+        op.load_preset("npgr026").bind(n2=most).trace_all()
+    with pytest.raises(op.OptipathError):
+        op.load_preset("npgr026").bind(n2=np.array([most, 1.0])).trace_all()

@@ -10,6 +10,7 @@ from optipath.array_likes import array_of
 from optipath.errors import ParameterError
 from optipath.frozen import frozen, same
 from optipath.quoting import shown
+from optipath.roundings import as_doubles
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,4 +68,4 @@ def _numbers(name: Any, stokes: Any) -> tuple[float, ...]:
     array = array_of(f"what is published at {name}", stokes, ParameterError)
     if array.ndim != 1 or array.dtype.kind not in "iuf":
         raise ParameterError(f"what is published at {name} must be numbers, not {shown(stokes)}")
-    return tuple(array.astype(float).tolist())
+    return tuple(as_doubles(array).tolist())

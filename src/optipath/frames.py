@@ -11,7 +11,7 @@ from optipath.errors import FrameError, ShapeError
 from optipath.frozen import frozen
 from optipath.kernels import ALIGN, NUMPY
 from optipath.quoting import shown
-from optipath.roundings import rounding_of
+from optipath.roundings import as_doubles, rounding_of
 from optipath.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -227,7 +227,7 @@ def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     array = array_of(what, value, FrameError)
     if array.dtype.kind not in "iufb":
         raise FrameError(f"{what} must be numbers, not {shown(value)}")
-    array = array.astype(np.float64, copy=False)
+    array = as_doubles(array)
     if not np.all(np.isfinite(array)):
         raise FrameError(f"{what} must be finite; check for NaN and infinity")
     return array

@@ -36,6 +36,18 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     return within(array, RIGHT_ANGLES).astype(np.float64) if kind in NARROW else array
 
 
+def as_doubles(array: Array) -> Array:
+    """Return numbers as doubles; what is larger than any of these is infinite.
+
+    Examples
+    --------
+    >>> as_doubles(np.array([1.0, 2.0], np.longdouble)).dtype
+    dtype('float64')
+    """
+    with np.errstate(over="ignore"):
+        return array.astype(np.float64, copy=False)
+
+
 def within(array: Array, limits: tuple[float, float]) -> Array:
     """Return numbers; those beyond a limit by its rounding to their precision, as that limit.
 
@@ -50,8 +62,7 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
         return with_limits(array.astype(np.float64), array.dtype.type, limits)
     if array.dtype.type is np.longdouble and limits != ENDLESS:
         beyond = (array < limits[0]) | (array > limits[1])
-        with np.errstate(over="ignore"):
-            near = array.astype(np.float64)
+        near = as_doubles(array)
         return np.where(beyond & np.isin(near, limits), near, array)
     return array
 

@@ -24,7 +24,7 @@ def make(rng):
             options[name] = rng.choice(choices)
     times = rng.choice([1, 5])
     shown = f"Draw({seed}).path(loops={loops}), {options}, {times} times"
-    return Attack(shown, lambda: _compared(seed, loops=loops, options=options, times=times))
+    return Attack(shown, lambda: _compared(seed, loops=loops, options=options, times=times), 60.0)
 
 
 def _compared(seed, *, loops, options, times):

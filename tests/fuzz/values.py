@@ -54,6 +54,6 @@ def _of_an_element(rng):
             _ = one >> other
         light = path.trace()
         if not isinstance(element, (op.MuellerElement, op.Source)):
-            check_light(light, emitted=1.0 + 1e-11)
+            check_light(light, emitted=1.0 + 1e-5)
 
     return Attack(f"op.{made.__name__}({texts})", act)

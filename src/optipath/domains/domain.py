@@ -15,7 +15,7 @@ from optipath.frozen import frozen
 from optipath.jax_values import is_traced, namespace
 from optipath.parameters import Parameter
 from optipath.quoting import shown
-from optipath.roundings import doubles, rounding_of
+from optipath.roundings import as_doubles, doubles, rounding_of
 from optipath.units import USUAL_UNITS, format_quantity
 
 
@@ -151,7 +151,7 @@ class Domain:
         if np.isinf(self.minimum) and np.isinf(self.maximum):
             return
         # Limits are doubles, and what rounds to one of them is inside.
-        rounded = array.astype(np.float64, copy=False)
+        rounded = as_doubles(array)
         bad = ~self.allows(rounded)
         if np.any(bad):
             value = self._text(float(array[bad].ravel()[0]))

@@ -9,7 +9,7 @@ import numpy as np
 from optipath.array_likes import as_given
 from optipath.errors import ShapeError, ValueFault
 from optipath.quoting import shown
-from optipath.roundings import rounding_of
+from optipath.roundings import as_doubles, rounding_of
 from optipath.shapes import check_broadcast
 from optipath.vertices.naming import of_chain, pieces_of
 
@@ -55,7 +55,7 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     if given.shape[-2:] != (count, 3):
         return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
     tolerance = max(_TOLERANCE, 2.0 * rounding_of(given))
-    given = given.astype(np.float64, copy=False)
+    given = as_doubles(given)
     if chains is None:
         return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
     shapes = {"vertices": chains.shape[:-2], "normals": given.shape[:-2]}
