@@ -12,6 +12,14 @@ START = [sys.executable, "-m", "optipath"]
 WAITS = "import sys, time; print('waits', flush=True); time.sleep(600)\n"
 
 
+@pytest.fixture(autouse=True)
+def interrupts_are_heard():
+    """Whoever runs tests in the background of a shell has interrupts ignored, and so has a child."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
 def with_library(folder, name, text):
     """Return an environment in which a library is replaced by a module."""
     (folder / f"{name}.py").write_text(text, "utf-8")
@@ -31,7 +39,10 @@ def interrupted(arguments, environment, sent, start=START):
         assert process.stdout.readline() == "waits\n"
         time.sleep(0.05)
         process.send_signal(sent)
-        _, told = process.communicate(timeout=60)
+        try:
+            _, told = process.communicate(timeout=60)
+        finally:
+            process.kill()
     return process.returncode, told
 
 
