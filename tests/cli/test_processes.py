@@ -14,7 +14,7 @@ WAITS = "import sys, time; print('waits', flush=True); time.sleep(600)\n"
 
 @pytest.fixture(autouse=True)
 def interrupts_are_heard():
-    """Whoever runs tests in the background of a shell has interrupts ignored, and so has a child."""
+    """In the background of a shell they are ignored, and so they are by what is started there."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
