@@ -1,9 +1,12 @@
 """Loops of elements that amplify, of any diattenuation and depolarisation, and their radius."""
 
+from itertools import islice
+
 import numpy as np
 from mpmath import mp
 
 import optipath as op
+from paths import composable
 
 _TO_STOKES = np.array([[1, 0, 0, 1], [1, 0, 0, -1], [0, 1, 1, 0], [0, 1j, -1j, 0]])
 
@@ -91,13 +94,4 @@ class Network:
 
 def networks(count, first=0):
     """Yield networks that can be composed: all of each is lit."""
-    seed = first
-    while count:
-        network = Network(seed)
-        seed += 1
-        try:
-            network.path.check()
-        except op.PathError:
-            continue
-        count -= 1
-        yield network
+    return islice(composable(Network, first), count)

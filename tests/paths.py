@@ -1,5 +1,7 @@
 """Paths that several tests build."""
 
+from itertools import count
+
 import optipath as op
 
 
@@ -11,3 +13,14 @@ def chain(elements, state=(1.0, 0.0, 0.0, 0.0), **reading):
         node = node >> path.add(f"e{number}", element)
     node >> path.add("eye", op.Detector(**reading))
     return path
+
+
+def composable(made, first=0):
+    """What is made of one seed after another, where its path can be composed: all of it is lit."""
+    for seed in count(first):
+        network = made(seed)
+        try:
+            network.path.check()
+        except op.PathError:
+            continue
+        yield network
