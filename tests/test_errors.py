@@ -9,7 +9,7 @@ import pytest
 
 import optipath as op
 from failing import fails
-from optipath import errors, quoting
+from optipath import errors
 
 KINDS = [
     kind
@@ -93,13 +93,13 @@ def deep():
     ids=lambda value: type(value).__name__,
 )
 def test_whatever_is_quoted_is_short_and_on_one_line(value):
-    text = quoting.shown(value)
+    text = errors.shown(value)
     assert 0 < len(text) < 600
     assert text.isprintable()
 
 
 def test_what_is_short_is_quoted_as_it_is():
-    assert [quoting.shown(v) for v in (1.5, "a", [0.1, None], 1 + 2j)] == [
+    assert [errors.shown(v) for v in (1.5, "a", [0.1, None], 1 + 2j)] == [
         "1.5",
         "'a'",
         "[0.1, None]",

@@ -5,8 +5,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.errors import OptipathError, did_you_mean, few_suggestions
-from optipath.quoting import printable, shown
+from optipath.errors import OptipathError, did_you_mean, few_suggestions, printable, shown
 
 
 def deep(levels):

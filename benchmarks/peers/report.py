@@ -4,7 +4,7 @@ import platform
 from pathlib import Path
 
 from contenders.optipath_engines import REFERENCE
-from optipath.bench.report import software
+from optipath.lab.bench.report import software
 
 BEGIN = "<!-- peers: python benchmarks/peers/race.py --write docs/performance.md -->"
 END = "<!-- end of peers -->"

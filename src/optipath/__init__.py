@@ -5,27 +5,10 @@ composer aligns the frames and orders the work; the plan it makes runs on one se
 values or on millions.
 """
 
-from optipath import starting  # noqa: F401 - first, for Ctrl-C while the others are imported
+from optipath.cli import starting  # noqa: F401 - first, for Ctrl-C while the others are imported
 
 # isort: split
-from optipath.angles import CosSin
-from optipath.cases import Case
-from optipath.certificate import Certificate, intensity_bounds
 from optipath.composer import Composer
-from optipath.domains import (
-    Absorption,
-    Amplitude,
-    Angle,
-    AnglePerLength,
-    Fraction,
-    Incidence,
-    Index,
-    Length,
-    MuellerMatrix,
-    NonNegative,
-    Real,
-    StokesState,
-)
 from optipath.elements import (
     Attenuator,
     BeamSplitter,
@@ -48,6 +31,8 @@ from optipath.elements import (
     Source,
     SpecularVertex,
 )
+from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
+from optipath.elements.vertices import VerticesByAngles, vertices_from_angles
 from optipath.errors import (
     ComposerError,
     FrameError,
@@ -60,20 +45,35 @@ from optipath.errors import (
     UnitError,
     ValueFault,
 )
-from optipath.frames import Frame
-from optipath.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
-from optipath.incidence import PlaneOfIncidence, plane_of_incidence
-from optipath.light import Light
-from optipath.light_paths import LightPath
-from optipath.materials import Material
-from optipath.mueller import LuChipman, Mueller
-from optipath.parameters import Parameter
-from optipath.path_graph import PathGraph
-from optipath.plan import Plan
-from optipath.polarization_matters import Polarization, polarization
-from optipath.presets import load_preset, preset_names
-from optipath.vertex_paths import path_from_vertices
-from optipath.vertices import VerticesByAngles, vertices_from_angles
+from optipath.light.frames import Frame
+from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
+from optipath.light.light import Light
+from optipath.light.mueller import LuChipman, Mueller
+from optipath.paths.path_graph import PathGraph
+from optipath.paths.polarization_matters import Polarization, polarization
+from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.paths.vertex_paths import path_from_vertices
+from optipath.plan.certificate import Certificate, intensity_bounds
+from optipath.plan.light_paths import LightPath
+from optipath.plan.plan import Plan
+from optipath.values.angles import CosSin
+from optipath.values.cases import Case
+from optipath.values.domains import (
+    Absorption,
+    Amplitude,
+    Angle,
+    AnglePerLength,
+    Fraction,
+    Incidence,
+    Index,
+    Length,
+    MuellerMatrix,
+    NonNegative,
+    Real,
+    StokesState,
+)
+from optipath.values.materials import Material
+from optipath.values.parameters import Parameter
 
 __all__ = [
     "Absorption",

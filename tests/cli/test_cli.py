@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import optipath as op
-from optipath.accuracy.regions import REGIONS
-from optipath.accuracy.tables import SEARCHED
 from optipath.cli import main
+from optipath.lab.accuracy.regions import REGIONS
+from optipath.lab.accuracy.tables import SEARCHED
 
 
 def run(capsys, *arguments):
@@ -341,7 +341,7 @@ def test_accuracy_prints_its_tables_and_writes_them_into_their_place(tmp_path, c
 
 
 def test_accuracy_searches_for_worst_cases_and_writes_them_into_their_place(tmp_path, monkeypatch):
-    monkeypatch.setattr("optipath.accuracy.tables.REGIONS", REGIONS[:1])
+    monkeypatch.setattr("optipath.lab.accuracy.tables.REGIONS", REGIONS[:1])
     document = tmp_path / "accuracy.md"
     begin, end = SEARCHED
     document.write_text(f"a {begin} b {end} c", "utf-8")
@@ -354,7 +354,7 @@ def test_accuracy_searches_for_worst_cases_and_writes_them_into_their_place(tmp_
 
 def test_a_feature_whose_extra_is_missing_says_which(monkeypatch, capsys):
     monkeypatch.setitem(sys.modules, "mpmath", None)
-    for name in [name for name in sys.modules if name.startswith("optipath.accuracy")]:
+    for name in [name for name in sys.modules if name.startswith("optipath.lab.accuracy")]:
         monkeypatch.delitem(sys.modules, name)
     assert main(["accuracy", "--samples", "1"]) == 2
     assert "pip install 'optipath[chart]'" in capsys.readouterr().err

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.drawing import draw
+from optipath.paths.drawing import draw
 
 
 class HalfWavePlate(op.Element, kind="test-half-wave-plate"):

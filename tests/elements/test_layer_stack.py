@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.path_reference import exact_lights, exact_stokes
+from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
 
 RNG = np.random.default_rng(3)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.path_reference import exact_lights
+from optipath.lab.accuracy.path_reference import exact_lights
 
 OFF = 10.0 ** -np.arange(1.0, 16.0, 1.5)
 GRAZING = [*(np.pi / 2 - OFF), np.nextafter(np.pi / 2, 0.0), *OFF, np.pi / 4]

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.path_reference import exact_lights
-from optipath.bench.values import random_values
+from optipath.lab.accuracy.path_reference import exact_lights
+from optipath.lab.bench.random_values import random_values
 from paths import chain
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}

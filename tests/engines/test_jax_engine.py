@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.bench.values import random_values
+from optipath.lab.bench.random_values import random_values
 
 jax = pytest.importorskip("jax")
 jnp = jax.numpy

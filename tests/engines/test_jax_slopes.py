@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy import reference
-from optipath.accuracy.boundary_reference import stack
-from optipath.accuracy.many_digits import cos_sin, exact_angle
 from optipath.kernels import METHODS, REFLECTION, TRANSMISSION
+from optipath.lab.accuracy import reference
+from optipath.lab.accuracy.boundary_reference import stack
+from optipath.lab.accuracy.many_digits import cos_sin, exact_angle
 
 jax = pytest.importorskip("jax")
 sloped = pytest.importorskip("optipath.engines.jax_engine").sloped

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.formulas import lights_formula
+from optipath.engines.formulas import lights_formula
 from optipath.kernels import Plain
-from optipath.views import MANY
+from optipath.values.operands import MANY
 
 numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
 from optipath.engines.machine_code import assembly  # noqa: E402 - needs numba

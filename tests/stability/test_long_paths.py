@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.path_reference import exact_lights
+from optipath.lab.accuracy.path_reference import exact_lights
 from paths import chain
 
 TURNED = {"azimuth": 0.3}

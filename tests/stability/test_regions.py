@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.accuracy.interface_errors import interface_errors, matrix_numbers
-from optipath.accuracy.regions import REGIONS
 from optipath.kernels import REFLECTION
+from optipath.lab.accuracy.interface_errors import interface_errors, matrix_numbers
+from optipath.lab.accuracy.regions import REGIONS
 
 NAMES = {region.name: region for region in REGIONS}
 DTYPES = ["float64", "float32"]

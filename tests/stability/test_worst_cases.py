@@ -8,13 +8,13 @@ import mpmath
 import numpy as np
 import pytest
 
-from optipath.accuracy import reference
-from optipath.accuracy.errors import errors, in_ulp
-from optipath.accuracy.interface_errors import matrix_numbers
-from optipath.accuracy.many_digits import WORKING_DIGITS, exactly
-from optipath.accuracy.regions import REGIONS, Samples
-from optipath.accuracy.search import COMPONENTS, is_near_double_zero, worst
 from optipath.kernels import NUMPY, REFLECTION
+from optipath.lab.accuracy import reference
+from optipath.lab.accuracy.error_measures import errors, in_ulp
+from optipath.lab.accuracy.interface_errors import matrix_numbers
+from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly
+from optipath.lab.accuracy.regions import REGIONS, Samples
+from optipath.lab.accuracy.worst_cases import COMPONENTS, is_near_double_zero, worst
 
 GENERATIONS = int(os.environ.get("OPTIPATH_SEARCH_GENERATIONS", "2"))
 NAMES = {region.name: region for region in REGIONS}

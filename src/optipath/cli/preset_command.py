@@ -7,17 +7,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath.composer import CHOICES
-from optipath.domains import READINGS
-from optipath.errors import OptipathError, ParameterError, PresetError
+from optipath.errors import OptipathError, ParameterError, PresetError, printable
 from optipath.kernels import METHODS
-from optipath.presets import load_preset, preset_names
-from optipath.quoting import printable
+from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.values.domains import READINGS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from optipath.parameters import Parameter
-    from optipath.path_graph import PathGraph
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.parameters import Parameter
 
 METHOD = click.Option(
     ["--method"],

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from optipath.cli.terminal import Terminal
+from optipath.cli.console import Terminal
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

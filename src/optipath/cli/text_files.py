@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.quoting import shown
-from optipath.written_files import write_file
+from optipath.errors import shown
+from optipath.values.written_files import write_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

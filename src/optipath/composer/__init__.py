@@ -1,8 +1,8 @@
 """The composer: validate, lower, plan; one stage a file."""
 
 from optipath.composer.composer import CHOICES, Composer
+from optipath.composer.path_values import parameters_of, value_faults
 from optipath.composer.validate import partial_faults, validate
-from optipath.composer.values import parameters_of, value_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 
 __all__ = [

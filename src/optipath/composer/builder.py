@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer.knots import in_order_of_elimination
-from optipath.program import Evaluation, Loop, Program, Reading, Step
+from optipath.composer.junctions import in_order_of_elimination
+from optipath.engines.program.program import Evaluation, Loop, Program, Reading, Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
 
-    from optipath.frames import Frame
+    from optipath.elements.vertices import VertexFrame
     from optipath.kernels import Kernel
-    from optipath.vertices import VertexFrame
-    from optipath.views import View
+    from optipath.light.frames import Frame
+    from optipath.values.operands import View
 
 
 class Builder:

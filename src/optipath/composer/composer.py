@@ -10,21 +10,20 @@ import networkx as nx
 
 from optipath.composer.collection import put_off
 from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
+from optipath.composer.path_values import Values
 from optipath.composer.reduce import as_it_stands, by_name, for_jones, reduced, tolerated
 from optipath.composer.validate import refuse_faults
-from optipath.composer.values import Values
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
-from optipath.errors import ComposerError, unknown, whole_number
+from optipath.engines.program.reduction import MODELS
+from optipath.errors import ComposerError, shown, unknown, whole_number
 from optipath.kernels import METHODS
-from optipath.plan import Plan
-from optipath.precision import precision
-from optipath.quoting import shown
-from optipath.reduction import MODELS
+from optipath.plan.plan import Plan
+from optipath.values.precision import precision
 
 if TYPE_CHECKING:
-    from optipath.program import Program
-    from optipath.reduction import Reduction, Tolerance
+    from optipath.engines.program.program import Program
+    from optipath.engines.program.reduction import Reduction, Tolerance
 
 CHOICES = {
     "method": METHODS,

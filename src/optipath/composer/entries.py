@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.formulas import Symbol
-from optipath.formulas.recorder import Recorder
-from optipath.formulas.symbolic import SYMBOLIC
+from optipath.engines.formulas import Symbol
+from optipath.engines.formulas.recorder import Recorder
+from optipath.engines.formulas.symbolic import SYMBOLIC
 from optipath.kernels import FLOAT, Kernel, Primitives
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from optipath.program import Program
-    from optipath.views import View
+    from optipath.engines.program.program import Program
+    from optipath.values.operands import View
 
 Entry: TypeAlias = float | None
 """A number, or None for one that is not known."""

@@ -10,13 +10,13 @@ from optipath.composer.builder import Builder
 from optipath.composer.constants import Constant, multiplied
 from optipath.composer.entries import number_of, vanishes
 from optipath.kernels import FLOAT, FULL, TURN, TURN_BACK
-from optipath.views import View
+from optipath.values.operands import View
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from optipath.engines.program.program import Loop, Program, Step
     from optipath.kernels import Kernel
-    from optipath.program import Loop, Program, Step
 
 
 _MOST = 16

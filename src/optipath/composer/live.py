@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from optipath.composer.entries import Entries
-    from optipath.program import Program
+    from optipath.engines.program.program import Program
 
 
 class Live:

@@ -11,18 +11,18 @@ from optipath.composer.placement import alignment, frame_at
 from optipath.composer.vertex_frames import vertex_frame
 from optipath.composer.wiring import link_text
 from optipath.elements import Detector, SpecularVertex
+from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
-from optipath.frames import Frame
-from optipath.parameters import Parameter
-from optipath.program import Reading
-from optipath.views import View, view_of
+from optipath.light.frames import Frame
+from optipath.values.operands import View, view_of
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from optipath.composer.travel import Port, Stretch
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements import Coupling, Operation
-    from optipath.program import Program
-    from optipath.vertices import VertexFrame
+    from optipath.elements.vertices import VertexFrame
+    from optipath.engines.program.program import Program
 
 _FEW = 8
 

@@ -11,12 +11,12 @@ from optipath.composer.wiring import link_text
 from optipath.elements import Operation, SpecularVertex, Terminal
 from optipath.errors import OptipathError
 from optipath.kernels import GIVEN_TURN, TURN
-from optipath.shapes import broadcast_fault
-from optipath.views import View
+from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.operands import View
 
 if TYPE_CHECKING:
     from optipath.composer.wiring import Link, Wiring
-    from optipath.frames import Frame
+    from optipath.light.frames import Frame
 
 
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.fold import fold
 from optipath.composer.live import Live, trim
+from optipath.engines.program.reduction import MODELS, Reduction, Tolerance
 from optipath.errors import ComposerError, listed
-from optipath.reduction import MODELS, Reduction, Tolerance
 
 if TYPE_CHECKING:
-    from optipath.program import Program
+    from optipath.engines.program.program import Program
 
 _ROUNDS = 3
 

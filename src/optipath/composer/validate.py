@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
 from optipath.composer.travel import among, rounds
-from optipath.composer.values import Values
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements import Detector, Source
 from optipath.errors import PathError

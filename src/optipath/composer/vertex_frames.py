@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.placement import azimuth_of
 from optipath.elements import SpecularVertex
-from optipath.frames import Frame
-from optipath.views import view_of
+from optipath.light.frames import Frame
+from optipath.values.operands import view_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.composer.travel import Port
     from optipath.composer.wiring import Link, Wiring
-    from optipath.vertices import VertexFrame
-    from optipath.views import View
+    from optipath.elements.vertices import VertexFrame
+    from optipath.values.operands import View
 
 
 def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from optipath.domains import Fraction
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.kernels import ATTENUATOR
+from optipath.values.domains import Fraction
 
 
 class Attenuator(Element, kind="attenuator"):

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.domains import Angle, Fraction
 from optipath.elements.coupling import Operation
 from optipath.elements.four_port import FourPort
 from optipath.elements.frame_checks import same_frame, share_x
 from optipath.kernels import COMPLEMENT, MIRROR
+from optipath.values.domains import Angle, Fraction
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.elements.coupling import Coupling
-    from optipath.frames import Frame
+    from optipath.light.frames import Frame
 
 
 _THROUGH = {"in": "transmitted", "transmitted": "in", "back": "reflected", "reflected": "back"}

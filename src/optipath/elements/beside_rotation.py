@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.domains import Domain
 from optipath.errors import ValueFault
-from optipath.jax_values import is_traced
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.domains import Domain
 
 if TYPE_CHECKING:
-    from optipath.parameters import Parameter
+    from optipath.values.parameters import Parameter
 
 
 @dataclass(frozen=True)

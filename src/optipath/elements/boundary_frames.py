@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from optipath.elements.frame_checks import angle_between, incidence_between, share_x
-from optipath.frames import Frame
-from optipath.fresnel import refraction_angle
-from optipath.materials import Material
-from optipath.shapes import broadcast_fault
-from optipath.views import View
+from optipath.elements.fresnel import refraction_angle
+from optipath.light.frames import Frame
+from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.materials import Material
+from optipath.values.operands import View
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

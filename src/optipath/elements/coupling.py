@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.frozen import frozen, same_fields
 from optipath.kernels import NUMPY, TURN, TURN_BACK
-from optipath.materials import Material
-from optipath.mueller import stacked
-from optipath.views import View, view_of
+from optipath.light.mueller import stacked
+from optipath.values.arrays.read_only import frozen, same_fields
+from optipath.values.materials import Material
+from optipath.values.operands import View, view_of
 
 if TYPE_CHECKING:
-    from optipath.domains import Domain
     from optipath.kernels import Kernel, KernelFamily
+    from optipath.values.domains import Domain
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -83,7 +83,7 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
 
     Examples
     --------
-    >>> from optipath.domains import IndexDomain
+    >>> from optipath.values.domains import IndexDomain
     >>> numbers_of(1.5 + 2j, IndexDomain("index"))
     (1.5, 2.0)
     """

@@ -6,29 +6,28 @@ from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
 
-from optipath.domains import REAL, Domain, in_unit_of
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
-from optipath.errors import PathError, ValueFault
-from optipath.frames import Frame
-from optipath.frozen import same
-from optipath.inputs import Use
+from optipath.errors import PathError, ValueFault, shown
 from optipath.kernels import (
     REFLECTION,
     Kernel,
 )
-from optipath.memory import enough_for
-from optipath.mueller import Mueller
-from optipath.parameters import Parameter
-from optipath.quoting import shown
-from optipath.shapes import broadcast_fault, joint_shape
+from optipath.light.frames import Frame
+from optipath.light.mueller import Mueller
+from optipath.values.arrays.memory import enough_for
+from optipath.values.arrays.read_only import same
+from optipath.values.arrays.shapes import broadcast_fault, joint_shape
+from optipath.values.domains import REAL, Domain, in_unit_of
+from optipath.values.inputs import Use
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.vertices import VertexFrame
+    from optipath.elements.vertices import VertexFrame
 
 _TWO_MATRICES = 256
 """How many bytes a matrix and what it is made of have."""

@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.frames import Frame
+    from optipath.light.frames import Frame
 
 _TOLERANCE = 1e-8
 
@@ -19,7 +19,7 @@ def same_frame(first: Frame, second: Frame) -> bool:
 
     Examples
     --------
-    >>> from optipath.frames import Frame
+    >>> from optipath.light.frames import Frame
     >>> same_frame(Frame(), Frame().turned(0.1))
     False
     """
@@ -32,7 +32,7 @@ def share_x(first: Frame, second: Frame) -> bool:
 
     Examples
     --------
-    >>> from optipath.frames import Frame
+    >>> from optipath.light.frames import Frame
     >>> share_x(Frame(), Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0)))
     True
     """
@@ -45,7 +45,7 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
 
     Examples
     --------
-    >>> from optipath.frames import Frame
+    >>> from optipath.light.frames import Frame
     >>> to_the_side = Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
     >>> float(np.degrees(incidence_between(Frame(), to_the_side)).round(9))
     45.0
@@ -60,7 +60,7 @@ def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
 
     Examples
     --------
-    >>> from optipath.frames import Frame
+    >>> from optipath.light.frames import Frame
     >>> aside = Frame.from_direction(z=(0, 1, 1), x=(1, 0, 0))
     >>> float(np.degrees(angle_between(Frame(), aside)).round(9))
     45.0

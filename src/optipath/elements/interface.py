@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
 from optipath.elements.boundary_frames import boundary_faults, refracted_frame
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.four_port import FourPort
 from optipath.kernels import REFLECTION, TRANSMISSION
-from optipath.materials import Material
-from optipath.views import View
+from optipath.values.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
+from optipath.values.materials import Material
+from optipath.values.operands import View
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.domains import Domain
     from optipath.elements.coupling import Coupling
-    from optipath.frames import Frame
+    from optipath.light.frames import Frame
+    from optipath.values.domains import Domain
 
 
 class Interface(FourPort, kind="interface"):

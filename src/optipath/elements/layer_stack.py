@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
 from optipath.elements.boundary_frames import boundary_faults, refracted_frame
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.four_port import FourPort
@@ -14,14 +13,15 @@ from optipath.kernels import (
     STACK_TRANSMISSION,
     STACK_TRANSMISSION_BACK,
 )
-from optipath.views import View
+from optipath.values.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
+from optipath.values.operands import View
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.domains import Domain
     from optipath.elements.coupling import Coupling
-    from optipath.frames import Frame
+    from optipath.light.frames import Frame
+    from optipath.values.domains import Domain
 
 
 class LayerStack(FourPort, kind="layer-stack"):

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.domains import Absorption, Angle, AnglePerLength, Domain, Length, RotatoryPower
 from optipath.elements.beside_rotation import (
     RETARDANCE_BESIDE_ROTATION,
     ROTATION_BESIDE_DEXTROROTATION,
@@ -16,8 +15,6 @@ from optipath.elements.beside_rotation import (
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.errors import ValueFault, did_you_mean
-from optipath.frozen import frozen
-from optipath.jax_values import is_traced
 from optipath.kernels import (
     ABSORPTION_ALONG,
     DEXTROROTATION_ALONG,
@@ -25,8 +22,11 @@ from optipath.kernels import (
     ROTATION_ALONG,
     THIRD_OF_ABSORPTION,
 )
-from optipath.parameters import Parameter
-from optipath.shapes import check_broadcast
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.shapes import check_broadcast
+from optipath.values.domains import Absorption, Angle, AnglePerLength, Domain, Length, RotatoryPower
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -80,7 +80,7 @@ class Medium(Element, kind="medium"):
 
     A decimetre of a solution with 1 g/ml of sugar, [alpha] = +66.5 deg ml / (g dm):
 
-    >>> from optipath.light import Light
+    >>> from optipath.light.light import Light
     >>> sugar = Medium(length=0.1, dextrorotation=math.radians(66.5) / 0.1)
     >>> horizontal = Light([1.0, 1.0, 0.0, 0.0])
     >>> print(np.degrees((sugar.mueller() @ horizontal).aop).round(9))

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.domains import Amplitude, Angle
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import share_x
 from optipath.kernels import GIVEN_AMPLITUDES
+from optipath.values.domains import Amplitude, Angle
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.frames import Frame
+    from optipath.light.frames import Frame
 
 
 class Mirror(Element, kind="mirror"):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from optipath.domains import Angle, MuellerMatrix
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.kernels import MATRIX
+from optipath.values.domains import Angle, MuellerMatrix
 
 
 class MuellerElement(Element, kind="mueller"):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from optipath.domains import Angle, Fraction
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.kernels import POLARIZER
+from optipath.values.domains import Angle, Fraction
 
 
 class Polarizer(Element, kind="polarizer"):

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from optipath.domains import Angle
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.kernels import TURN_BACK
+from optipath.values.domains import Angle
 
 
 class Rotator(Element, kind="rotator"):

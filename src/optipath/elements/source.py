@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.domains import NonNegative, StokesState
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.kernels import POLARIZED, UNPOLARIZED
+from optipath.values.domains import NonNegative, StokesState
 
 if TYPE_CHECKING:
     from typing import Any

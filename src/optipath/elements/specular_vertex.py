@@ -5,20 +5,20 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from optipath.domains import Index, OutsideIndex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.frozen import same
+from optipath.elements.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain, is_count
 from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES, TurnBetweenPlanes
-from optipath.materials import Material
-from optipath.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain, is_count
+from optipath.values.arrays.read_only import same
+from optipath.values.domains import Index, OutsideIndex
+from optipath.values.materials import Material
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.domains import Domain
-    from optipath.frames import Frame
-    from optipath.vertices import Coordinates
+    from optipath.elements.vertices import Coordinates
+    from optipath.light.frames import Frame
+    from optipath.values.domains import Domain
 
 
 class SpecularVertex(Element, kind="specular-vertex"):

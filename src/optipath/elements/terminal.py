@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-from optipath.domains import Reads
 from optipath.elements.element import Element
+from optipath.values.domains import Reads
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling

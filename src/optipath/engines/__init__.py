@@ -1,7 +1,7 @@
 """Engines: each does what a formula says, and knows nothing else."""
 
 from optipath.engines.array_path import ArrayPath
-from optipath.engines.choice import (
+from optipath.engines.automatic import (
     COMPILED,
     ENGINES,
     LARGE,

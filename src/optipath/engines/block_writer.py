@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.formulas import Symbol
+from optipath.engines.formulas import Symbol
 
 if TYPE_CHECKING:
-    from optipath.formulas import Formula
+    from optipath.engines.formulas import Formula
 
 _OWN = ("exponent", "ldexp", "power", "product_rest", "where")
 """Operations that make their own arrays, unless said otherwise below."""

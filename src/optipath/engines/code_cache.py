@@ -17,8 +17,7 @@ from pathlib import Path
 from threading import RLock
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import CacheError
-from optipath.quoting import shown
+from optipath.errors import CacheError, shown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

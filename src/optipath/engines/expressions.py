@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from optipath.formulas import Symbol
+    from optipath.engines.formulas import Symbol
 
 EXPRESSIONS = {
     "absolute": "abs({0})",

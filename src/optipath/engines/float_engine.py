@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.expressions import EXPRESSIONS
-from optipath.formulas import Symbol
+from optipath.engines.formulas import Symbol
 from optipath.kernels import FLOAT
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.formulas import Formula
+    from optipath.engines.formulas import Formula
 
 _DEEPEST = 30
 _TWICE = ("maximum", "minimum")

@@ -12,23 +12,23 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.angles import CosSin
+from optipath.engines.program.execute import walk
 from optipath.errors import ComposerError
-from optipath.jax_values import is_jax, is_traced
 from optipath.kernels import Linear, Primitives, cosine, sine
-from optipath.kernels.primitives import is_hidden, product_and_rest
-from optipath.precision import wide
-from optipath.views import part_of
-from optipath.walk import walk
+from optipath.kernels.numbers.primitives import is_hidden, product_and_rest
+from optipath.values.angles import CosSin
+from optipath.values.arrays.jax_values import is_jax, is_traced
+from optipath.values.operands import part_of
+from optipath.values.precision import wide
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from optipath.engines.program.loops import Meeting
+    from optipath.engines.program.program import Program, Reading
     from optipath.kernels import Components, Way
-    from optipath.loops import Meeting
-    from optipath.parameters import Resolved
-    from optipath.program import Program, Reading
-    from optipath.views import View
+    from optipath.values.operands import View
+    from optipath.values.parameters import Resolved
 
 
 def _frexp(number: Any) -> tuple[Any, Any]:

@@ -10,13 +10,13 @@ import numpy as np
 from optipath.engines import numpy_engine
 from optipath.engines.code_cache import CODE
 from optipath.engines.expressions import assignments
+from optipath.engines.formulas import Symbol, left_formula
 from optipath.engines.machine_code import address
 from optipath.engines.machine_code import compiled as compiled_text
-from optipath.formulas import Symbol, left_formula
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
-    from optipath.formulas import Formula
+    from optipath.engines.formulas import Formula
 
 _BLOCK = 512
 _HEAD = """\

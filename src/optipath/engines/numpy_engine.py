@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.block_writer import BlockWriter
-from optipath.formulas import DOUBLE, LEFT, Symbol
-from optipath.formulas.operations import OPERATIONS
+from optipath.engines.formulas import DOUBLE, LEFT, Symbol
+from optipath.engines.formulas.operations import OPERATIONS
 from optipath.kernels import NUMPY
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
-    from optipath.formulas import Formula
+    from optipath.engines.formulas import Formula
 
 _BLOCK = 12288
 _LEFT = {operation: factory(NUMPY, DOUBLE) for operation, factory in LEFT.items()}

@@ -6,14 +6,14 @@ to the structure of what they return.
 
 from typing import TypeAlias
 
-from optipath.kernels import emission, filters, medium, rotation, vertices
-from optipath.kernels.amplitude import (
-    amplitude_reflection,
-    amplitude_transmission,
-    given_amplitudes,
+from optipath.kernels.carriers.bounds_carrier import (
+    Boosts,
+    Bounds,
+    boosted,
+    largest_error,
+    ratio_bounds,
 )
-from optipath.kernels.bounds import Boosts, Bounds, boosted, largest_error, ratio_bounds
-from optipath.kernels.carried import (
+from optipath.kernels.carriers.carried import (
     Carried,
     Components,
     add,
@@ -21,39 +21,17 @@ from optipath.kernels.carried import (
     not_above_rounding,
     stokes_of,
 )
-from optipath.kernels.circular import cosine, sine, without_rounding
-from optipath.kernels.coherency import FROM_MUELLER, TO_MUELLER, is_physical
-from optipath.kernels.compensated import (
-    compensated_lossless_reflection,
-    compensated_lossless_transmission,
-    compensated_reflection,
-    compensated_transmission,
-)
-from optipath.kernels.composed import Composed, composed
-from optipath.kernels.double_double import DoubleDouble
-from optipath.kernels.elimination import Elimination, is_zero
-from optipath.kernels.jones import Jones
-from optipath.kernels.kernel import Factory, Kernel, KernelFamily
-from optipath.kernels.layers import Stack
-from optipath.kernels.linear import Linear
-from optipath.kernels.parted import Parts, energy, light_of, parts_of, unit_light
-from optipath.kernels.plain import Plain
-from optipath.kernels.planes import AxesAtVertex, OfPlanes, TurnBetweenPlanes
-from optipath.kernels.points_by_angles import PointsByAngles
-from optipath.kernels.powers import denser_powers, lossless_powers, reflected_powers
-from optipath.kernels.powers_way import Powers
-from optipath.kernels.primitives import FLOAT, NUMPY, Primitives
-from optipath.kernels.refraction import Refracting, refraction
-from optipath.kernels.scaled import Scaled
-from optipath.kernels.sloped import Sloped
-from optipath.kernels.stable import (
-    denser_reflection,
-    lossless_reflection,
-    lossless_transmission,
-    stable_reflection,
-    stable_transmission,
-)
-from optipath.kernels.structures import (
+from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER, is_physical
+from optipath.kernels.carriers.composed import Composed, composed
+from optipath.kernels.carriers.intensity_carrier import Powers
+from optipath.kernels.carriers.jones_carrier import Jones
+from optipath.kernels.carriers.kernel import Factory, Kernel, KernelFamily
+from optipath.kernels.carriers.matrix_carrier import Linear
+from optipath.kernels.carriers.parted import Parts, energy, light_of, parts_of, unit_light
+from optipath.kernels.carriers.scaled_carrier import Scaled
+from optipath.kernels.carriers.sloped import Sloped
+from optipath.kernels.carriers.stokes_carrier import Plain
+from optipath.kernels.carriers.structures import (
     BLOCK,
     DEPOLARIZING_BLOCK,
     FULL,
@@ -63,9 +41,38 @@ from optipath.kernels.structures import (
     Structure,
     turn_linear,
 )
-from optipath.kernels.textbook import textbook_reflection, textbook_transmission
-from optipath.kernels.twice import twice
-from optipath.kernels.vertices import LONGEST, SHORTEST
+from optipath.kernels.filters import emission, filters, rotation, stretch
+from optipath.kernels.fresnel.amplitude import (
+    amplitude_reflection,
+    amplitude_transmission,
+    given_amplitudes,
+)
+from optipath.kernels.fresnel.compensated import (
+    compensated_lossless_reflection,
+    compensated_lossless_transmission,
+    compensated_reflection,
+    compensated_transmission,
+)
+from optipath.kernels.fresnel.layers import Stack
+from optipath.kernels.fresnel.powers import denser_powers, lossless_powers, reflected_powers
+from optipath.kernels.fresnel.refraction import Refracting, refraction
+from optipath.kernels.fresnel.stable import (
+    denser_reflection,
+    lossless_reflection,
+    lossless_transmission,
+    stable_reflection,
+    stable_transmission,
+)
+from optipath.kernels.fresnel.textbook import textbook_reflection, textbook_transmission
+from optipath.kernels.geometry import vertex_chain
+from optipath.kernels.geometry.planes import AxesAtVertex, OfPlanes, TurnBetweenPlanes
+from optipath.kernels.geometry.points_by_angles import PointsByAngles
+from optipath.kernels.geometry.vertex_chain import LONGEST, SHORTEST
+from optipath.kernels.numbers.circular import cosine, sine, without_rounding
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.elimination import Elimination, is_zero
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY, Primitives
+from optipath.kernels.numbers.twice import twice
 
 
 def _fresnel(
@@ -166,7 +173,7 @@ TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
-INCIDENCE, ARRIVING, REFLECTED = vertices.incidence, AxesAtVertex(), AxesAtVertex(leaves=True)
+INCIDENCE, ARRIVING, REFLECTED = vertex_chain.incidence, AxesAtVertex(), AxesAtVertex(leaves=True)
 """What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
@@ -176,11 +183,13 @@ COMPLEMENT = Kernel("complement", SCALE, filters.complement)
 DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
 MIRROR = Kernel("mirror", BLOCK, filters.mirror)
 GIVEN_AMPLITUDES = Kernel("mirror of given amplitudes", BLOCK, given_amplitudes)
-ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, medium.absorption_along)
-THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, medium.third_of_absorption)
-ROTATION_ALONG = Kernel("rotation along the way", ROTATION, medium.rotation_along)
-DEXTROROTATION_ALONG = Kernel("dextrorotation along the way", ROTATION, medium.dextrorotation_along)
-RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, medium.retardance_along)
+ABSORPTION_ALONG = Kernel("absorption along the way", SCALE, stretch.absorption_along)
+THIRD_OF_ABSORPTION = Kernel("a third of absorption", SCALE, stretch.third_of_absorption)
+ROTATION_ALONG = Kernel("rotation along the way", ROTATION, stretch.rotation_along)
+DEXTROROTATION_ALONG = Kernel(
+    "dextrorotation along the way", ROTATION, stretch.dextrorotation_along
+)
+RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, stretch.retardance_along)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)

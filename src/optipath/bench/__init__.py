@@ -1,6 +1,0 @@
-"""How fast a path is: the measurements behind ``optipath bench``."""
-
-from optipath.bench.report import Report, bench
-from optipath.bench.timing import Timing, race
-
-__all__ = ["Report", "Timing", "bench", "race"]

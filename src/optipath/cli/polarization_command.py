@@ -1,0 +1,111 @@
+"""``optipath polarization``: what polarisation does to the intensities of a preset."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+
+from optipath.cli.console import Terminal, cell, headed
+from optipath.cli.plain_json import plain
+from optipath.cli.preset_command import JSON, PresetGroup
+from optipath.errors import listed
+from optipath.paths.polarization_matters import polarization as found_for
+from optipath.paths.presets.loader import load_preset
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rich.table import Table
+
+    from optipath.paths.polarization_matters import Polarization
+
+_PATHS = 5
+
+_SMALL = 1e-12
+"""Which share of the intensity is no more than rounding."""
+
+
+def _polarization(preset: str, case: str | None, values: dict[str, Any], *, as_json: bool) -> None:
+    path = load_preset(preset, case=case, **values)
+    ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
+    found = {name: found_for(path, name) for name in ends}
+    if as_json:
+        detectors = {name: _as_json(one) for name, one in found.items()}
+        click.echo(json.dumps({"preset": preset, "detectors": detectors}))
+        return
+    console = Terminal()
+    console.print(cell(preset, style="bold"), cell(path.description))
+    for name, one in found.items():
+        console.print(_table(name, one))
+        console.print(cell(_verdict(one)))
+
+
+polarization = PresetGroup(
+    "polarization",
+    action=_polarization,
+    options=(JSON,),
+    help="Show what polarisation does to the intensity, beside the scalar result.",
+)
+
+
+def _as_json(found: Polarization) -> dict[str, Any]:
+    certificate = found.certificate
+    return {
+        "exact": plain(found.exact),
+        "scalar": plain(found.scalar),
+        "difference": plain(found.difference),
+        "lower": plain(certificate.lower),
+        "upper": plain(certificate.upper),
+        "elements": {name: plain(share) for name, share in found.elements.items()},
+        "culprits": list(found.culprits),
+    }
+
+
+def _table(name: str, found: Polarization) -> Table:
+    """Return the numbers of each path, a column each."""
+    indices = list(np.ndindex(found.exact.shape))
+    shown = indices[:_PATHS]
+    table = headed(f"S0 at {name}")
+    for index in shown:
+        table.add_column(cell(str(list(index))) if index else "")
+    bounds = (part - 1.0 for part in (found.certificate.lower, found.certificate.upper))
+    rows: list[tuple[str, Any, Callable[[Any], str]]] = [
+        ("exact", found.exact, "{:.6g}".format),
+        ("scalar: without polarisation", found.scalar, "{:.6g}".format),
+        ("difference", found.difference, _percent),
+        *zip(("at least", "at most"), bounds, (_percent, _percent), strict=True),
+        *(
+            (f"by {element}", share, _percent)
+            for element, share in found.elements.items()
+            if np.any(np.abs(share) > _SMALL)
+        ),
+    ]
+    for head, numbers, written in rows:
+        table.add_row(*map(cell, [head, *(written(float(numbers[index])) for index in shown)]))
+    if len(indices) > len(shown):
+        table.add_row(f"{len(indices) - len(shown)} more paths")
+    return table
+
+
+def _verdict(found: Polarization) -> str:
+    if not np.any(found.scalar > 0.0):
+        return "dark: there is nothing to compare"
+    largest = float(np.max(np.abs(found.difference), initial=0.0))
+    certificate = found.certificate
+    lower, upper = np.min(certificate.lower) - 1.0, np.max(certificate.upper) - 1.0
+    if largest < _SMALL and upper - lower < _SMALL:
+        return "polarisation changes nothing"
+    text = f"polarisation changes S0 by up to {100.0 * largest:.3g} %"
+    if largest < _SMALL:
+        return (
+            f"{text} here, but could by {_percent(lower)} .. {_percent(upper)} if the elements "
+            f"stood otherwise"
+        )
+    return f"{text}, most of it by {listed(found.culprits)}"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:+.3g} %"

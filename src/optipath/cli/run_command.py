@@ -1,0 +1,207 @@
+"""``optipath run``: the light at the detectors."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import click
+import numpy as np
+from rich.table import Table
+
+from optipath.cli.console import Terminal, cell, headed
+from optipath.cli.plain_json import plain
+from optipath.cli.preset_command import PresetGroup
+from optipath.composer import Composer
+from optipath.paths.format import complex_parts_of
+from optipath.paths.presets.loader import load_preset
+from optipath.values.domains import AMPLITUDE
+
+if TYPE_CHECKING:
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+
+
+_ROWS = 20
+
+_TOLD = {
+    "dop": ("DoP", ""),
+    "dolp": ("DoLP", ""),
+    "aop": ("AoP", "deg"),
+    "ellipticity": ("ellipticity", ""),
+    "psi": ("psi", "deg"),
+    "delta": ("delta", "deg"),
+}
+
+
+@dataclass(frozen=True)
+class Result:
+    """What a run has found, and what it was given."""
+
+    preset: str
+    case: str | None
+    path: PathGraph
+    plan: Plan
+    lights: dict[str, Light]
+    is_published_case: bool
+
+    @property
+    def note(self) -> str:
+        """What a reader should know about the case."""
+        return self.path.cases[self.case].note if self.case else ""
+
+    @property
+    def model(self) -> str:
+        """The model that was run; both, where some paths took the exact one."""
+        instead, exact = self.plan.instead, self.plan.reduction.model
+        if instead is None:
+            return exact
+        within = self._errors <= instead.most
+        if not within.any():
+            return exact
+        return instead.model if within.all() else f"{instead.model}, {exact}"
+
+    def tolerance(self) -> dict[str, Any]:
+        """Return what was allowed, and the largest errors that the certificates leave."""
+        instead = self.plan.instead
+        assert instead is not None  # noqa: S101 - asked for by who knows
+        allowed = {"most": instead.most, "model": instead.model}
+        return {**allowed, "exact": self.plan.reduction.model, "error": plain(self._errors)}
+
+    @cached_property
+    def _errors(self) -> Any:
+        instead = self.plan.instead
+        assert instead is not None  # noqa: S101 - asked for by who knows
+        whole = self.plan.whole_path
+        return whole.errors(instead.model, whole.given({}), {})[1]
+
+    def published(self, detector: str) -> tuple[float, ...] | None:
+        """Return the published Stokes vector, if these are the values it belongs to."""
+        if self.case is None or not self.is_published_case:
+            return None
+        return self.path.cases[self.case].published.get(detector)
+
+
+def _run(
+    preset: str,
+    case: str | None,
+    values: dict[str, Any],
+    *,
+    reads: str | None,
+    as_json: bool,
+    **options: Any,
+) -> None:
+    path = load_preset(preset, case=case, **values)
+    path = path if reads is None else path.reading(reads)
+    plan = Composer(**options).compose(path)
+    result = Result(preset, case, path, plan, plan.run_all(), is_published_case=not values)
+    if as_json:
+        click.echo(json.dumps(_as_json(result)))
+    else:
+        _print(result)
+
+
+run = PresetGroup("run", action=_run, help="Trace the light of a preset, or of a TOML file.")
+
+
+def _as_json(result: Result) -> dict[str, Any]:
+    plan, parameters = result.plan, result.path.parameters
+    parts = complex_parts_of(result.path.graph)
+    found: dict[str, Any] = {
+        "preset": result.preset,
+        "parameters": {
+            name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
+            for name, p in parameters.items()
+        },
+        "units": {name: p.unit for name, p in parameters.items() if p.unit},
+        "model": result.model,
+        "method": plan.method,
+        "engine": plan.engine,
+    }
+    if plan.instead is not None:
+        found["tolerance"] = result.tolerance()
+    if result.case:
+        found["case"] = result.case
+    if result.note:
+        found["note"] = result.note
+    for section, readings in (
+        ("detectors", plan.program.detectors),
+        ("dumps", plan.program.dumps),
+    ):
+        if readings or section == "detectors":
+            found[section] = {name: _reading(result, name) for name in readings}
+    return found
+
+
+def _reading(result: Result, name: str) -> dict[str, Any]:
+    published, light = result.published(name), result.lights[name]
+    found = {"stokes": plain(light.stokes), "polarization": _polarization(light)}
+    if np.any(light.exponent):
+        # Too faint for the numbers above: they are 0, and these are not.
+        found["log10_intensity"] = plain(light.log10_intensity)
+        found["normalized"] = plain(light.normalized)
+    return found | ({"published": list(published)} if published else {})
+
+
+def _polarization(light: Light) -> dict[str, Any]:
+    """Return what is told of light besides its Stokes vector, angles in degrees."""
+    return {name: plain(getattr(light, name), unit) for name, (_, unit) in _TOLD.items()}
+
+
+def _print(result: Result) -> None:
+    console = Terminal()
+    title = result.preset + (f", case {result.case}" if result.case else "")
+    console.print(cell(title, style="bold"), cell(result.path.description))
+    console.print(_parameter_table(result))
+    for name in result.lights:
+        console.print(_light_table(result, name))
+    if result.note:
+        console.print(cell(f"note: {result.note}"))
+    plan = result.plan
+    console.print(cell(f"method {plan.method}, model {result.model}, engine {plan.engine}"))
+
+
+def _parameter_table(result: Result) -> Table:
+    table = Table(box=None, show_header=False)
+    for name, parameter in result.path.parameters.items():
+        table.add_row(cell(name), cell(parameter.text(parameter.default)), cell(parameter.help))
+    return table
+
+
+def _light_table(result: Result, name: str) -> Table:
+    stokes, published = result.lights[name].stokes, result.published(name)
+    if stokes.ndim > 1:
+        return _batch_table(name, stokes)
+    table = headed(f"light at {name}", "computed")
+    if published:
+        table.add_column("published")
+    for position, component in enumerate(stokes.tolist()):
+        row = [f"S{position}", _shown(component)]
+        table.add_row(*map(cell, [*row, *([f"{published[position]:g}"] if published else [])]))
+    light = result.lights[name]
+    for key, (word, unit) in _TOLD.items():
+        number = plain(getattr(light, key), unit)
+        if number is not None:
+            table.add_row(word, f"{_shown(number)} {unit}".strip())
+    if light.exponent:
+        table.add_row("log10 S0", f"{light.log10_intensity:.12g}")
+        table.add_row("over S0", ", ".join(_shown(part) for part in light.normalized.tolist()))
+    return table
+
+
+def _batch_table(name: str, stokes: np.ndarray[Any, Any]) -> Table:
+    table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
+    indices = list(np.ndindex(stokes.shape[:-1]))
+    for index in indices[:_ROWS]:
+        table.add_row(cell(str(list(index))), *(cell(_shown(c)) for c in stokes[index].tolist()))
+    if len(indices) > _ROWS:
+        table.add_row(f"{len(indices) - _ROWS} more")
+    return table
+
+
+def _shown(component: float) -> str:
+    return "not read" if math.isnan(component) else f"{component + 0.0:.12g}"

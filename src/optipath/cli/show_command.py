@@ -1,0 +1,76 @@
+"""``optipath show``: what a preset is made of."""
+
+from __future__ import annotations
+
+import re
+from io import StringIO
+from typing import TYPE_CHECKING
+
+import click
+from rich.cells import cell_len
+from rich.table import Table
+
+from optipath.cli.console import Terminal, cell
+from optipath.cli.text_files import NewFile, write
+from optipath.errors import printable
+from optipath.paths.drawing import draw
+from optipath.paths.presets.loader import load_preset
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.parameters import Parameter
+
+
+# What rich would load from the net: a typeface, in place of which one that is there will do.
+_FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
+
+
+@click.command()
+@click.argument("preset")
+@click.option("--case", metavar="NAME", help="Named set of values.")
+@click.option("--svg", type=NewFile(), help="Draw into this file as well.")
+def show(preset: str, case: str | None, svg: Path | None) -> None:
+    """Show the parameters, elements and links of a preset, or of a TOML file."""
+    path = load_preset(preset, case=case)
+    if svg is not None:
+        write(svg, _picture(path, f"optipath show {preset}").encode())
+    _print(Terminal(), path)
+
+
+def _picture(path: PathGraph, title: str) -> str:
+    # A picture has a width of its own; what is printed has the terminal's.
+    text = StringIO()
+    _print(Terminal(width=100, file=text), path)
+    width = max(100, *map(cell_len, text.getvalue().splitlines()))
+    recorder = Terminal(record=True, width=width, file=StringIO())
+    _print(recorder, path)
+    return _FROM_THE_NET.sub("", recorder.export_svg(title=printable(title)))
+
+
+def _print(console: Terminal, path: PathGraph) -> None:
+    console.print(cell(path.description, style="bold"), end="\n\n")
+    if path.parameters:
+        table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")
+        for parameter in path.parameters.values():
+            table.add_row(*map(cell, _row(parameter)))
+        console.print(table)
+        console.print()
+    console.print(cell(draw(path)), soft_wrap=True)
+    if path.cases:
+        console.print(cell(f"\ncases: {', '.join(path.cases)}"))
+    for name, found in path.cases.items():
+        if found.note:
+            console.print(cell(f"  {name}: {found.note}"))
+
+
+def _row(parameter: Parameter) -> tuple[str, str, str, str]:
+    described = [parameter.help, ", ".join(parameter.all_words)]
+    state = "bound to " if parameter.bound else ""
+    return (
+        parameter.name,
+        state + parameter.default_text(),
+        parameter.range_text(),
+        "; ".join(part for part in described if part),
+    )

@@ -1,0 +1,160 @@
+"""The values of a path: which are known, which are parameters, and whether they fit."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.composer.wiring import link_text
+from optipath.errors import ValueFault
+from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.domains import ANGLE
+from optipath.values.inputs import Inputs, Use
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import networkx as nx
+
+
+class Values:
+    """Every number of a path, gathered once: node by node, then link by link."""
+
+    def __init__(self, graph: nx.MultiDiGraph) -> None:
+        self.graph = graph
+
+    @cached_property
+    def uses(self) -> tuple[Use, ...]:
+        """Each number where it stands."""
+        found = [
+            Use(f"{name}.{part}", value, domain)
+            for name, element in self.graph.nodes(data="element")
+            for part, value, domain in element.quantities()
+        ]
+        found += self._entered()
+        for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
+            if azimuth is not None:
+                found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
+        return tuple(found)
+
+    def _entered(self) -> list[Use]:
+        """Return the numbers that must be something besides, where links lead to some port."""
+        entries = dict.fromkeys(
+            (end, enters) for _, end, (_, enters) in self.graph.edges(keys=True)
+        )
+        elements = self.graph.nodes(data="element")
+        return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
+
+    @cached_property
+    def parameters(self) -> dict[str, Parameter]:
+        """The parameters by name: in declared order, then as they are met."""
+        found: dict[str, Parameter] = {}
+        for use in self.uses:
+            if isinstance(use.value, Parameter) and use.value.name not in found:
+                found[use.value.name] = -use.value if use.value.negative else use.value
+        declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
+        return {name: found[name] for name in dict.fromkeys([*declared, *found])}
+
+    @cached_property
+    def known_shapes(self) -> dict[str, tuple[int, ...]]:
+        """The batch shapes of arrays and frames that are known, by owner."""
+        shapes = {}
+        for use in self.uses:
+            if not use.is_open:
+                shapes[use.owner] = use.known_shape()
+        for name, frames in self.graph.nodes(data="frames"):
+            shapes |= {f"frame of {name}.{port}": f.z.shape[:-1] for port, f in frames.items()}
+        return {owner: shape for owner, shape in shapes.items() if shape}
+
+    def inputs(self) -> Inputs:
+        """Return what may be given when the path is run."""
+        return Inputs(
+            open={name: p for name, p in self.parameters.items() if not p.bound},
+            bound={name: p for name, p in self.parameters.items() if p.bound},
+            uses=tuple(use for use in self.uses if use.is_open),
+            shapes=self.known_shapes,
+            known=tuple(use for use in self.uses if use.is_traced),
+        )
+
+    def faults(self) -> list[str]:
+        """Return what is wrong with the values that are known, a sentence each."""
+        found: list[str] = []
+        faulty = set()
+        looked_at = set()
+        for use in self.uses:
+            if isinstance(use.value, np.ndarray):
+                # The vertices of a chain share one large array.
+                if (id(use.value), use.domain) in looked_at:
+                    continue
+                looked_at.add((id(use.value), use.domain))
+            try:
+                use.check()
+            except ValueFault as fault:
+                found += fault.faults
+                faulty.add(use.owner)
+        sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
+        return [
+            *found,
+            *self._parameter_faults(),
+            *self._optional_faults(),
+            *broadcast_fault(sound),
+        ]
+
+    def _parameter_faults(self) -> Iterator[str]:
+        for use in self.uses:
+            if not isinstance(use.value, Parameter):
+                continue
+            name = use.value.name
+            if not use.value.same_specification(self.parameters[name]):
+                yield (
+                    f"parameter '{name}' at {use.owner} differs from the one of that name "
+                    f"elsewhere; use one Parameter, or two names"
+                )
+            if use.domain.tail != self._tails[name]:
+                yield (
+                    f"parameter '{name}' at {use.owner} has another shape than elsewhere; "
+                    f"use two names"
+                )
+            if use.value.optional and not self._can_be_absent(use.owner):
+                yield (
+                    f"parameter '{name}' is optional, but the element of {use.owner} cannot be "
+                    f"left out; only one that light goes straight through can"
+                )
+
+    def _optional_faults(self) -> Iterator[str]:
+        for name, element in self.graph.nodes(data="element"):
+            optional = {p.name for p in element.parameters() if p.optional}
+            if len(optional) > 1:
+                yield (
+                    f"'{name}' has several optional parameters ({', '.join(sorted(optional))}); "
+                    f"one is enough to leave it out"
+                )
+
+    @cached_property
+    def _tails(self) -> dict[str, tuple[int, ...]]:
+        found: dict[str, tuple[int, ...]] = {}
+        for use in self.uses:
+            if isinstance(use.value, Parameter):
+                found.setdefault(use.value.name, use.domain.tail)
+        return found
+
+    def _can_be_absent(self, owner: str) -> bool:
+        name, _, part = owner.partition(".")
+        if name not in self.graph or part == "azimuth":
+            return False
+        element = self.graph.nodes[name]["element"]
+        ways = [(coupling.enters, coupling.leaves) for coupling in element.couplings()]
+        return bool(element.straight) and ways == [("in", "out")]
+
+
+def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:
+    """Return the parameters of a graph of elements by name."""
+    return Values(graph).parameters
+
+
+def value_faults(graph: nx.MultiDiGraph) -> list[str]:
+    """Return what is wrong with the values of a graph of elements, a sentence each."""
+    return Values(graph).faults()

@@ -1,0 +1,174 @@
+"""Fresnel reflection and transmission by themselves, for those who need no path."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault
+from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION, cosine, refraction, sine
+from optipath.values.angles import is_angle, within_right_angle
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.shapes import check_broadcast
+from optipath.values.domains import INCIDENCE, INDEX, OUTSIDE, Domain
+from optipath.values.precision import precision
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.kernels import KernelFamily
+
+_COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
+
+
+def fresnel_reflection(
+    index: npt.ArrayLike,
+    cos_incidence: npt.ArrayLike,
+    sin_incidence: npt.ArrayLike,
+    method: str = "stable",
+    dtype: str = "float64",
+) -> tuple[npt.NDArray[Any], ...]:
+    """Return (A, B, C, S) of the Mueller matrix of a reflection.
+
+    The matrix is ``[[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]`` in
+    frames with x = s, with ``C + i S = r_s conj(r_p)`` and the field exp(-i w t).
+
+    Parameters
+    ----------
+    index : array_like, real or complex
+        The relative index m2 / m1 = n + ik, n and k not negative.
+    cos_incidence, sin_incidence : array_like
+        Of the angle of incidence. Both are taken, so that grazing and normal
+        incidence keep their digits. They broadcast with the index.
+    method : {"stable", "compensated", "amplitude", "textbook"}, optional
+        How Fresnel's equations are computed.
+    dtype : {"float64", "float32", "longdouble"}, optional
+        The precision of the computation and of the result.
+
+    Returns
+    -------
+    tuple of four ndarray
+        Of the broadcast shape.
+
+    Raises
+    ------
+    ValueFault
+        If a value is not allowed.
+    ShapeError
+        If the values do not broadcast.
+    ComposerError
+        If there is no such method or precision.
+
+    Examples
+    --------
+    >>> A, B, C, S = fresnel_reflection(1.5, 1.0, 0.0)
+    >>> float(A.round(12)), float(B), float(S)
+    (0.04, 0.0, 0.0)
+    """
+    return _fresnel(REFLECTION, index, cos_incidence, sin_incidence, method, dtype)
+
+
+def fresnel_transmission(
+    index: npt.ArrayLike,
+    cos_incidence: npt.ArrayLike,
+    sin_incidence: npt.ArrayLike,
+    method: str = "stable",
+    dtype: str = "float64",
+) -> tuple[npt.NDArray[Any], ...]:
+    """Return (A, B, C, S) of the Mueller matrix of the power that a boundary lets through.
+
+    The matrix has the form that `fresnel_reflection` gives; ``A + B`` and ``A - B`` are
+    1 less what is reflected, ``C = sqrt((A + B)(A - B))`` and ``S = 0``, and all four are 0
+    in total reflection. Behind the boundary of a medium that absorbs, C and S have the
+    phase between t_s and t_p of the field just there. It is power that is carried: a radiance
+    is multiplied by (n2 / n1)^2 besides (Nicodemus, Am. J. Phys. 31, 368 (1963)).
+
+    Parameters
+    ----------
+    index, cos_incidence, sin_incidence, method, dtype
+        As for `fresnel_reflection`.
+
+    Returns
+    -------
+    tuple of four ndarray
+        Of the broadcast shape.
+
+    Raises
+    ------
+    ValueFault, ShapeError, ComposerError
+        As `fresnel_reflection` does.
+
+    Examples
+    --------
+    >>> A, B, C, S = fresnel_transmission(1.5, 1.0, 0.0)
+    >>> float(A), float(B), float(C), float(S)
+    (0.96, 0.0, 0.96, 0.0)
+    """
+    return _fresnel(TRANSMISSION, index, cos_incidence, sin_incidence, method, dtype)
+
+
+def _fresnel(
+    family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: str
+) -> tuple[npt.NDArray[Any], ...]:
+    kernel, kind = family.by_method(method), precision(dtype)
+    m = INDEX.check("index", index)
+    cos, sin = as_given("cos_incidence", cos), as_given("sin_incidence", sin)
+    c = _COSINE.check("cos_incidence", within_right_angle(cos, sin))
+    s = _COSINE.check("sin_incidence", sin)
+    shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
+    shape = check_broadcast(shapes)
+    if not is_angle(cos, sin):
+        raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
+    # Adding 0 turns -0 into 0.
+    given = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))
+    with np.errstate(all="ignore"):
+        kernel, left = kernel.leaving_out([np.asarray(x, kind) for x in given], _vanishes)
+        numbers = kernel.made_for(NUMPY)(*left)
+        (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
+    return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))
+
+
+def _vanishes(number: npt.NDArray[Any]) -> bool:
+    return not np.any(number)
+
+
+def refraction_angle(
+    index: npt.ArrayLike, incidence: npt.ArrayLike, outside: npt.ArrayLike = 1.0
+) -> npt.NDArray[np.float64]:
+    """Return the angle at which light travels on behind a boundary, by Snell's law.
+
+    Behind a medium that absorbs, the real angle: that of planes of constant phase (Born &
+    Wolf, Principles of Optics, sec. 14.2). Where all is reflected, light creeps along the
+    boundary, and the angle is a right one.
+
+    Parameters
+    ----------
+    index : array_like, real or complex
+        The index n + ik of the medium behind.
+    incidence : array_like
+        The angle of incidence in radians, 0 to pi/2.
+    outside : array_like, optional
+        The index of the medium in front, real and above 0.
+
+    Raises
+    ------
+    ValueFault
+        If a value is not allowed.
+    ShapeError
+        If the values do not broadcast.
+
+    Examples
+    --------
+    >>> print(np.degrees(refraction_angle(1.5, np.radians(40.0))).round(6))
+    25.373994
+    """
+    m = INDEX.check("index", index)
+    angle = INCIDENCE.check("incidence", incidence)
+    front = OUTSIDE.check("outside", outside)
+    check_broadcast({"index": m.shape, "incidence": angle.shape, "outside": front.shape})
+    cos, sin = (made(NUMPY)(angle) for made in (cosine, sine))
+    given = (front, np.real(m), np.imag(m) + 0.0, cos, sin)
+    with np.errstate(all="ignore"):
+        c, s = refraction(NUMPY)(*np.broadcast_arrays(*given))
+    return np.asarray(np.arctan2(s, c))

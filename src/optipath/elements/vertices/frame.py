@@ -1,0 +1,101 @@
+"""The frame of light at a vertex, or beside it, made when somebody looks at it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import FrameError
+from optipath.kernels import ARRIVING, NUMPY, REFLECTED
+from optipath.light.frames import Frame
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.memory import enough_for
+from optipath.values.arrays.shapes import joint_shape
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    import numpy.typing as npt
+
+    from optipath.elements.vertices.coordinates import Coordinates
+    from optipath.values.operands import View
+    from optipath.values.parameters import Resolved
+
+_THREE_AXES = 72
+"""How many bytes the axes of a frame have."""
+
+
+@dataclass(frozen=True)
+class VertexFrame:
+    """How light arrives at the last of some vertices, or how it leaves there.
+
+    On its way from there it may be told in a frame that is turned about its direction.
+
+    Attributes
+    ----------
+    points : Coordinates
+        From the start of the chain to the point behind the vertex.
+    leaves : bool
+        Whether the frame is that of the reflected light.
+    turns : tuple of View
+        The angles by which the light's own frame is turned on about the direction of travel.
+    """
+
+    points: Coordinates
+    leaves: bool
+    turns: tuple[View, ...] = ()
+
+    def turned(self, *turns: View) -> VertexFrame:
+        """Return the frame turned by more angles."""
+        return replace(self, turns=(*self.turns, *turns))
+
+    @property
+    def names(self) -> set[str]:
+        """The open parameters that it depends on."""
+        values = (view.value for view in self._views)
+        return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
+
+    def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
+        """Return the frame: x across the plane of incidence, and turned from there.
+
+        Of a part of a batch, `cut` returns what belongs to it of numbers for the whole.
+
+        Raises
+        ------
+        FrameError
+            If JAX traces the values, or there is no memory for so many frames.
+        """
+        if any(view.traced for view in self._views) or any(
+            is_traced(given[name].value) for name in self.names
+        ):
+            raise FrameError(
+                "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
+                "jit and grad"
+            )
+        points = [cut(_doubles(view, given)) for view in self.points.arguments]
+        turns = [cut(_doubles(view, given)) for view in self.turns]
+        shape = joint_shape(*(number.shape for number in (*points, *turns)))
+        with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
+            axes = self.points.planes(REFLECTED if self.leaves else ARRIVING)(NUMPY)(*points)
+            x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
+            y = np.cross(z, x)
+            if turns:
+                angle = np.asarray(sum(turns))[..., np.newaxis]
+                c, s = np.cos(angle), np.sin(angle)
+                x, y = c * x + s * y, c * y - s * x
+        return Frame.trusted(x, y, z)
+
+    @property
+    def _views(self) -> tuple[View, ...]:
+        return *self.points.arguments, *self.turns
+
+
+def _doubles(view: View, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
+    return view.numbers(given).astype(np.float64, copy=False)
+
+
+def _vectors(components: Any, shape: tuple[int, ...]) -> Any:
+    return np.stack([np.broadcast_to(part, shape) for part in components], axis=-1)

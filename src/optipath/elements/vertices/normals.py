@@ -1,0 +1,154 @@
+"""The check of normals against the bisectors of a chain."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.vertices.naming import of_chain, pieces_of
+from optipath.errors import ShapeError, ValueFault, shown
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.shapes import check_broadcast
+from optipath.values.roundings import as_doubles, rounding_of
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+
+_TOLERANCE = 1e-6
+_SURELY = 0.5
+"""The part of the square of the tolerance that the rounding of a quick look leaves."""
+
+_STRAIGHT = 1e-7
+"""A bisector shorter than this is known to fewer digits than normals are checked to."""
+
+
+def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
+    """Return which normals are not along the bisectors of their vertices, and by how much.
+
+    Parameters
+    ----------
+    chains : ndarray, shape (..., count + 2, 3), or None
+        Vertices that are sound; where there are none, the normals are looked at alone.
+    normals : array_like, shape (..., count, 3)
+        What is given.
+    count : int
+        The number of reflections.
+
+    Examples
+    --------
+    >>> chain = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    >>> normal_faults(chain, [[0.0, -2.0, -2.0]], 1)
+    []
+    >>> normal_faults(chain, [[0.0, 0.0, 0.0]], 1)
+    ['the normal of vertex 1 has no length; give one with a direction of its own']
+    """
+    try:
+        given = as_given("the array of normals", normals)
+    except ValueFault as fault:
+        return list(fault.faults)
+    if given.dtype.kind not in "iuf":
+        return [f"normals must be real numbers, not {shown(normals)}"]
+    if given.shape[-2:] != (count, 3):
+        return [f"normals must have shape (..., {count}, 3), not {given.shape}"]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(given))
+    given = as_doubles(given)
+    if chains is None:
+        return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
+    shapes = {"vertices": chains.shape[:-2], "normals": given.shape[:-2]}
+    try:
+        batch = check_broadcast(shapes)
+    except ShapeError as fault:
+        return list(fault.faults)
+    chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
+    given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
+    doubted = [
+        piece for piece in pieces_of(len(given)) if not _surely_along(chains[piece], given[piece])
+    ]
+    if not doubted:
+        return []
+    return _own_faults(given, batch) or _off_faults(chains, given, batch, doubted, tolerance)
+
+
+def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
+    """Return which normals are none, whatever the chain."""
+    found = []
+    for bad, problem in (
+        (~np.isfinite(normals).all(axis=-1), "is not finite; give numbers"),
+        (~normals.any(axis=-1), "has no length; give one with a direction of its own"),
+    ):
+        if bad.any():
+            chain, place = (int(index[0]) for index in np.nonzero(bad))
+            found.append(f"{_normal_of(place, chain, batch)} {problem}")
+    return found
+
+
+def _off_faults(
+    chains: Floats,
+    normals: Floats,
+    batch: tuple[int, ...],
+    doubted: list[slice],
+    tolerance: float,
+) -> list[str]:
+    """Return the vertex whose normal is furthest off its bisector, if any is too far."""
+    worst, where = tolerance, ""
+    for piece in doubted:
+        off = _off(chains[piece], normals[piece])
+        chain, place = map(int, np.unravel_index(np.argmax(off), off.shape))
+        if off[chain, place] > worst:
+            worst = float(off[chain, place])
+            where = _normal_of(place, piece.start + chain, batch)
+    sentence = (
+        f"{where} is off the bisector of its legs by {np.degrees(worst):.3g} deg; it must be "
+        f"along it to within {tolerance:.2g} rad, or be left out"
+    )
+    return [sentence] if where else []
+
+
+def _normal_of(place: int, chain: int, batch: tuple[int, ...]) -> str:
+    return f"the normal of vertex {place + 1}{of_chain(chain, batch)}"
+
+
+def _surely_along(chains: Floats, normals: Floats) -> bool:
+    """Tell, quickly, whether all normals are along their bisectors beyond any doubt.
+
+    By sin^2 = 1 - cos^2, whose rounding is far below the square of the tolerance.
+    """
+    # Component by component, each for all chains: sums of rows, and no short last axis.
+    points, n = (np.ascontiguousarray(np.moveaxis(each, 0, -1)) for each in (chains, normals))
+    with np.errstate(all="ignore"):
+        legs = points[1:] - points[:-1]
+        legs /= np.sqrt(_dot(legs, legs))[:, np.newaxis]
+        b = legs[1:] - legs[:-1]
+        bb, nb, nn = _dot(b, b), _dot(n, b), _dot(n, n)
+        nb *= nb
+        bent = bb >= _STRAIGHT * _STRAIGHT
+        return bool(np.all((nn * bb - nb <= _SURELY * _TOLERANCE**2 * nb) & bent & (nb > 0.0)))
+
+
+def _dot(a: Floats, b: Floats) -> Floats:
+    product = a * b
+    found: Floats = product[:, 0] + product[:, 1]
+    found += product[:, 2]
+    return found
+
+
+def _off(chains: Floats, normals: Floats) -> Floats:
+    """Return the angles between normals and bisectors.
+
+    Light that goes straight on has none: its surfaces are all those along it.
+    """
+    unit = _units(np.diff(chains, axis=-2))
+    normal, bisector = _units(normals), unit[..., 1:, :] - unit[..., :-1, :]
+    along = np.abs(np.sum(normal * bisector, axis=-1))
+    angle = np.arctan2(np.linalg.norm(np.cross(normal, bisector), axis=-1), along)
+    straight = np.linalg.norm(bisector, axis=-1) < _STRAIGHT
+    through = np.arcsin(np.minimum(np.abs(np.sum(normal * unit[..., 1:, :], axis=-1)), 1.0))
+    return np.asarray(np.where(straight, through, angle))
+
+
+def _units(several: Floats) -> Floats:
+    scaled = several / np.max(np.abs(several), axis=-1, keepdims=True)
+    return np.asarray(scaled / np.linalg.norm(scaled, axis=-1, keepdims=True))

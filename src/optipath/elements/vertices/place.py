@@ -1,0 +1,102 @@
+"""The place of a vertex in its chain, and what its points are there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from optipath.elements.vertices.by_angles import VerticesByAngles
+from optipath.elements.vertices.coordinates import Coordinates, coordinates
+from optipath.errors import shown
+from optipath.values.parameters import Parameter
+
+_MANY = 1 << 31
+
+
+@dataclass(frozen=True, eq=False)
+class PlaceInChain:
+    """Which vertex of a chain, as somebody says it; it may be none.
+
+    Attributes
+    ----------
+    vertices : array, Parameter or VerticesByAngles
+        The chain.
+    number : int
+        Which of its reflections, 1 being the first that light meets.
+    reflections : int or None
+        How many there are, where that is told.
+
+    Examples
+    --------
+    >>> PlaceInChain(np.eye(3), 2, None).faults("mirror")
+    ['mirror.place must be a whole number of 1 .. 1, not 2']
+    """
+
+    vertices: Any
+    number: Any
+    reflections: Any
+
+    @property
+    def count(self) -> int:
+        """How many reflections there are; 0 where nothing says so."""
+        if isinstance(self.vertices, VerticesByAngles):
+            return len(self.vertices.incidences)
+        if is_count(self.reflections):
+            return int(self.reflections)
+        value = self.vertices
+        value = value.default if isinstance(value, Parameter) else value
+        shape: tuple[int, ...] = getattr(value, "shape", ())
+        return max(shape[-2] - 2, 0) if len(shape) > 1 else 0
+
+    @property
+    def tail(self) -> tuple[int, int]:
+        """The axes of the points of one chain."""
+        return max(self.count, 1) + 2, 3
+
+    def points_around(self) -> Coordinates:
+        """Return the vertex between its neighbours."""
+        return self._points(self._number - 1)
+
+    def points_from_start(self) -> Coordinates:
+        """Return all points up to the one behind the vertex."""
+        return self._points(0)
+
+    def faults(self, owner: str) -> list[str]:
+        """Return what is wrong with the numbers, a sentence each."""
+        found = []
+        if self.reflections is not None and not is_count(self.reflections):
+            found.append(
+                f"{owner}.reflections must be a whole number above 0, not {shown(self.reflections)}"
+            )
+        elif not self.count and isinstance(self.vertices, Parameter):
+            found.append(
+                f"{owner}.vertices is a parameter without a default; tell the number of "
+                f"reflections of the chain, reflections=..."
+            )
+        if not is_count(self.number) or self.number > (self.count or np.inf):
+            up_to = f" of 1 .. {self.count}" if self.count else " above 0"
+            given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
+            found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
+        return found
+
+    @property
+    def _number(self) -> int:
+        # What is no place is told as a fault, and must not be in the way until then.
+        number = self.number if is_count(self.number) else 1
+        return min(number, max(self.count, 1))
+
+    def _points(self, first: int) -> Coordinates:
+        return coordinates(self.vertices, self.tail[0], first, self._number + 1)
+
+
+def is_count(value: Any) -> bool:
+    """Tell whether a value is a whole number above 0.
+
+    Examples
+    --------
+    >>> is_count(2), is_count(0), is_count(True), is_count(2.0)
+    (True, False, False, False)
+    """
+    return isinstance(value, int) and not isinstance(value, bool) and 0 < value < _MANY

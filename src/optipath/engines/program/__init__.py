@@ -1,0 +1,1 @@
+"""A program of steps: what it is, its loops, and the order in which it is executed."""

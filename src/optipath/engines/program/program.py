@@ -1,0 +1,221 @@
+"""Program: a path as an ordered list of steps, ready for an engine.
+
+Nothing here knows a graph or an element. Lights are numbered by the step that
+makes them, evaluations and leaves by their place in their lists.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from optipath.kernels import FULL
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.elements.vertices import VertexFrame
+    from optipath.kernels import Kernel
+    from optipath.light.frames import Frame
+    from optipath.values.operands import View
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """A kernel called on leaves.
+
+    Attributes
+    ----------
+    kernel : Kernel
+        What is computed.
+    arguments : tuple of int
+        The leaves it is given.
+    presence : int or None
+        The leaf that says where the element is there at all; None where it always is.
+    """
+
+    kernel: Kernel
+    arguments: tuple[int, ...]
+    presence: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Makes one light: the sum of its inputs, changed by an evaluation.
+
+    Attributes
+    ----------
+    label : str
+        The node and the port where this happens.
+    inputs : tuple of int
+        The lights that are added up; empty where light is emitted.
+    evaluation : int or None
+        What is done to the sum; None leaves it as it is.
+    port : bool
+        Whether the label is an out-port, which the light of this step leaves by.
+    bounces : int
+        How often light is reflected here.
+    """
+
+    label: str
+    inputs: tuple[int, ...]
+    evaluation: int | None = None
+    port: bool = False
+    bounces: int = 0
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A light that a detector or a dump takes.
+
+    Attributes
+    ----------
+    light : int
+        The step that makes it.
+    frame : Frame or VertexFrame
+        The frame of the port where it arrives.
+    components : int
+        How many of the four Stokes components are read.
+    """
+
+    light: int
+    frame: Frame | VertexFrame
+    components: int = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Loop:
+    """Neighbouring steps whose lights depend on each other: a strongly connected component.
+
+    Attributes
+    ----------
+    knots : tuple of int
+        The steps where lights meet, those that every way round passes, in the order in which
+        they are to be eliminated; they stand before the other steps.
+    stop : int
+        The step behind the last one.
+    layered : bool
+        Whether each knot, when it is eliminated, has no more than two neighbours left.
+    """
+
+    knots: tuple[int, ...]
+    stop: int
+    layered: bool = False
+
+    @property
+    def start(self) -> int:
+        """The first step."""
+        return min(self.knots)
+
+
+@dataclass(frozen=True)
+class Program:
+    """Everything an engine needs.
+
+    Attributes
+    ----------
+    leaves : tuple of View
+        The numbers that kernels are given, constants and parameters alike.
+    evaluations : tuple of Evaluation
+        What is computed from the leaves.
+    steps : tuple of Step
+        In the order of travel.
+    sources : mapping of str to (int, frame)
+        The emitting step and the frame of each source.
+    detectors, dumps : mapping of str to Reading
+        Where light ends.
+    counts : tuple of int
+        How many of (S0, S1, S2, S3) each light is carried by, the first ones; all four where
+        it is empty.
+    loops : tuple of Loop
+        Where light goes round. A knot may add up lights of later steps of its loop; all other
+        steps have inputs before them.
+    links : mapping of str to Reading
+        Light on its way that is kept, and light that leaves the path, by link or out-port.
+    """
+
+    leaves: tuple[View, ...]
+    evaluations: tuple[Evaluation, ...]
+    steps: tuple[Step, ...]
+    sources: Mapping[str, tuple[int, Frame | VertexFrame]]
+    detectors: Mapping[str, Reading]
+    dumps: Mapping[str, Reading]
+    counts: tuple[int, ...] = ()
+    loops: tuple[Loop, ...] = ()
+    links: Mapping[str, Reading] = field(default_factory=dict)
+
+    def count(self, light: int) -> int:
+        """Return by how many components a light is carried."""
+        return self.counts[light] if self.counts else 4
+
+    def parts(self, evaluation: int) -> tuple[Kernel, tuple[View, ...], View | None]:
+        """Return the kernel of an evaluation, what it is given, and where it is there at all."""
+        found = self.evaluations[evaluation]
+        there = None if found.presence is None else self.leaves[found.presence]
+        return found.kernel, tuple(self.leaves[leaf] for leaf in found.arguments), there
+
+    @cached_property
+    def for_powers(self) -> Program | None:
+        """The same for intensities alone, or None where more is carried or read."""
+        reads = {reading.components for reading in self.readings.values()}
+        if self.loops or not self.counts or max(self.counts) > 2 or reads != {1}:
+            return None
+        kernels = [evaluation.kernel.powers or evaluation.kernel for evaluation in self.evaluations]
+        evaluations = (
+            replace(evaluation, kernel=kernel)
+            for evaluation, kernel in zip(self.evaluations, kernels, strict=True)
+        )
+        return replace(self, evaluations=tuple(evaluations))
+
+    @cached_property
+    def light_uses(self) -> tuple[int, ...]:
+        """How often each light is read, by a later step or by a detector."""
+        uses = Counter(light for step in self.steps for light in step.inputs)
+        uses.update(self.times_read)
+        return tuple(uses[light] for light in range(len(self.steps)))
+
+    @cached_property
+    def times_read(self) -> Mapping[int, int]:
+        """How often each light is read at an end, or kept."""
+        return Counter(reading.light for reading in self.readings.values())
+
+    @cached_property
+    def evaluation_uses(self) -> tuple[int, ...]:
+        """How often each evaluation is needed."""
+        uses = Counter(step.evaluation for step in self.steps)
+        return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
+
+    @cached_property
+    def matrices(self) -> Mapping[int, tuple[str, ...]]:
+        """The evaluations that are whole Mueller matrices, and the elements that they are of."""
+        found: dict[int, tuple[str, ...]] = {}
+        for step in self.steps:
+            index = step.evaluation
+            if index is not None and self.evaluations[index].kernel.structure == FULL:
+                found[index] = (*found.get(index, ()), step.label.rpartition(".")[0])
+        return found
+
+    def stretches(self) -> Iterator[tuple[range, Loop | None]]:
+        """Yield the steps in order, those of a loop together and with it."""
+        done = 0
+        for loop in self.loops:
+            yield range(done, loop.start), None
+            yield range(loop.start, loop.stop), loop
+            done = loop.stop
+        yield range(done, len(self.steps)), None
+
+    @cached_property
+    def used_by(self) -> tuple[tuple[int, ...], ...]:
+        """Which steps read each light."""
+        found: list[list[int]] = [[] for _ in self.steps]
+        for light, step in enumerate(self.steps):
+            for source in step.inputs:
+                found[source].append(light)
+        return tuple(map(tuple, found))
+
+    @cached_property
+    def readings(self) -> Mapping[str, Reading]:
+        """All light that is read: by detectors, by dumps, and on links."""
+        return {**self.detectors, **self.dumps, **self.links}

@@ -1,0 +1,61 @@
+"""Reduction: what is left of a path when no more is done than the question needs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from optipath.engines.program.program import Program
+
+MODELS = ("scalar", "sp", "linear", "full")
+"""What is carried, the smallest first: S0; S0 and S1; S0, S1 and S2; all four."""
+
+
+@dataclass(frozen=True)
+class Reduction:
+    """The program that is run, and how it came out of the path as it stands.
+
+    Attributes
+    ----------
+    program : Program
+        What is run.
+    model : str
+        The model of which the light of every step is a part.
+    reason : str
+        Why this model.
+    live : tuple of tuple of int
+        For each light of the program, the components that are alive.
+    folded : tuple of str
+        What was merged, left out, or made cheaper, a sentence each.
+    as_it_stands : bool
+        Whether each step is done as the path has it, with every number that it has.
+    """
+
+    program: Program
+    model: str
+    reason: str
+    live: tuple[tuple[int, ...], ...]
+    folded: tuple[str, ...] = ()
+    as_it_stands: bool = False
+
+    def by(self, model: str) -> Reduction:
+        """Return the same carried by another model, exact or not."""
+        counts = (MODELS.index(model) + 1,) * len(self.program.steps)
+        return replace(self, program=replace(self.program, counts=counts), model=model)
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """What is taken in place of an exact model where a certificate allows it.
+
+    Attributes
+    ----------
+    model : str
+        The cheaper model.
+    most : float
+        How large its error may be, as a share of the intensity.
+    """
+
+    model: str
+    most: float

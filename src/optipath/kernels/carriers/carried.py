@@ -1,0 +1,186 @@
+"""Light as the steps carry it along: (weak, S1, S2, S3).
+
+``weak`` is the smaller of the intensities along x and along y. Behind a crossed filter
+or near Brewster's angle one of the two is tiny, and in S0 its digits would be lost;
+near the normal S1 is tiny, and in the two intensities its digits would be lost. The
+pair (weak, S1) keeps both: S0 = 2 weak + |S1| is a sum of non-negative terms.
+
+Where a scene needs no more than the first one, two or three of the four, light is carried as
+these alone; with S1 left out, ``weak`` is half of S0.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+if TYPE_CHECKING:
+    from optipath.kernels.numbers.primitives import Primitives
+
+Components: TypeAlias = tuple[Any, Any, Any, Any]
+"""(S0, S1, S2, S3), each by itself."""
+
+Carried: TypeAlias = tuple[Any, ...]
+"""(weak, S1, S2, S3), or the first few of them; those left out are 0, or matter to nobody."""
+
+_SEVERAL, _MANY = 64.0, 1024.0
+"""How many roundings a negative intensity, and a DoP above 1, may come from."""
+
+
+def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
+    """Return Stokes components as they are carried, or the first `count` of them.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> carry(FLOAT, (1.0, -0.5, 0.0, 0.0)), carry(FLOAT, (1.0, 0.0, 0.0, 0.0), 1)
+    ((0.25, -0.5, 0.0, 0.0), (0.5,))
+    """
+    s0, s1 = stokes[:2]
+    if count == 1:
+        return (0.5 * s0,)
+    size = xp.absolute(s1)
+    return not_below_rounding(xp, 0.5 * (s0 - size), size), *stokes[1:count]
+
+
+def all_four(carried: Carried) -> tuple[Any, Any, Any, Any]:
+    """Return carried light with plain zeros for what is left out.
+
+    Examples
+    --------
+    >>> all_four((0.25, -0.5))
+    (0.25, -0.5, 0.0, 0.0)
+    """
+    weak, s1, s2, s3 = (*carried, 0.0, 0.0, 0.0)[:4]
+    return weak, s1, s2, s3
+
+
+def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
+    """Return the first `count` components of carried light.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> leaving(FLOAT, (0.25, -0.5, 0.1, 0.0), 2), leaving(FLOAT, (0.25, -0.5), 1)
+    ((0.25, -0.5), (0.5,))
+    """
+    if count > 1 or len(carried) == 1:
+        return carried[:count]
+    return (carried[0] + 0.5 * xp.absolute(carried[1]),)
+
+
+def products(*pairs: tuple[Any, Any]) -> Any:
+    """Return the sum of products, without those that have a plain 0 for a factor.
+
+    Examples
+    --------
+    >>> products((2.0, 3.0), (1.0, 0.0), (1.0, 4.0))
+    10.0
+    """
+    terms = [a * b for a, b in pairs if not (_is_plain_zero(a) or _is_plain_zero(b))]
+    return sum(terms[1:], start=terms[0]) if terms else 0.0 * pairs[0][0] * pairs[0][1]
+
+
+def _is_plain_zero(number: Any) -> bool:
+    return type(number) is float and number == 0.0
+
+
+def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
+    """Return an intensity, 0 where it is negative by no more than the roundings of a size.
+
+    Matrices of one's own may make light that cannot be; its negative intensities stay.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
+    (0.0, -0.1)
+    """
+    return _taken_as_0(xp, (weak < 0.0) & _vanishes(weak, _SEVERAL * size), weak)
+
+
+def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
+    """Return a number, 0 where it is no more than the roundings of a size.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
+    (0.0, 1e-06)
+    """
+    return _taken_as_0(xp, _vanishes(number, _SEVERAL * size), number)
+
+
+def _taken_as_0(xp: Primitives, condition: Any, number: Any) -> Any:
+    """Return a number, 0 where a condition holds; its slope stays."""
+    if xp.within:
+        return number - xp.where(condition, xp.fixed(number), 0.0)
+    return xp.where(condition, 0.0, number)
+
+
+def _vanishes(number: Any, beside: Any) -> Any:
+    return beside + number == beside
+
+
+def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
+    """Return light whose S1, S2, S3 are shortened where roundings made them longer than S0.
+
+    Matrices of one's own may make light that cannot be; it stays as it is.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))
+    (2.5000000000000003e-17, 1.0, 1e-08, 0.0)
+    """
+    if len(carried) == 1:
+        return carried
+    weak, s1, s2, s3 = all_four(carried)
+    size = xp.absolute(s1)
+    s0 = 2.0 * weak + size
+    # |S|^2 - S0^2, where S0 = 2 weak + |S1|.
+    excess = products((s2, s2), (s3, s3)) - 4.0 * weak * (weak + size)
+    square = s0 * s0
+    rounding = (excess > 0.0) & _vanishes(excess, _MANY * square)
+    gap = xp.where(rounding, 0.5 * excess / xp.where(square > 0.0, square, 1.0), 0.0)
+    rest = (number - number * gap for number in carried[1:])
+    return weak + 0.5 * size * gap, *rest
+
+
+def stokes_of(xp: Primitives, carried: Carried) -> Components:
+    """Return the Stokes components of carried light; those that are left out are 0.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> stokes_of(FLOAT, (0.25, -0.5, 0.0, 0.0))
+    (1.0, -0.5, 0.0, 0.0)
+    """
+    weak, s1, s2, s3 = all_four(carried)
+    return (2.0 * weak if len(carried) == 1 else 2.0 * weak + xp.absolute(s1)), s1, s2, s3
+
+
+def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
+    """Return the intensities along x and along y."""
+    if len(carried) == 1:
+        return carried[0], carried[0]
+    weak, s1 = carried[:2]
+    return weak + xp.maximum(s1, 0.0), weak + xp.maximum(-s1, 0.0)
+
+
+def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
+    """Return two lights together, incoherently.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> add(FLOAT, (0.0, 1.0, 0.0, 0.0), (0.0, -1.0, 0.0, 0.5))
+    (1.0, 0.0, 0.0, 0.5)
+    """
+    if len(first) == len(second) == 1:
+        return (first[0] + second[0],)
+    x1, y1 = along_axes(xp, first)
+    x2, y2 = along_axes(xp, second)
+    # One that is carried by fewer components has nothing of the others.
+    count = max(len(first), len(second))
+    both = zip(all_four(first)[1:count], all_four(second)[1:count], strict=True)
+    return xp.minimum(x1 + x2, y1 + y2), *(one + other for one, other in both)

@@ -1,0 +1,108 @@
+"""A kernel: one piece of the physics, its structure, and its methods."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from optipath.errors import ComposerError, unknown
+from optipath.kernels.numbers.primitives import Primitives, made
+
+if TYPE_CHECKING:
+    from optipath.kernels.carriers.structures import Structure
+
+Factory: TypeAlias = Callable[[Primitives], Callable[..., tuple[Any, ...]]]
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """A pure elementwise function, made for any set of primitives.
+
+    Attributes
+    ----------
+    name : str
+        What explanations call it.
+    structure : Structure or None
+        The shape of Mueller matrix that its numbers describe; None for the four
+        Stokes components that a source emits.
+    factory : callable
+        ``factory(primitives)`` gives the function; its result has as many
+        numbers as the structure asks for.
+    without : tuple of int and Kernel, optional
+        A cheaper kernel for where one argument is 0: the position of that argument, and
+        the kernel that takes the others.
+    denser : tuple of int, int and Kernel, optional
+        A cheaper kernel for where one argument is never less than another: their positions,
+        and the kernel, which takes the same arguments.
+    powers : Kernel, optional
+        What is left of the kernel where only intensities are asked.
+    """
+
+    name: str
+    structure: Structure | None
+    factory: Factory
+    without: tuple[int, Kernel] | None = None
+    denser: tuple[int, int, Kernel] | None = None
+    powers: Kernel | None = None
+
+    def __hash__(self) -> int:
+        # Asked for once a step; what else belongs to a name is compared where names are equal.
+        return hash(self.name)
+
+    def made_for(self, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
+        """Return the function in terms of these primitives, made once and kept."""
+        function: Callable[..., tuple[Any, ...]] = made(self.factory, primitives)
+        return function
+
+    def leaving_out(
+        self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
+    ) -> tuple[Kernel, tuple[Any, ...]]:
+        """Return the cheapest kernel for these arguments, and those that it takes."""
+        if self.without is None or not vanishes(arguments[self.without[0]]):
+            return self, tuple(arguments)
+        position, cheaper = self.without
+        return cheaper, (*arguments[:position], *arguments[position + 1 :])
+
+    def never_less(
+        self, arguments: Sequence[Any], ranges: Callable[[Any], tuple[float, float]]
+    ) -> Kernel:
+        """Return the cheapest kernel for the ranges that the arguments are known to be in."""
+        if self.denser is None:
+            return self
+        larger, smaller, cheaper = self.denser
+        known = ranges(arguments[larger])[0] >= ranges(arguments[smaller])[1]
+        return cheaper if known else self
+
+    def by_method(self, method: str) -> Kernel:
+        """Return the kernel itself: it has one method only."""
+        del method
+        return self
+
+
+@dataclass(frozen=True)
+class KernelFamily:
+    """One piece of the physics that several methods compute.
+
+    Attributes
+    ----------
+    name : str
+        What the methods compute.
+    methods : mapping of str to Kernel
+        The kernel of each method.
+    """
+
+    name: str
+    methods: Mapping[str, Kernel]
+
+    def by_method(self, method: str) -> Kernel:
+        """Return the kernel of a method.
+
+        Raises
+        ------
+        ComposerError
+            If there is no such method.
+        """
+        if faults := unknown("method", method, self.methods):
+            raise ComposerError(*faults)
+        return self.methods[method]

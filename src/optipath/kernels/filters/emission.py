@@ -1,0 +1,22 @@
+"""What sources emit: the four Stokes components."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.numbers.primitives import Primitives
+
+
+def unpolarized(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(intensity,) -> (I, 0, 0, 0)``."""
+    del xp
+    return lambda intensity: (intensity, 0.0, 0.0, 0.0)
+
+
+def polarized(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(I, s0, s1, s2, s3) -> (I s0, I s1, I s2, I s3)``."""
+    del xp
+    return lambda intensity, *state: tuple(intensity * component for component in state)

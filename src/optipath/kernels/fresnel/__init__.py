@@ -1,0 +1,1 @@
+"""Fresnel's equations: one boundary by every method, refraction, stacks of layers."""

@@ -1,0 +1,254 @@
+"""The boundary of two media as light meets it: the wave in front and the wave behind."""
+
+from __future__ import annotations
+
+from functools import reduce
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.numbers.primitives import Primitives
+
+
+class Boundary(NamedTuple):
+    """What reflection and transmission are made of.
+
+    Indices are divided by a power of two near the largest of them, so that no square
+    overflows; every result is a ratio in which it falls out.
+
+    Attributes
+    ----------
+    p : float
+        n1 cos, the wave in front along the normal.
+    a, b : float
+        The wave behind along the normal, g = a + ib = sqrt(m2^2 - (n1 sin)^2), a, b >= 0.
+    squared : float
+        |g|^2.
+    D, v : float
+        m2^2 - n1^2 = D + iv.
+    s, c : float
+        The sine and the cosine.
+    n1, n, k : float
+        The indices, divided.
+    """
+
+    p: Any
+    a: Any
+    b: Any
+    squared: Any
+    D: Any
+    v: Any
+    s: Any
+    c: Any
+    n1: Any
+    n: Any
+    k: Any
+
+
+def near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> near_one(FLOAT)(1.0, 6.0)
+    (0.125, 0.75)
+    """
+    frexp, ldexp, maximum, inside = xp.frexp, xp.ldexp, xp.maximum, from_within(xp)
+
+    def divided(*indices: Any) -> tuple[Any, ...]:
+        _, exponent = frexp(reduce(maximum, indices))
+        return tuple(ldexp(inside(index), -exponent) for index in indices)
+
+    return divided
+
+
+def from_within(xp: Primitives, power: int = 1) -> Callable[[Any], Any]:
+    """Make ``number -> number`` for one that is not negative; for slopes, one just above 0 for 0.
+
+    At grazing incidence, and without absorption, branches for exactly that have no slopes. How far
+    above is a power of ``xp.within``.
+    """
+    where, within = xp.where, xp.within**power
+    if not within:
+        return lambda number: number
+    return lambda number: number + where(number > 0.0, 0.0, within)
+
+
+_SMALL, _FAR = 2.0**-60, 2.0**100
+"""What has a square that may vanish in float32, and what takes it back among the others."""
+
+_VANISHING = 2.0**-500
+
+
+def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
+    """Make ``(x, y) -> sqrt(x^2 + y^2)`` for x, y >= 0, the larger of at most 1e18.
+
+    Below 1e-150 it is the larger, as it is where the other is much smaller.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> hypotenuse(FLOAT)(3e-140, 4e-140), hypotenuse(FLOAT)(1e-240, 0.0)
+    (5e-140, 1e-240)
+    """
+    sqrt, where, maximum = xp.sqrt, xp.where, xp.maximum
+
+    def length(x: Any, y: Any) -> Any:
+        longer = maximum(x, y)
+        small = longer < _SMALL
+        x, y = where(small, _FAR * x, x), where(small, _FAR * y, y)
+        squared = sqrt(x * x + y * y)
+        # Where even these squares vanish, it is the longer side.
+        near = where(longer < _VANISHING, longer, squared * (1.0 / _FAR))
+        return where(small, near, squared)
+
+    return length
+
+
+def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, Any]]:
+    """Make ``(u, n, k) -> (a, b, |g|^2)`` with g = a + ib = sqrt(u + 2ink), a, b >= 0.
+
+    The larger of a and b is a sum; the smaller is what ab = nk leaves for it.
+
+    Examples
+    --------
+    >>> from optipath.kernels import FLOAT
+    >>> complex_root(FLOAT)(-3.0, 2.0, 1.0)[:2]
+    (1.0, 2.0)
+    """
+    sqrt, where, absolute, length = xp.sqrt, xp.where, xp.absolute, hypotenuse(xp)
+
+    def root(u: Any, n: Any, k: Any) -> tuple[Any, Any, Any]:
+        size = absolute(u)
+        squared = length(size, 2.0 * n * k)
+        larger = sqrt(0.5 * (size + squared))
+        # In this order, since n k may underflow.
+        smaller = n / where(larger > 0.0, larger, 1.0) * k
+        forward = u >= 0.0
+        return where(forward, larger, smaller), where(forward, smaller, larger), squared
+
+    return root
+
+
+def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
+    """Make ``(n1, n, k, [n0,] cos, sin) -> Boundary``.
+
+    The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
+    refracted the light into n1.
+    """
+    wave, root = absorbing_wave(xp), complex_root(xp)
+
+    def boundary(n1: Any, n: Any, k: Any, *angle: Any) -> Boundary:
+        n1, n, k, c, s, p, contrast, u = wave(n1, n, k, *angle)
+        a, b, squared = root(u, n, k)
+        return Boundary(p, a, b, squared, contrast - k * k, 2.0 * n * k, s, c, n1, n, k)
+
+    return boundary
+
+
+def absorbing_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(n1, n, k, [n0,] cos, sin) -> (n1, n, k, cos, sin, p, n^2 - n1^2, Re g^2)``.
+
+    The indices come out divided; the angle is that in the medium n1.
+    """
+    divided, wave, absolute = near_one(xp), _wave(xp), xp.absolute
+    # Much nearer to its edge than the square of a cosine to its own: a medium without absorption
+    # is one at grazing incidence, too.
+    inside = from_within(xp, 6)
+
+    def absorbing(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        *n0, c, s = angle
+        # The absolute value makes -0 a 0.
+        n1, n, k, *n0 = divided(n1, n, inside(absolute(k)), *n0)
+        return n1, n, k, *wave(n1, n, k, *n0, c, s)
+
+    return absorbing
+
+
+def lossless_boundary(xp: Primitives) -> Callable[..., Boundary]:
+    """Make ``(n1, n, [n0,] cos, sin) -> Boundary``, for media that absorb nothing."""
+    wave = _lossless_wave(xp)
+    sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
+
+    def boundary(n1: Any, n: Any, *angle: Any) -> Boundary:
+        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
+        squared = absolute(u)
+        size = sqrt(squared)
+        forward = u >= 0.0
+        a, b = where(forward, size, 0.0), where(forward, 0.0, size)
+        return Boundary(p, a, b, squared, contrast, 0.0, s, c, n1, n, 0.0)
+
+    return boundary
+
+
+def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
+    """Make ``(n1, n, [n0,] cos, sin) -> Boundary`` for n >= n1 without absorption.
+
+    The same again, where nothing is reflected totally: Re g^2 is never negative.
+    """
+    sqrt, wave, lossless = xp.sqrt, _lossless_wave(xp), lossless_boundary(xp)
+
+    def boundary(n1: Any, n: Any, *angle: Any) -> Boundary:
+        if len(angle) > 2:
+            # All may have been reflected before.
+            return lossless(n1, n, *angle)
+        n1, n, c, s, p, contrast, u = wave(n1, n, *angle)
+        return Boundary(p, sqrt(u), 0.0, u, contrast, 0.0, s, c, n1, n, 0.0)
+
+    return boundary
+
+
+def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    divided, wave = near_one(xp), _wave(xp)
+
+    def lossless(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
+        *n0, c, s = angle
+        n1, n, *n0 = divided(n1, n, *n0)
+        return n1, n, *wave(n1, n, 0.0, *n0, c, s)
+
+    return lossless
+
+
+def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    where, behind, inside = xp.where, refracted_wave(xp), from_within(xp)
+
+    def wave(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        """Return the cosine and sine in n1, p, n^2 - n1^2, and Re g^2."""
+        contrast = (n - n1) * (n + n1)
+        if len(angle) > 2:
+            c, s, p, squared = behind(n1, n, *angle)
+            return c, s, p, contrast, squared - k * k
+        c, s = inside(angle[0]), angle[1]
+        p = n1 * c
+        y = n1 * s
+        # Re g^2, from whichever of cos and sin is small: that one carries the digits.
+        u = where(c < s, contrast + p * p, (n - y) * (n + y)) - k * k
+        return c, s, p, contrast, u
+
+    return wave
+
+
+def refracted_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make ``(n1, n, n0, cos0, sin0) -> (cos, sin, p, n^2 - (n0 sin0)^2)`` for the angle in n1.
+
+    Parallel boundaries have refracted the light from n0 into n1; n0 sin0 is what Snell's law
+    keeps.
+    """
+    where, sqrt, maximum, minimum = xp.where, xp.sqrt, xp.maximum, xp.minimum
+    inside = from_within(xp)
+
+    def refracted(n1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
+        c0 = inside(c0)
+        p0, y = n0 * c0, n0 * s0
+
+        def along(m: Any) -> Any:
+            """Return the square of the wave along the normal in a medium m."""
+            return where(c0 < s0, (m - n0) * (m + n0) + p0 * p0, (m - y) * (m + y))
+
+        # Where all has been reflected before, there is no light, and any angle will do.
+        p = sqrt(maximum(along(n1), 0.0))
+        return p / n1, minimum(y / n1, 1.0), p, along(n)
+
+    return refracted

@@ -1,0 +1,47 @@
+"""Fresnel's equations as `stable` has them, in twice the precision, rounded once at the end."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from optipath.kernels.fresnel.stable import (
+    lossless_reflection,
+    lossless_transmission,
+    stable_reflection,
+    stable_transmission,
+)
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.twice import twice
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.carriers.kernel import Factory
+    from optipath.kernels.numbers.primitives import Primitives
+
+
+@dataclass(frozen=True)
+class _Compensated:
+    """Makes a kernel in twice the precision; a class, so that plans can be pickled."""
+
+    factory: Factory
+
+    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+        kernel, sqrt = self.factory(twice(xp)), DoubleDouble.sqrt
+
+        def rounded_once(*given: Any) -> tuple[Any, ...]:
+            # Not a plain 0: the rest has the precision of the number.
+            *media, c, s = (DoubleDouble(xp, number, 0.0 * number) for number in given)
+            # A cosine and a sine that are rounded belong to no angle; their ratio does.
+            length = sqrt(c * c + s * s)
+            numbers = kernel(*media, c / length, s / length)
+            return tuple(n.high if isinstance(n, DoubleDouble) else n for n in numbers)
+
+        return rounded_once
+
+
+compensated_reflection = _Compensated(stable_reflection)
+compensated_transmission = _Compensated(stable_transmission)
+compensated_lossless_reflection = _Compensated(lossless_reflection)
+compensated_lossless_transmission = _Compensated(lossless_transmission)

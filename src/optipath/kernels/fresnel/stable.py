@@ -1,0 +1,192 @@
+"""Fresnel's equations that keep their digits: products and sums of non-negative terms."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.kernels.fresnel.boundary import (
+    Boundary,
+    absorbing_boundary,
+    denser_boundary,
+    hypotenuse,
+    lossless_boundary,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.numbers.primitives import Primitives
+
+
+_LOST, _LEAST = 2.0**-52, 2.0**-970
+"""What the first takes to 0 has lost digits; what is below the second has too large an inverse."""
+
+
+def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+
+    The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
+    refracted the light into n1.
+
+    With p = n1 cos, z = (n1 sin)^2, D = m2^2 - n1^2 and g = a + ib = sqrt(m2^2 - z):
+    r_s = -D / (p + g)^2 and r_p / r_s = (z - p g) / (z + p g), which are the
+    Fresnel equations (Born & Wolf, Principles of Optics, sec. 1.5 and 14.2) freed
+    of differences between nearly equal numbers. Total reflection gives
+    Fs = Fp = 1 and B = 0 exactly.
+    """
+    boundary, reflected = absorbing_boundary(xp), _reflected(xp)
+    return lambda n1, n, k, *angle: reflected(boundary(n1, n, k, *angle))
+
+
+def lossless_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: cheaper, for k = 0."""
+    boundary, reflected = lossless_boundary(xp), _reflected(xp)
+    return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
+
+
+def denser_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: the same for n >= n1."""
+    boundary, reflected = denser_boundary(xp), _reflected(xp)
+    return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
+
+
+def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
+
+    Ts = 4 p a / |p + g|^2, Tp = Ts n1^2 (|g|^2 + z) / |z + p g|^2, and t_s / t_p =
+    (z + p g) / (n1 m2). In a medium that absorbs, C and S have the phase between the
+    fields just behind the boundary.
+    """
+    boundary, transmitted = absorbing_boundary(xp), _transmitted(xp)
+    sqrt, where, length = xp.sqrt, xp.where, hypotenuse(xp)
+
+    def transmit(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
+        at = boundary(n1, n, k, *angle)
+        powers, (re, im), behind, q = transmitted(at)
+        size = length(at.n, at.k)
+        n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
+        share = powers[0] * sqrt(behind / q) / sqrt(q)
+        absorbs = at.k > 0.0
+        C = where(absorbs, share * (re * n + im * k), _lossless(where, powers[0], at, re))
+        # Im(g conj m2) without a difference, from g - m2 = -(n1 sin)^2 / (g + m2).
+        re, im = at.a + at.n, at.b + at.k
+        sum2 = re * re + im * im
+        apart = at.c * at.n1 * (n * im + k * re) / where(sum2 > 0.0, sum2, 1.0) - k
+        # Adding 0 turns -0 into 0.
+        return *powers, C, where(absorbs, share * at.n1 * (at.s * at.s) * apart, 0.0) + 0.0
+
+    return transmit
+
+
+def lossless_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``: cheaper, for k = 0."""
+    boundary, transmitted = lossless_boundary(xp), _transmitted(xp)
+    where = xp.where
+
+    def transmit(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
+        at = boundary(n1, n, *angle)
+        powers, (re, _), _, _ = transmitted(at)
+        return *powers, _lossless(where, powers[0], at, re), 0.0
+
+    return transmit
+
+
+def _lossless(where: Callable[..., Any], Ts: Any, at: Boundary, re: Any) -> Any:
+    """Return C = sqrt(Ts Tp) where nothing absorbs: n1 n2 Ts / (z + p a)."""
+    return Ts * at.n / where(re > 0.0, re, 1.0)
+
+
+def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
+    where = xp.where
+
+    def first(at: Boundary) -> tuple[Any, Any]:
+        """Return Fs and Ts."""
+        P = front(at)
+        # P vanishes only at grazing incidence on an equal medium, which is no interface.
+        there = P > 0.0
+        P = where(there, P, 1.0)
+        Ts = where(there, 4.0 * at.p / P * at.a, 1.0)
+        re, im = at.D / P, at.v / P
+        small = re * re + im * im
+        # The smaller of the two carries the digits of both.
+        return where(Ts < 0.6, 1.0 - Ts, small), where(Ts < 0.6, Ts, 1.0 - small)
+
+    return first
+
+
+def front(at: Boundary) -> Any:
+    """Return P = |p + g|^2."""
+    return at.p * at.p + (2.0 * at.p * at.a + at.squared)
+
+
+class Slant(NamedTuple):
+    """How r_p differs from r_s: by z and p g, all of it divided by n1.
+
+    `z2` and `g2` are the squares of z = n1 sin^2 and of c|g|, and `q` is |z + p g|^2.
+    """
+
+    z: Any
+    ca: Any
+    cb: Any
+    z2: Any
+    g2: Any
+    q: Any
+
+    @property
+    def less(self) -> Any:
+        """|z - p g|^2, the square of which r_p / r_s has the root over q."""
+        return (self.z - self.ca) * (self.z - self.ca) + self.cb * self.cb
+
+
+def slant(at: Boundary) -> Slant:
+    """Return how the two polarisations differ at a boundary."""
+    z, ca, cb = at.n1 * (at.s * at.s), at.c * at.a, at.c * at.b
+    z2, g2 = z * z, at.c * at.c * at.squared
+    return Slant(z, ca, cb, z2, g2, z2 + (2.0 * z * ca + g2))
+
+
+def _second(xp: Primitives) -> Callable[[Boundary], tuple[Slant, Any, Any]]:
+    where = xp.where
+
+    def second(at: Boundary) -> tuple[Slant, Any, Any]:
+        """Return the slant, whether q is there, and q where it is."""
+        found = slant(at)
+        # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
+        # where the limits are known; at 90 degrees they are exact.
+        there = (_LOST * found.q > 0.0) & (found.q > _LEAST)
+        return found, there, where(there, found.q, 1.0)
+
+    return second
+
+
+def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
+    where, first, second = xp.where, _first(xp), _second(xp)
+
+    def reflected(at: Boundary) -> tuple[Any, ...]:
+        Fs, _ = first(at)
+        along, there, q = second(at)
+        f = Fs / q
+        # Factors that may be tiny come last: no digit is lost to an underflow before them.
+        parted = 2.0 * f * (at.s * at.s) * at.c
+        B, S = parted * at.a * at.n1, parted * at.b * at.n1
+        # The difference is the better one unless it cancels, and exact in total reflection.
+        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
+        C = where(there & (at.c > 0.0), f * (along.z2 - along.g2), where(at.c < along.z, Fs, -Fs))
+        return Fs, Fp, B, C, S
+
+    return reflected
+
+
+def _transmitted(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:
+    first, second = _first(xp), _second(xp)
+
+    def transmitted(at: Boundary) -> tuple[Any, ...]:
+        """Return (Ts, Tp, B), (z + p g) / n1, |g|^2 + z, and |z + p g|^2 / n1^2."""
+        Fs, Ts = first(at)
+        along, _, q = second(at)
+        behind = at.squared + at.n1 * along.z
+        B = 0.0 - 2.0 * Fs / q * (at.s * at.s) * at.c * at.a * at.n1
+        powers = Ts, Ts * (behind / q), B
+        return powers, (along.z + along.ca, along.cb), behind, q
+
+    return transmitted

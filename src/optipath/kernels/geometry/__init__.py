@@ -1,0 +1,1 @@
+"""Light along a chain of vertices: vectors, planes of incidence, angles."""

@@ -1,0 +1,1 @@
+"""Numbers that kernels compute with: primitives, trigonometry, twice the digits, elimination."""

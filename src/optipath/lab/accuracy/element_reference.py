@@ -1,0 +1,261 @@
+"""The reference for elements: their Jones matrices in many digits, written for nothing else."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements import (
+    Attenuator,
+    BeamSplitter,
+    Combiner,
+    Coupling,
+    Diattenuator,
+    Element,
+    Interface,
+    LayerStack,
+    Medium,
+    Mirror,
+    Polarizer,
+    Retarder,
+    Rotator,
+    SpecularVertex,
+)
+from optipath.kernels import INCIDENCE, REFLECTION
+from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
+from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, exact_angle, exactly, mpmath
+from optipath.values.materials import Material
+from optipath.values.operands import View, view_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.parameters import Resolved
+
+
+class Reader:
+    """Reads the values of a path as numbers of many digits, and moves one angle a little.
+
+    Parameters
+    ----------
+    given : mapping of str to Resolved
+        The values of the open parameters.
+    batch : tuple of int
+        The shape of all values together.
+    at : tuple of int
+        Which of the batch.
+    moved : int, optional
+        Which angle, in the order in which they are read, is moved.
+    by : mpf, optional
+        The relative change of its tangent.
+
+    Attributes
+    ----------
+    count : int
+        How many angles have been read.
+    decades : int
+        How far the numbers that have been read are from 1, all together.
+    """
+
+    def __init__(
+        self,
+        given: Mapping[str, Resolved],
+        batch: tuple[int, ...],
+        at: tuple[int, ...],
+        moved: int = -1,
+        by: Any = 0,
+    ) -> None:
+        self.given = given
+        self.batch = batch
+        self.at = at
+        self.moved = moved
+        self.by = by
+        self.count = 0
+        self.decades = 0
+
+    def pick(self, numbers: Any) -> Any:
+        """Return that one of the batch."""
+        return np.broadcast_to(numbers, self.batch)[self.at]
+
+    def real(self, value: Any, part: str = "") -> Any:
+        """Return a number."""
+        view = View(value, part) if part else view_of(value)
+        number = exactly(self.pick(view.numbers(self.given)))
+        self.decades += abs(int(mpmath.log10(number))) if number > 0 else 0
+        return number
+
+    def index(self, value: Any) -> Any:
+        """Return an index of refraction."""
+        if isinstance(value, Material):
+            return mpmath.mpc(self.real(value.n), self.real(value.k))
+        return self.complex(value)
+
+    def complex(self, value: Any) -> Any:
+        """Return a complex number."""
+        return mpmath.mpc(self.real(value, "real"), self.real(value, "imag"))
+
+    def angle(self, value: Any, turns: int = 1) -> Any:
+        """Return an angle; its tangent, or that of `turns` times it, is what may be moved."""
+        return self.move(exact_angle(float(self.pick(view_of(value).numbers(self.given)))), turns)
+
+    def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
+        """Return an angle that grows with a length, both given; else as `angle`."""
+        angle = self.real(per_length) * self.real(length)
+        nearest = exact_angle(float(angle))
+        # A multiple of 45 degrees is one, however its factors are rounded.
+        return self.move(nearest if nearest != float(angle) else angle, turns)
+
+    def exact(self, view: View) -> Any:
+        """Return a number, or the cosine or sine of an angle in many digits."""
+        if view.part not in ("cos", "sin"):
+            return self.real(view)
+        angle = float(self.pick(View(view.value).numbers(self.given)))
+        return cos_sin(exact_angle(angle))[view.part == "sin"]
+
+    def move(self, angle: Any, turns: int) -> Any:
+        """Return an angle, moved if it is the one."""
+        self.count += 1
+        if self.count - 1 != self.moved:
+            return angle
+        return angle + self.by * mpmath.sin(2 * turns * angle) / (2 * turns)
+
+
+def turn(angle: Any) -> Jones:
+    """Return what a turn of the frame does to the field."""
+    c, s = cos_sin(angle)
+    return (c, s), (-s, c)
+
+
+@singledispatch
+def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
+    """Return the Jones matrix of a way through; None where only Mueller's will do."""
+    del element, way, read
+    return None
+
+
+@jones.register
+def _(element: Interface, way: Coupling, read: Reader) -> Jones:
+    before, behind = read.index(element.outside).real, read.index(element.index)
+    c, s = cos_sin(read.angle(element.incidence))
+    if element.incidence_in is not None:
+        if way.enters == "back":
+            before, behind = behind.real, before
+        c, s = refracted(read.index(element.incidence_in).real / before, s)
+    found = boundary(behind / before, c, s)
+    return found.reflected if way.reflects else found.transmitted
+
+
+@jones.register
+def _(element: SpecularVertex, way: Coupling, read: Reader) -> Jones:
+    del way
+    points = element.points_around()
+    cos, sin = points.factory(INCIDENCE)(MANY_DIGITS)(*map(read.exact, points.arguments))
+    m = read.index(element.index) / read.index(element.outside).real
+    return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
+
+
+@jones.register
+def _(element: Polarizer, way: Coupling, read: Reader) -> Jones:
+    del way
+    return _filter(read, element.transmittance, element.leakage, element.angle)
+
+
+@jones.register
+def _(element: Diattenuator, way: Coupling, read: Reader) -> Jones:
+    del way
+    return _filter(read, element.maximum, element.minimum, element.angle)
+
+
+@jones.register
+def _(element: Retarder, way: Coupling, read: Reader) -> Jones:
+    del way
+    return _retarding(read, read.angle(element.retardance), element.angle)
+
+
+@jones.register
+def _(element: Rotator, way: Coupling, read: Reader) -> Jones:
+    del way
+    return turn(-read.angle(element.angle, 2))
+
+
+@jones.register
+def _(element: Attenuator, way: Coupling, read: Reader) -> Jones:
+    del way
+    root = mpmath.sqrt(read.real(element.transmittance))
+    return _diagonal(root, root)
+
+
+@jones.register
+def _(element: Medium, way: Coupling, read: Reader) -> Jones:
+    del way
+    depth = read.real(element.absorption) * read.real(element.length)
+    left = mpmath.exp(-depth / 2)
+    rotation = read.angle_along(element.rotation, element.length, 2)
+    dextrorotation = read.angle_along(element.dextrorotation, element.length, 2)
+    retardance = read.angle_along(element.retardance, element.length)
+    # Only one of the three is not 0.
+    turned = turn(dextrorotation - rotation)
+    passed = times(_retarding(read, retardance, element.angle), turned)
+    return times(_diagonal(left, left), passed)
+
+
+@jones.register
+def _(element: Mirror, way: Coupling, read: Reader) -> Jones:
+    del way
+    return _diagonal(read.complex(element.r_s), read.complex(element.r_p))
+
+
+@jones.register
+def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
+    reflectance = read.real(element.reflectance)
+    root = mpmath.sqrt(reflectance if way.reflects else 1 - reflectance)
+    return _diagonal(root, -root if way.reflects else root)
+
+
+@jones.register
+def _(element: Combiner, way: Coupling, read: Reader) -> Jones:
+    del element, way, read
+    return _diagonal(1, 1)
+
+
+def mueller(element: Element, coupling: Coupling, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of a way through a stack, or an element of one's own."""
+    if isinstance(element, LayerStack):
+        angle = cos_sin(read.angle(element.incidence))
+        indices = [read.index(index) for index in element.indices]
+        return stack(indices, *angle, back=coupling.enters == "back", way=coupling.reflects)
+    matrix = mpmath.eye(4)
+    for operation in coupling.operations:
+        kernel = operation.kernel.by_method(next(iter(REFLECTION.methods)))
+        numbers = kernel.made_for(MANY_DIGITS)(*map(read.real, operation.arguments))
+        assert kernel.structure is not None  # noqa: S101 - only sources have none
+        matrix = mpmath.matrix(kernel.structure.rows(MANY_DIGITS, numbers)) * matrix
+    return matrix.tolist()  # type: ignore[no-any-return]
+
+
+def _filter(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
+    roots = (mpmath.sqrt(read.real(transmittance)) for transmittance in (along, across))
+    return _turned(_diagonal(*roots), read.angle(angle, 2))
+
+
+def _retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
+    # The field is exp(-iwt): what falls behind gains a positive phase.
+    slow = mpmath.mpc(*cos_sin(retardance))
+    return _turned(_diagonal(1, slow), read.angle(angle, 2))
+
+
+def _diagonal(x: Any, y: Any) -> Jones:
+    return (x, 0), (0, y)
+
+
+def _turned(matrix: Jones, angle: Any) -> Jones:
+    return times(turn(-angle), times(matrix, turn(angle)))
+
+
+def times(first: Jones, second: Jones) -> Jones:
+    """Return the product of two matrices."""
+    (a, b), (c, d) = first
+    (e, f), (g, h) = second
+    return (a * e + b * g, a * f + b * h), (c * e + d * g, c * f + d * h)

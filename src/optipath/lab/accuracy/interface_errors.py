@@ -1,0 +1,73 @@
+"""How far the methods are from the reference for one interface, region by region."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION
+from optipath.lab.accuracy import reference
+from optipath.lab.accuracy.error_measures import Errors, errors
+from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.kernels import Kernel
+    from optipath.lab.accuracy.regions import Region, Samples
+
+SAMPLES = 200
+_FAMILIES = {"reflection": REFLECTION, "transmission": TRANSMISSION}
+_REFERENCES = {"reflection": reference.reflection, "transmission": reference.transmission}
+
+
+def interface_errors(
+    method: str,
+    region: Region,
+    dtype: str = "float64",
+    count: int = SAMPLES,
+    what: str = "reflection",
+) -> Errors:
+    """Return the errors of (A, B, C, S) by a method in a region.
+
+    Parameters
+    ----------
+    method : str
+        One of the methods.
+    region : Region
+        Where the samples are drawn.
+    dtype : str, optional
+        The precision; the samples are rounded to it before anything is computed.
+    count : int, optional
+        How many samples.
+    what : {"reflection", "transmission"}, optional
+        Which Mueller matrix.
+
+    Examples
+    --------
+    >>> from optipath.lab.accuracy.regions import REGIONS
+    >>> off = interface_errors("stable", REGIONS[0], count=20)
+    >>> bool(np.all(off.componentwise <= 10))
+    True
+    """
+    kernel = _FAMILIES[what].by_method(method)
+    found = matrix_numbers(kernel, region.samples(count, dtype))
+    return errors(found, _references(region, dtype, count, what), dtype)
+
+
+def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
+    """Return (A, B, C, S), shape (samples, 4), as a kernel computes them."""
+    outside = np.ones((), samples.n.dtype)
+    with np.errstate(all="ignore"):
+        numbers = kernel.made_for(NUMPY)(outside, *samples)
+        (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
+    return np.stack(np.broadcast_arrays(A, B, C, S), axis=-1)
+
+
+@lru_cache(maxsize=256)
+def _references(region: Region, dtype: str, count: int, what: str) -> tuple[reference.Exact, ...]:
+    samples = zip(*region.samples(count, dtype), strict=True)
+    with mpmath.workdps(WORKING_DIGITS):
+        return tuple(_REFERENCES[what](*map(exactly, sample)) for sample in samples)

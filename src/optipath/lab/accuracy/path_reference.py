@@ -1,0 +1,306 @@
+"""The reference for whole paths: coherency matrices in 50 digits, from port to port."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.composer import Wiring
+from optipath.composer.path_values import Values
+from optipath.composer.placement import alignment, azimuth_of, frame_at
+from optipath.composer.vertex_placement import is_vertex
+from optipath.errors import ParameterError, PathError, shown
+from optipath.kernels import REFLECTION
+from optipath.lab.accuracy.element_reference import Reader, jones, mueller, times, turn
+from optipath.lab.accuracy.many_digits import (
+    DIGITS,
+    MANY_DIGITS,
+    WORKING_DIGITS,
+    exactly,
+    mpmath,
+)
+from optipath.paths.path_graph import PathGraph
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    import networkx as nx
+
+    from optipath.composer.travel import Port, Stretch
+    from optipath.composer.wiring import Link
+    from optipath.elements import Coupling, Element
+    from optipath.lab.accuracy.boundary_reference import Jones
+    from optipath.light.frames import Frame
+    from optipath.values.parameters import Resolved
+
+
+class ExactLight(NamedTuple):
+    """The light at an end, and how it follows the angles of the path.
+
+    Attributes
+    ----------
+    stokes : tuple of mpf
+        S0, S1, S2, S3.
+    conditions : tuple of float
+        Of each component: the sum of |t dX/dt / X| over the tangents t of all angles of
+        incidence and of twice all turns; 0 where X is 0.
+    """
+
+    stokes: tuple[Any, ...]
+    conditions: tuple[float, ...]
+
+
+def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
+    """Return the light at every detector and dump of a path, in 50 digits.
+
+    Parameters
+    ----------
+    path : PathGraph
+        Any path.
+    **parameters : float
+        Single values; `exact_batch` takes arrays.
+
+    Raises
+    ------
+    ParameterError
+        If a parameter is unknown or not allowed, or if there are several values for one.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> lights = exact_lights(op.load_preset("malus", angle=0.0))
+    >>> [float(component) for component in lights["eye"].stokes]
+    [0.5, 0.5, 0.0, 0.0]
+    """
+    given = _single(path, parameters)
+    return _exact(Wiring(path.graph), given, (), ())
+
+
+def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
+    """Return the Stokes vector at every detector and dump of a path, as `exact_lights` has it.
+
+    It takes one passage of light, and not one for each angle of the path.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> [float(part) for part in exact_stokes(op.load_preset("malus", angle=0.0))["eye"]]
+    [0.5, 0.5, 0.0, 0.0]
+    """
+    given = _single(path, parameters)
+    wiring = Wiring(path.graph)
+    scout = Reader(given, (), ())
+    _Walk(wiring, scout).stokes()
+    with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):
+        return _Walk(wiring, Reader(given, (), ())).stokes()
+
+
+def _single(path: PathGraph, parameters: Mapping[str, Any]) -> Mapping[str, Resolved]:
+    if not isinstance(path, PathGraph):
+        raise PathError(f"a reference is of a PathGraph, not of {shown(path)}")
+    given, batch = path.compose().inputs.resolve(parameters)
+    if batch:
+        raise ParameterError(f"a reference takes single values, not a batch of shape {batch}")
+    return given
+
+
+def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str, ExactLight]]:
+    """Yield the light at every detector and dump, for each of a batch in C order.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links of a path.
+    **parameters : float or array_like
+        Values of the open parameters.
+    """
+    given, batch = Values(graph).inputs().resolve(parameters)
+    wiring = Wiring(graph)
+    for at in np.ndindex(batch):
+        yield _exact(wiring, given, batch, at)
+
+
+def _exact(
+    wiring: Wiring, given: Mapping[str, Resolved], batch: tuple[int, ...], at: tuple[int, ...]
+) -> dict[str, ExactLight]:
+    scout = Reader(given, batch, at)
+    _Walk(wiring, scout).stokes()
+    # Numbers far from 1 need digits for what they leave of each other.
+    with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):
+        reader = Reader(given, batch, at)
+        values = _Walk(wiring, reader).stokes()
+        step = mpmath.mpf(10) ** -(DIGITS // 2 + scout.decades)
+        conditions = {name: [0.0] * 4 for name in values}
+        for angle in range(reader.count):
+            moved = _Walk(wiring, Reader(given, batch, at, angle, step)).stokes()
+            for name, before in values.items():
+                for i, (old, new) in enumerate(zip(before, moved[name], strict=True)):
+                    conditions[name][i] += abs(float((new / old - 1) / step)) if old else 0.0
+        return {name: ExactLight(s, tuple(conditions[name])) for name, s in values.items()}
+
+
+class _Walk:
+    """One passage of light through a path; coherency matrices by port."""
+
+    def __init__(self, wiring: Wiring, read: Reader) -> None:
+        self.wiring = wiring
+        self.read = read
+        self.at: dict[Port, Jones] = {}
+        self._known: dict[Any, Any] = {}
+
+    def stokes(self) -> dict[str, tuple[Any, ...]]:
+        """Return the Stokes vector at every end that light reaches."""
+        for stretch in self.wiring.stretches:
+            if stretch.knots:
+                self._go_round(stretch)
+            else:
+                (port,) = stretch.ports
+                self.at[port] = _sum(self._lights(port))
+        return {name: _stokes(self.at[name, port]) for name, port in self.wiring.ends}
+
+    def _go_round(self, loop: Stretch) -> None:
+        """Solve for the light where it meets, in all four components."""
+        arriving = [_sum(self._lights(knot)) for knot in loop.knots]
+        given = mpmath.matrix([part for light in arriving for part in _all_of(light)])
+        size = 4 * len(loop.knots)
+        system = mpmath.eye(size)
+        for column in range(size):
+            unit = [mpmath.mpf(row == column) for row in range(size)]
+            back = self._once_round(loop, unit)
+            for row in range(size):
+                system[row, column] -= back[row]
+        self._once_round(loop, _solved(system, list(given)))
+
+    def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
+        """Return what the light at the knots brings back to them."""
+        for place, knot in enumerate(loop.knots):
+            self.at[knot] = _coherency(parts[4 * place : 4 * place + 4])
+        members = set(loop.ports)
+        for port in loop.ports[len(loop.knots) :]:
+            self.at[port] = _sum(self._lights(port, members))
+        back = (_sum(self._lights(knot, members)) for knot in loop.knots)
+        return [part for light in back for part in _all_of(light)]
+
+    def _lights(self, port: Port, within: set[Port] | None = None) -> list[Jones]:
+        """Return what arrives at a port, from ports within some alone."""
+        name, way = port
+        if way in self.wiring.elements[name].inputs:
+            links = self.wiring.links_to[port]
+            return [
+                _passed(self._turn(link), self.at[link[0], link[2][0]])
+                for link in links
+                if self._is_there((link[0], link[2][0]), within)
+            ]
+        found = []
+        for coupling in self.wiring.couplings[name]:
+            if coupling.leaves != way:
+                continue
+            if coupling.enters is None:
+                found += [self._emitted(coupling)] if within is None else []
+            elif self._is_there((name, coupling.enters), within):
+                found.append(self._through(name, coupling))
+        return found
+
+    def _is_there(self, port: Port, within: set[Port] | None) -> bool:
+        return port in self.at and (within is None or port in within)
+
+    def _turn(self, link: Link) -> Jones:
+        if link not in self._known:
+            start, end, (leaves, enters) = link
+            ends = (start, leaves), (end, enters)
+            before, behind = (frame_at(self.wiring, *port) for port in ends)
+            if is_vertex(self.wiring, start) and is_vertex(self.wiring, end):
+                angle = self._between_vertices(link)
+            elif before is not None and behind is not None:
+                angle = self.read.move(_angle_between(before, behind), 2)
+            else:
+                angle = self.read.angle(azimuth_of(self.wiring, link), 2)
+            self._known[link] = turn(angle)
+        return self._known[link]  # type: ignore[no-any-return]
+
+    def _between_vertices(self, link: Link) -> Any:
+        turning = alignment(self.wiring, link)
+        assert turning is not None  # noqa: S101 - vertices always turn
+        kernel = turning.kernel.by_method(next(iter(REFLECTION.methods)))
+        c, s = kernel.made_for(MANY_DIGITS)(*map(self.read.exact, turning.arguments))
+        return self.read.move(mpmath.atan2(s, c) / 2, 2)
+
+    def _emitted(self, coupling: Coupling) -> Jones:
+        intensity, *state = map(self.read.real, coupling.operations[0].arguments)
+        return _coherency([intensity * part for part in state or (1, 0, 0, 0)])
+
+    def _through(self, name: str, coupling: Coupling) -> Jones:
+        """Return the light behind a way through an element."""
+        assert coupling.enters is not None  # noqa: S101 - sources are asked for what they emit
+        element, light = self.wiring.elements[name], self.at[name, coupling.enters]
+        if self._absent(element):
+            return light
+        key = name, coupling.enters, coupling.leaves
+        if key not in self._known:
+            matrix: Any = jones(element, coupling, self.read)
+            rows = mueller(element, coupling, self.read) if matrix is None else None
+            self._known[key] = matrix, rows
+        matrix, rows = self._known[key]
+        if matrix is not None:
+            return _passed(matrix, light)
+        stokes = _all_of(light)
+        return _coherency([sum(m * s for m, s in zip(row, stokes, strict=True)) for row in rows])
+
+    def _absent(self, element: Element) -> bool:
+        optional = [p for p in element.parameters() if p.optional]
+        resolved = (p.resolve(p.default) if p.bound else self.read.given[p.name] for p in optional)
+        return not all(self.read.pick(value.present) for value in resolved)
+
+
+def _solved(system: Any, given: list[Any]) -> list[Any]:
+    """Return the unknowns of a system; those that nothing reaches are 0."""
+    lit = [place for place, number in enumerate(given) if number]
+    for column in lit:
+        lit += [row for row in range(len(given)) if row not in lit and system[row, column]]
+    found = [mpmath.mpf(0)] * len(given)
+    if lit:
+        part = mpmath.matrix([[system[row, column] for column in lit] for row in lit])
+        numbers = mpmath.lu_solve(part, mpmath.matrix([given[row] for row in lit]))
+        for place, number in zip(lit, numbers, strict=True):
+            found[place] = number
+    return found
+
+
+def _angle_between(frame: Frame, other: Frame) -> Any:
+    x, new_x, z = ([exactly(v) for v in axis] for axis in (frame.x, other.x, frame.z))
+    across = [x[i - 2] * new_x[i - 1] - x[i - 1] * new_x[i - 2] for i in range(3)]
+    d = sum(a * b for a, b in zip(x, new_x, strict=True))
+    return mpmath.atan2(sum(a * b for a, b in zip(z, across, strict=True)), d)
+
+
+def _passed(matrix: Jones, light: Jones) -> Jones:
+    (a, b), (c, d) = matrix
+    conj = mpmath.conj
+    return times(times(matrix, light), ((conj(a), conj(c)), (conj(b), conj(d))))
+
+
+def _sum(lights: list[Jones]) -> Jones:
+    (a, b), (c, d) = ((0, 0), (0, 0)) if not lights else lights[0]
+    for (e, f), (g, h) in lights[1:]:
+        a, b, c, d = a + e, b + f, c + g, d + h
+    return (a, b), (c, d)
+
+
+def _coherency(stokes: Any) -> Jones:
+    s0, s1, s2, s3 = stokes
+    # <E conj(E)>, where S2 + i S3 = 2 conj(Ex) Ey.
+    return ((s0 + s1) / 2, mpmath.mpc(s2, -s3) / 2), (mpmath.mpc(s2, s3) / 2, (s0 - s1) / 2)
+
+
+def _all_of(light: Jones) -> tuple[Any, ...]:
+    (xx, _), (yx, yy) = light
+    xx, yy, yx = (mpmath.mpmathify(part) for part in (xx, yy, yx))
+    return xx.real + yy.real, xx.real - yy.real, 2 * yx.real, 2 * yx.imag
+
+
+def _stokes(light: Jones) -> tuple[Any, ...]:
+    values = _all_of(light)
+    # What cancels exactly leaves the rounding of the last digit.
+    least = values[0] * mpmath.mpf(10) ** -(mpmath.mp.dps - 10)
+    return tuple(value if abs(value) > least else mpmath.mpf(0) for value in values)

@@ -1,0 +1,187 @@
+"""The report on a path: one run, batches by every engine, and what comes before them."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+from dataclasses import dataclass, field
+from functools import cache, partial
+from importlib.metadata import PackageNotFoundError, version
+from typing import TYPE_CHECKING, Any
+
+from optipath.composer import Composer
+from optipath.engines import ENGINES, is_installed, missing
+from optipath.kernels import METHODS
+from optipath.lab.bench.random_values import random_values
+from optipath.lab.bench.timing import race
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+
+_DTYPES = ("float64", "float32")
+_OUTPUTS = ("stokes", "mueller")
+_COMPARED = 100_000
+
+
+@dataclass(frozen=True)
+class Report:
+    """How long a path takes.
+
+    Attributes
+    ----------
+    single : mapping of str to float
+        Milliseconds of what is done once: compose, import, and one run of plain floats.
+    batches : list of mapping
+        Engine, dtype, output, number of paths, and nanoseconds a path.
+    methods : list of mapping
+        The same for each method.
+    software : mapping of str to str
+        What has run, in which version.
+    """
+
+    single: dict[str, float] = field(default_factory=dict)
+    batches: list[dict[str, Any]] = field(default_factory=list)
+    methods: list[dict[str, Any]] = field(default_factory=list)
+    software: dict[str, str] = field(default_factory=dict)
+
+
+def bench(
+    path: PathGraph,
+    load: Callable[[], object],
+    *,
+    largest: int = 1_000_000,
+    engines: Iterable[str] = (),
+    threads: int = 1,
+    progress: Callable[[str], object] = lambda _: None,
+) -> Report:
+    """Measure a path.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What is run; its open angles are drawn at random.
+    load : callable
+        Loads it.
+    largest : int
+        The largest batch; batches grow by tens from 1.
+    engines : iterable of str
+        Which are measured; all that are installed by default.
+    threads : int
+        How many threads share a large batch.
+    progress : callable
+        Is told what is being measured.
+
+    Raises
+    ------
+    MissingExtraError
+        If an engine is not installed.
+    ParameterError
+        If the path has no open parameter that can be varied.
+    """
+    found = [*engines] or [
+        engine for engine in ENGINES if engine != "auto" and is_installed(engine)
+    ]
+    for engine in found:
+        if not is_installed(engine):
+            raise missing(engine)
+
+    @cache
+    def plan_of(engine: str, dtype: str, method: str) -> Plan:
+        # Kept, so that nothing is compiled for one batch after the other.
+        return Composer(engine=engine, dtype=dtype, method=method, threads=threads).compose(path)
+
+    report = Report(software=software(("numpy", "networkx", *found)))
+    plan = Composer().compose(path)
+    one = {name: float(value[0]) for name, value in random_values(plan, 1).items()}
+    single: dict[str, Callable[[], object]] = {
+        "load": load,
+        "compose": partial(Composer().compose, path),
+        "one run of plain floats": partial(plan.run_all, **one),
+        "import optipath": _import("optipath"),
+        "import numpy, networkx": _import("numpy, networkx"),
+    }
+    timings = race(single, tick=progress)
+    report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
+    # First, since their first calls tell how long they take to be compiled.
+    report.methods.extend(_methods(plan_of, min(_COMPARED, largest), found, progress))
+    sizes = [10**power for power in range(20) if 10**power <= largest]
+    for size in sizes:
+        report.batches.extend(_batches(plan_of, size, found, progress))
+    return report
+
+
+def software(names: Iterable[str]) -> dict[str, str]:
+    """Return the versions of Python, the library, and packages."""
+    found = {"python": platform.python_version()}
+    for name in ("optipath", *names):
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found
+
+
+def _batches(
+    plan_of: Callable[..., Plan],
+    size: int,
+    engines: list[str],
+    progress: Callable[[str], object],
+) -> list[dict[str, Any]]:
+    contenders: dict[str, Callable[[], object]] = {}
+    about = {}
+    for engine in engines:
+        for dtype in _DTYPES:
+            plan = plan_of(engine, dtype, "stable")
+            values = random_values(plan, size)
+            values = {name: value.astype(dtype) for name, value in values.items()}
+            for output in _OUTPUTS:
+                name = f"{size} paths, {engine}, {dtype}, {output}"
+                about[name] = {"engine": engine, "dtype": dtype, "output": output, "paths": size}
+                run = plan.run_all if output == "stokes" else plan.mueller
+                contenders[name] = partial(_finished, run, values)
+    timings = race(contenders, tick=progress)
+    return [{**about[name], **_per_path(timing, size)} for name, timing in timings.items()]
+
+
+def _methods(
+    plan_of: Callable[..., Plan],
+    size: int,
+    engines: list[str],
+    progress: Callable[[str], object],
+) -> list[dict[str, Any]]:
+    contenders: dict[str, Callable[[], object]] = {}
+    about = {}
+    for engine in engines:
+        for method in METHODS:
+            plan = plan_of(engine, "float64", method)
+            name = f"{engine}, {method}"
+            about[name] = {"engine": engine, "method": method, "paths": size}
+            contenders[name] = partial(_finished, plan.run_all, random_values(plan, size))
+    timings = race(contenders, tick=progress)
+    return [{**about[name], **_per_path(timing, size)} for name, timing in timings.items()]
+
+
+def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
+    """Run, and wait for engines that answer before they are done."""
+    found = run(**values)
+    lights = found.values() if isinstance(found, dict) else [found]
+    for light in lights:
+        numbers = light.matrix if hasattr(light, "matrix") else light.stokes
+        getattr(numbers, "block_until_ready", bool)()
+
+
+def _per_path(timing: Any, size: int) -> dict[str, float]:
+    return {
+        "ns_least": 1e9 * timing.least / size,
+        "ns_median": 1e9 * timing.middle / size,
+        "first_s": timing.first,
+    }
+
+
+def _import(names: str) -> Callable[[], object]:
+    command = [sys.executable, "-c", f"import {names}"]
+    return lambda: subprocess.run(command, check=True)  # noqa: S603 - our own Python

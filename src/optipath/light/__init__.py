@@ -1,0 +1,1 @@
+"""What a user gets: frames, light and its state of polarisation, Mueller matrices."""

@@ -1,0 +1,310 @@
+"""Light: a Stokes vector in one reference frame."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import FrameError, ShapeError, shown
+from optipath.kernels import turn_linear
+from optipath.light.frames import Frame
+from optipath.light.polarization_state import (
+    amplitude_angle,
+    degree,
+    ellipticity,
+    ellipticity_angle,
+    handedness,
+    linear_degree,
+    major_axis,
+    phase_difference,
+    ratio,
+)
+from optipath.light.underflow import times_two_to
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
+from optipath.values.arrays.read_only import same
+from optipath.values.arrays.shapes import check_broadcast, real_array
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+_LARGEST = 2.0**40
+
+
+class Light:
+    """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
+
+    Parameters
+    ----------
+    stokes : array_like, shape (..., 4)
+        S0 the intensity, S1 horizontal over vertical (x over y), S2 diagonal over
+        antidiagonal, S3 > 0 for a field that turns from x to y (see `handedness`). A
+        component that a detector does not read is NaN.
+    frame : Frame, optional
+        The frame the components refer to; the unit frame by default.
+    exponent : int or array_like of int, shape (...), optional
+        Light too faint for a float is given as ``stokes`` times two to this power. The
+        attribute `stokes` is 0 then, but `normalized`, `dop` and `log10_intensity`
+        are right all the same, and `mantissa` keeps what was given.
+
+    Raises
+    ------
+    ShapeError
+        If the last axis has not four elements, or the exponent is no integer.
+    ParameterError
+        If there is an exponent, and JAX traces it or the Stokes vector.
+
+    Examples
+    --------
+    >>> light = Light([1.0, 1.0, 0.0, 0.0])
+    >>> light.in_frame(Frame().turned(np.pi / 4)).stokes.round(12)
+    array([ 1.,  0., -1.,  0.])
+    >>> faint = Light([1.0, 0.6, 0.0, 0.8], exponent=-332193)
+    >>> print(faint.intensity, faint.log10_intensity.round(), faint.normalized)
+    0.0 -100000.0 [1.  0.6 0.  0.8]
+    """
+
+    stokes: npt.NDArray[Any]
+    frame: Frame
+    exponent: npt.NDArray[np.int64]
+    mantissa: npt.NDArray[Any]
+
+    def __init__(self, stokes: Any, frame: Frame | None = None, exponent: Any = 0) -> None:
+        frame = Frame() if frame is None else frame
+        if not isinstance(frame, Frame):
+            raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
+        mantissa = real_array("a Stokes vector", stokes, (4,))
+        check_known("the exponent of a light", exponent)
+        given, exponent = exponent, as_given("the exponent of a light", exponent, ShapeError)
+        if exponent.dtype.kind not in "iu" or np.any(np.abs(exponent.astype(float)) > _LARGEST):
+            raise ShapeError(
+                f"the exponent of a light must be an integer within -2^40 .. 2^40, "
+                f"not {shown(given)}"
+            )
+        batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
+        exponent = np.broadcast_to(exponent.astype(np.int64), batch)
+        if mantissa.shape[:-1] != batch:
+            xp = namespace(mantissa)
+            mantissa = xp.broadcast_to(mantissa, (*batch, 4)).copy()
+        if exponent.any():
+            check_known("light with an exponent", mantissa)
+        plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
+        self.__dict__.update(stokes=plain, frame=frame, exponent=exponent, mantissa=mantissa)
+
+    @classmethod
+    def of(cls, stokes: Any, frame: Frame | Callable[[], Frame], exponent: Any = 0) -> Light:
+        """Return light out of what a plan has computed, which needs no check.
+
+        A tuple of four, floats or arrays, becomes one array when somebody asks for it, and a
+        function that returns the frame is called then.
+        """
+        if not isinstance(exponent, int) or exponent:
+            light = cls(_stacked(stokes) if type(stokes) is tuple else stokes, None, exponent)
+            own = light.__dict__
+            del own["frame"]
+        else:
+            light = cls.__new__(cls)
+            own = light.__dict__
+            own["_stokes"] = stokes
+        own["frame" if type(frame) is Frame else "_frame"] = frame
+        return light
+
+    def __getattr__(self, name: str) -> Any:
+        own = self.__dict__
+        if name == "frame" and "_frame" in own:
+            own["frame"] = own["_frame"]()
+            return own["frame"]
+        if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
+            raise AttributeError(f"a Light has no attribute '{name}'")
+        if name == "exponent":
+            own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
+        else:
+            stokes = own["_stokes"]
+            own["stokes"] = own["mantissa"] = _stacked(stokes) if type(stokes) is tuple else stokes
+        return own[name]
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a Light cannot change; make a new one instead of setting '{name}'")
+
+    def __repr__(self) -> str:
+        faint = f", exponent={self.exponent!r}" if self.exponent.any() else ""
+        return f"Light(stokes={self.mantissa!r}, frame={self.frame!r}{faint})"
+
+    @property
+    def _numbers(self) -> npt.NDArray[Any]:
+        """The mantissa, for NumPy unless JAX traces it."""
+        return known(self.mantissa)  # type: ignore[no-any-return]
+
+    @property
+    def intensity(self) -> npt.NDArray[Any]:
+        """S0, of shape (...)."""
+        parts = self.__dict__.get("_stokes")
+        if type(parts) is tuple and "stokes" not in self.__dict__:
+            return np.asarray(parts[0])
+        stokes = known(self.stokes)
+        return namespace(stokes).asarray(stokes[..., 0])  # type: ignore[no-any-return]
+
+    @property
+    def log10_intensity(self) -> npt.NDArray[Any]:
+        """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
+        s0 = self._numbers[..., 0]
+        xp = namespace(s0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
+
+    @property
+    def normalized(self) -> npt.NDArray[Any]:
+        """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
+        stokes = self._numbers
+        return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
+
+    @property
+    def dop(self) -> npt.NDArray[Any]:
+        """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
+        return degree(self.normalized)
+
+    @property
+    def dolp(self) -> npt.NDArray[Any]:
+        """The degree of linear polarisation, hypot(S1, S2) / S0, of shape (...)."""
+        return linear_degree(self.normalized)
+
+    @property
+    def docp(self) -> npt.NDArray[Any]:
+        """The signed degree of circular polarisation, S3 / S0, of shape (...)."""
+        normalized = self.normalized
+        return namespace(normalized).asarray(normalized[..., 3])  # type: ignore[no-any-return]
+
+    @property
+    def aop(self) -> npt.NDArray[Any]:
+        """The angle of polarisation, of shape (...): of the major axis, from x towards y.
+
+        In radians, in (-pi/2, pi/2]; 0 where S1 and S2 are both 0, as in circular light.
+
+        Examples
+        --------
+        >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
+        0.7854
+        """
+        return major_axis(self.normalized)
+
+    @property
+    def ellipticity(self) -> npt.NDArray[Any]:
+        """The minor axis over the major axis, in [-1, 1], with the sign of S3; shape (...).
+
+        Of the polarised part; 0 where the light is linear or unpolarised.
+
+        Examples
+        --------
+        >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
+        -0.5
+        """
+        return ellipticity(self.normalized)
+
+    @property
+    def ellipticity_angle(self) -> npt.NDArray[Any]:
+        """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
+        return ellipticity_angle(self.normalized)
+
+    @property
+    def handedness(self) -> npt.NDArray[Any]:
+        """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
+
+        The sign of S3, be it but a rounding; 0 where S3 is 0 or not read. By IEEE and the IAU:
+        1 is a field that turns counter-clockwise to who looks at the source, which Hecht, and
+        Born & Wolf (sec. 1.4.2), call left-handed.
+
+        Examples
+        --------
+        A quarter-wave plate whose fast axis is x makes light of +45 degrees right-handed:
+
+        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
+        >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
+        1
+        """
+        return handedness(self.normalized)
+
+    @property
+    def psi(self) -> npt.NDArray[Any]:
+        """The ellipsometric psi of the polarised part, of shape (...), in [0, pi/2].
+
+        tan psi = abs(Ey) / abs(Ex). Behind a sample that light of +45 degrees has met, with
+        x along s and y along p, psi and `delta` are those of the sample.
+
+        Examples
+        --------
+        >>> mirror = [[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, -0.8, 0], [0, 0, 0, -0.8]]
+        >>> stokes = np.array(mirror) @ [1.0, 0.0, 1.0, 0.0]
+        >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
+        0.5 3.1416
+        """
+        return amplitude_angle(self.normalized)
+
+    @property
+    def delta(self) -> npt.NDArray[Any]:
+        """The ellipsometric Delta of the polarised part, of shape (...), in (-pi, pi].
+
+        The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
+        field exp(-i w t) of this library has the opposite sign.
+        """
+        return phase_difference(self.normalized)
+
+    def in_frame(self, frame: Frame) -> Light:
+        """Return the same light with its components given in another frame.
+
+        Raises
+        ------
+        FrameError
+            If the other frame has another direction.
+        """
+        if isinstance(frame, Frame):
+            check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
+        stokes = self._numbers
+        xp, (s0, s1, s2, s3) = namespace(stokes), (stokes[..., i] for i in range(4))
+        turn = self.frame.turn_to(frame)
+        with np.errstate(over="ignore", invalid="ignore"):
+            parts = (s0, *turn_linear(turn, s1, s2), s3)
+        return Light(xp.stack(xp.broadcast_arrays(*parts), axis=-1), frame, self.exponent)
+
+    def __add__(self, other: object) -> Light:
+        if not isinstance(other, Light):
+            return NotImplemented
+        shapes = {"light": self.stokes.shape[:-1], "other light": other.stokes.shape[:-1]}
+        check_broadcast(shapes)
+        aligned = other.in_frame(self.frame)
+        if is_traced(self.mantissa) or is_traced(aligned.mantissa):
+            return Light(self.stokes + aligned.stokes, self.frame)
+        one, two = self._numbers, aligned._numbers
+        # Dark light has no exponent of its own.
+        mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
+        theirs = np.where(two[..., 0] == 0.0, self.exponent, aligned.exponent)
+        power = np.maximum(mine, theirs)
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = times_two_to(one, self.exponent - power)
+            total = total + times_two_to(two, aligned.exponent - power)
+        return Light(total, self.frame, power)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Light):
+            return NotImplemented
+        # What a detector does not read is equal to itself.
+        return (
+            np.array_equal(self.mantissa, other.mantissa, equal_nan=True)
+            and same(self.exponent, other.exponent)
+            and self.frame == other.frame
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _stacked(components: tuple[Any, Any, Any, Any]) -> npt.NDArray[Any]:
+    """Return four components, floats or arrays of one shape, as one array (..., 4)."""
+    arrays = [component for component in components if isinstance(component, np.ndarray)]
+    if not arrays:
+        return np.array(components)
+    stokes = np.empty((4, *arrays[0].shape), arrays[0].dtype)
+    for row, component in enumerate(components):
+        stokes[row] = component
+    return np.moveaxis(stokes, 0, -1)

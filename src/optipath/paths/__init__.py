@@ -1,0 +1,1 @@
+"""The face: graphs of elements, paths through points in space, files."""

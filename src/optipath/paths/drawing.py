@@ -1,0 +1,84 @@
+"""A path drawn in characters: nodes in the order of travel, links between them."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer import Wiring
+from optipath.elements.vertices import VerticesByAngles
+from optipath.values.materials import Material
+from optipath.values.parameters import Parameter
+from optipath.values.units import format_quantity
+
+if TYPE_CHECKING:
+    from optipath.elements import Element
+    from optipath.paths.path_graph import PathGraph
+
+
+def draw(path: PathGraph) -> str:
+    """Return the drawing.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> print(draw(op.load_preset("malus")).splitlines()[0])
+    lamp       source     intensity=$intensity
+    """
+    graph = path.graph
+    wiring = Wiring(graph)
+    order = _in_order_of_travel(wiring)
+    name_width = max(map(len, order))
+    kind_width = max(len(path.element(name).kind) for name in order)
+    leaving = set(wiring.outlets)
+    lines = []
+    for name in order:
+        element = path.element(name)
+        described = f"{name.ljust(name_width)}  {element.kind.ljust(kind_width)}  "
+        lines.append((described + _values(element)).rstrip())
+        links = sorted(graph.out_edges(name, keys=True, data="azimuth"))
+        for _, end, (leaves, enters), azimuth in links:
+            turn = "" if azimuth is None else f"  turned by {_text(azimuth, 'deg')}"
+            lines.append(f"  | {leaves} --> {end}.{enters}{turn}")
+        lines += [
+            f"  | {port} --> leaves the path"
+            for port in element.outputs
+            if f"{name}.{port}" in leaving
+        ]
+    return "\n".join(lines)
+
+
+def _in_order_of_travel(wiring: Wiring) -> list[str]:
+    passed = [name for stretch in wiring.stretches for name, _ in stretch.ports]
+    return list(dict.fromkeys([*passed, *wiring.elements]))
+
+
+def _values(element: Element) -> str:
+    domains = element.domains()
+    shown = []
+    for f in fields(element):  # type: ignore[arg-type]
+        value = getattr(element, f.name)
+        if value is None or (isinstance(value, (int, float, str)) and value == f.default):
+            continue
+        shown.append(f"{f.name}={_text(value, domains[f.name].unit)}")
+    return "  ".join(shown)
+
+
+def _text(value: Any, unit: str) -> str:
+    if isinstance(value, Parameter):
+        return f"{'-' * value.negative}${value.name}"
+    if isinstance(value, Material):
+        return f"{_text(value.n, '')} + {_text(value.k, '')} i"
+    if isinstance(value, VerticesByAngles):
+        each = ((name, getattr(value, name)) for name in ("incidences", "turns"))
+        texts = (f"{name} ({', '.join(_text(a, 'deg') for a in angles)})" for name, angles in each)
+        return ", ".join(texts)
+    if isinstance(value, tuple):
+        return "[" + ", ".join(_text(one, unit) for one in value) + "]"
+    if isinstance(value, np.ndarray):
+        return f"array{value.shape}"
+    if isinstance(value, (int, float)):
+        return format_quantity(value, unit)
+    return str(value)

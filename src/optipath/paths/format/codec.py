@@ -1,0 +1,205 @@
+"""Values as preset files write them: ``"30 deg"``, ``1.5``, ``"$name"``, ``{n = 1, k = 2}``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.vertices import VerticesByAngles, VerticesDomain
+from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
+from optipath.values.domains import (
+    AMPLITUDE,
+    ANGLE,
+    INDEX,
+    Choice,
+    Domain,
+    IndexDomain,
+    IndicesDomain,
+    OutsideDomain,
+)
+from optipath.values.materials import Material
+from optipath.values.parameters import Parameter
+from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_ANGLES = ("incidences", "turns")
+
+
+def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+    """Return the value of an element's field.
+
+    Parameters
+    ----------
+    raw : Any
+        What stands in the file.
+    domain : Domain
+        What the field may be.
+    parameters : mapping of str to Parameter
+        What ``"$name"`` can refer to.
+
+    Raises
+    ------
+    OptipathError
+        If it is none of these, or its unit does not fit.
+
+    Examples
+    --------
+    >>> from optipath.values.domains import REAL
+    >>> decode([1, 2.5], REAL, {})
+    [1.0, 2.5]
+    """
+    if isinstance(domain, Choice):
+        return domain.check("the value", raw)
+    if isinstance(domain, IndicesDomain):
+        if not isinstance(raw, list):
+            raise PresetError(
+                f"{shown(raw)} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
+            )
+        return [decode(one, INDEX, parameters) for one in raw]
+    if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
+        return _reference(raw, parameters)
+    if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
+        return Material(**_parts(raw, domain, parameters))
+    if isinstance(raw, dict) and domain.complex_parts:
+        return _complex(_parts(raw, domain, {}))
+    if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
+        return _by_angles(raw, parameters)
+    return _number(raw, domain.unit)
+
+
+def decode_given(raw: Any, parameter: Parameter) -> Any:
+    """Return a value given for a parameter: a default, or one of a case.
+
+    Raises
+    ------
+    OptipathError
+        If it is no word of the parameter and no quantity of its dimension.
+    """
+    if isinstance(raw, str):
+        return parameter.parse(raw)
+    if isinstance(raw, list):
+        return [decode_given(entry, parameter) for entry in raw]
+    if isinstance(raw, dict):
+        domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
+        return _complex(_parts(raw, domain, {}))
+    return _number(raw, parameter.unit)
+
+
+def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex_parts) -> Any:
+    """Write a value so that decoding gives it back.
+
+    Parameters
+    ----------
+    value : Any
+        A number, an array, a material, a word, or a parameter.
+    unit : str
+        The unit of numbers.
+    complex_parts : tuple of str, optional
+        What the two parts of complex numbers are called.
+
+    Raises
+    ------
+    PresetError
+        If it has no form in TOML.
+    """
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, Parameter):
+        return f"{'-' * value.negative}${value.name}"
+    if isinstance(value, Material):
+        return {"n": encode(value.n, unit), "k": encode(value.k, unit)}
+    if isinstance(value, VerticesByAngles):
+        return {key: [encode(a, ANGLE.unit) for a in getattr(value, key)] for key in _ANGLES}
+    if isinstance(value, str):
+        return value
+    if isinstance(value, np.ndarray) and value.dtype.kind != "c":
+        return [encode(entry, unit) for entry in value.tolist()]
+    if isinstance(value, (list, tuple)):
+        return [encode(entry, unit) for entry in value]
+    if isinstance(value, np.ndarray):
+        parts = value.real.tolist(), value.imag.tolist()
+        return dict(zip(complex_parts, parts, strict=True))
+    if isinstance(value, complex):
+        return dict(zip(complex_parts, (value.real, value.imag), strict=True))
+    if isinstance(value, (int, float)) and not isinstance(value, bool):
+        return format_quantity(value, unit) if unit and np.isfinite(value) else value
+    raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
+
+
+def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
+    sign, _, name = raw.partition("$")
+    if sign not in ("", "-") or name not in parameters:
+        known = [f"${parameter}" for parameter in parameters]
+        raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
+    return -parameters[name] if sign else parameters[name]
+
+
+def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
+    """Return the parts of a complex number or a material that is written as a table."""
+    names = domain.complex_parts or INDEX.complex_parts
+    faults = [
+        f"key '{key}' is unknown{did_you_mean(key, names)}" for key in raw if key not in names
+    ]
+    if names[0] not in raw:
+        faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
+    parts = {}
+    for key in [key for key in names if key in raw]:
+        try:
+            parts[key] = decode(raw[key], Domain(domain.name), parameters)
+        except OptipathError as fault:
+            faults += [f"{key}: {sentence}" for sentence in fault.faults]
+    if faults:
+        raise PresetError(*faults)
+    return parts
+
+
+def _complex(parts: Mapping[str, Any]) -> Any:
+    try:
+        real, *imaginary = map(np.asarray, parts.values())
+        return (real + 1j * sum(imaginary))[()]
+    except ValueError:
+        names = " and ".join(f"'{name}'" for name in parts)
+        raise UnitError(f"the shapes of {names} do not fit; make all rows equally long") from None
+
+
+def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:
+    faults = [
+        f"key '{key}' is unknown{did_you_mean(key, _ANGLES)}" for key in raw if key not in _ANGLES
+    ]
+    angles: dict[str, list[Any]] = {}
+    for key in _ANGLES:
+        several = raw.get(key, [])
+        if not isinstance(several, list):
+            faults.append(f"{key} must be a list of angles, not {shown(several)}")
+            continue
+        for place, angle in enumerate(several):
+            try:
+                angles.setdefault(key, []).append(decode(angle, ANGLE, parameters))
+            except OptipathError as fault:
+                faults += [f"{key}[{place}]: {sentence}" for sentence in fault.faults]
+    if faults:
+        raise PresetError(*faults)
+    return VerticesByAngles(tuple(angles.get("incidences", ())), tuple(angles.get("turns", ())))
+
+
+def _number(raw: Any, unit: str) -> Any:
+    dimension = dimension_of(unit)
+    if isinstance(raw, list) and not raw:
+        raise UnitError("an empty list is no value; give at least one number")
+    if isinstance(raw, list):
+        return [_number(entry, unit) for entry in raw]
+    if isinstance(raw, str):
+        return parse_quantity(raw, dimension)
+    if isinstance(raw, bool) or not isinstance(raw, (int, float)):
+        raise UnitError(f"{shown(raw)} is not a number")
+    try:
+        number = float(raw)
+    except OverflowError:
+        raise UnitError(f"{shown(raw)} is too large a number") from None
+    if dimension and np.isfinite(number):
+        asked = with_article(dimension)
+        raise UnitError(f"{shown(raw)} has no unit, but {asked} is asked for; write '{raw} {unit}'")
+    return number

@@ -1,0 +1,162 @@
+"""Writing a path as the text of a preset file."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer import LOOPS, parameters_of
+from optipath.errors import OptipathError, PathError, did_you_mean
+from optipath.paths.format.codec import encode
+from optipath.paths.format.schema import FORMAT
+from optipath.values.domains import ANGLE, INDEX
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import networkx as nx
+
+    from optipath.elements import Element
+    from optipath.light.frames import Frame
+    from optipath.values.cases import Case
+
+
+def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
+    """Return the text of a preset file.
+
+    Raises
+    ------
+    PathError
+        With every element that has no kind and every value that has no form in TOML.
+    """
+    faults: list[str] = []
+    parameters = parameters_of(graph)
+    top: dict[str, Any] = {"format": FORMAT, "description": description}
+    loops = graph.graph.get("loops", LOOPS[0])
+    if loops != LOOPS[0]:
+        top["loops"] = loops
+    tables: list[str] = [_lines("", top)]
+    parts = complex_parts_of(graph)
+    for name, parameter in parameters.items():
+        row = _parameter(parameter, parts.get(name, INDEX.complex_parts))
+        tables.append(_lines(f"[parameters.{_key(name)}]", row))
+    for name, element in graph.nodes(data="element"):
+        try:
+            row = _element(element, graph.nodes[name]["frames"])
+        except OptipathError as fault:
+            faults += [f"{name}: {sentence}" for sentence in fault.faults]
+        else:
+            tables.append(_lines(f"[elements.{_key(name)}]", row))
+    for start, end, (leaves, enters), azimuth in graph.edges(keys=True, data="azimuth"):
+        link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
+        if azimuth is not None:
+            link["azimuth"] = encode(azimuth, ANGLE.unit)
+        tables.append(_lines("[[links]]", link))
+    for name, case in cases.items():
+        faults += [
+            f"case '{name}' gives parameter '{given}', which is unknown"
+            f"{did_you_mean(given, parameters)}"
+            for given in case.values
+            if given not in parameters
+        ]
+        tables.append(_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
+    if faults:
+        raise PathError(*faults)
+    return "\n".join(tables)
+
+
+def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
+    """Return what the parts of complex numbers are called, for each parameter of such."""
+    quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
+    return {
+        value.name: domain.complex_parts
+        for _, value, domain in quantities
+        if isinstance(value, Parameter) and domain.complex_parts
+    }
+
+
+def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str, Any]:
+    unit = parameter.unit
+    row: dict[str, Any] = {}
+    if parameter.default is not None:
+        row["default"] = encode(parameter.default, unit, complex_parts)
+    if unit:
+        row["unit"] = unit
+    if np.isfinite([parameter.minimum, parameter.maximum]).any():
+        limits = (parameter.minimum, parameter.maximum)
+        row["range"] = [encode(limit, unit) for limit in limits]
+    if parameter.help:
+        row["help"] = parameter.help
+    if parameter.words:
+        row["words"] = {word: encode(v, unit) for word, v in parameter.words.items()}
+    if parameter.optional:
+        row["optional"] = True
+    if parameter.bound:
+        row["bound"] = True
+    return row
+
+
+def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
+    if not element.kind:
+        raise PathError(
+            f"class {type(element).__name__} has no kind; define it as "
+            f'class {type(element).__name__}(Element, kind="...")'
+        )
+    row: dict[str, Any] = {"kind": element.kind}
+    for f in fields(element):  # type: ignore[arg-type]
+        value = getattr(element, f.name)
+        if value is not None:
+            domain = element.domains()[f.name]
+            row[f.name] = encode(value, domain.unit, domain.complex_parts or INDEX.complex_parts)
+    if frames:
+        row["frames"] = {
+            port: {axis: getattr(frame, axis).tolist() for axis in "xyz"}
+            for port, frame in frames.items()
+        }
+    return row
+
+
+def _case(
+    case: Case, parameters: Mapping[str, Parameter], parts: Mapping[str, tuple[str, ...]]
+) -> dict[str, Any]:
+    values = {}
+    for name, value in case.values.items():
+        unit = parameters[name].unit if name in parameters else ""
+        values[name] = encode(value, unit, parts.get(name, INDEX.complex_parts))
+    row: dict[str, Any] = {"values": values}
+    if case.published:
+        row["published"] = {name: list(stokes) for name, stokes in case.published.items()}
+    if case.note:
+        row["note"] = case.note
+    return row
+
+
+def _lines(header: str, row: Mapping[str, Any]) -> str:
+    pairs = [f"{_key(key)} = {_value(value)}\n" for key, value in row.items()]
+    return "".join([f"{header}\n" if header else "", *pairs])
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _string(key)
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return _string(value)
+    if isinstance(value, dict):
+        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    return repr(value)
+
+
+def _string(text: str) -> str:
+    # JSON's escapes are TOML's, but for the delete character, which TOML forbids unescaped.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,89 @@
+"""The names of ports, and what to say where one is wrong."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import PathError, did_you_mean, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import networkx as nx
+
+    from optipath.elements import Element
+
+
+def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
+    """Raise unless a port of a node is one of those given.
+
+    Raises
+    ------
+    PathError
+        With a did-you-mean.
+
+    Examples
+    --------
+    >>> from optipath.elements import BeamSplitter
+    >>> try:
+    ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
+    ... except PathError as error:
+    ...     print(error)
+    port 'bs.transmited' does not exist; did you mean 'bs.transmitted'?
+    """
+    if port in ports:
+        return
+    if port in (*element.inputs, *element.outputs):
+        way = "in" if port in element.inputs else "out"
+        raise PathError(
+            f"port '{owner}.{port}' lets light {way}; a link goes from an out-port to an in-port"
+        )
+    cure = did_you_mean(f"{owner}.{port}", [f"{owner}.{known}" for known in ports])
+    raise PathError(f"port '{owner}.{port}' does not exist{cure}")
+
+
+def split_port(text: Any, *, out: bool) -> tuple[str, str]:
+    """Return the node and the port of ``"node.port"``.
+
+    Raises
+    ------
+    PathError
+        If it is no such text.
+
+    Examples
+    --------
+    >>> split_port("lamp.out", out=True)
+    ('lamp', 'out')
+    """
+    if not isinstance(text, str) or text.count(".") != 1:
+        way = "out" if out else "in"
+        raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
+    name, _, port = text.partition(".")
+    return name, port
+
+
+def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
+    """Return the node and the port that a text names in a graph of elements.
+
+    Raises
+    ------
+    PathError
+        If there is no such node, or it has no such port.
+    """
+    name, port = split_port(text, out=out)
+    element = element_at(graph, name)
+    check_port(element, name, port, element.outputs if out else element.inputs)
+    return name, port
+
+
+def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
+    """Return the element of a node.
+
+    Raises
+    ------
+    PathError
+        If there is no such node.
+    """
+    if not isinstance(name, str) or name not in graph:
+        raise PathError(f"node {shown(name)} does not exist{did_you_mean(name, graph)}")
+    return graph.nodes[name]["element"]  # type: ignore[no-any-return]

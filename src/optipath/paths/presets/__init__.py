@@ -1,0 +1,1 @@
+"""Presets: set-ups that stand ready, and files of one's own."""

@@ -1,0 +1,189 @@
+"""Presets: optical set-ups that stand ready, by name, and files of one's own, by path."""
+
+from __future__ import annotations
+
+import re
+from numbers import Integral
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import (
+    OptipathError,
+    PathError,
+    PresetError,
+    did_you_mean,
+    few_suggestions,
+    shown,
+)
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from optipath.paths.path_graph import PathGraph
+
+_NAME = re.compile(r"[a-z0-9-]+")
+_LARGEST = 4 * 1024 * 1024
+
+
+def preset_names() -> list[str]:
+    """Return the names of the presets that come with the library, sorted.
+
+    Examples
+    --------
+    >>> "npgr026" in preset_names()
+    True
+    """
+    return sorted(path.stem for path in _folder().glob("*.toml"))
+
+
+def load_preset(
+    preset: str | PathLike[str], /, *, case: str | int | None = None, **values: Any
+) -> PathGraph:
+    """Return the path of a preset.
+
+    Parameters
+    ----------
+    preset : str or path
+        A name out of `preset_names`, or the path of a TOML file of one's own.
+    case : str or int, optional
+        A named set of values of the preset.
+    **values : float, str or array_like
+        Parameters that are bound to these values, in radians and metres; they take
+        precedence over the case. The others stay open, with their defaults.
+
+    Raises
+    ------
+    PresetError
+        If there is no such preset or case, or its file cannot be read.
+    PathError
+        With every fault of the file.
+    ParameterError
+        With every parameter that is unknown or has a value that is not allowed.
+
+    Examples
+    --------
+    >>> load_preset("npgr026", case="8").trace().stokes.round(4)
+    array([ 19.1245,  10.9873, -13.0076,  -8.7079])
+    """
+    path = read_preset(locate(preset))
+    given = dict(values)
+    faults: list[str] = []
+    name = case if isinstance(case, str) else _number_of(case)
+    if case is not None and name not in path.cases:
+        cure = did_you_mean(name, path.cases)
+        faults.append(f"case '{name}' is unknown in preset '{preset}'{cure}")
+    elif case is not None:
+        given = {**path.cases[name].values, **values}
+    try:
+        path = path.bind(**given) if given else path
+    except OptipathError as error:
+        if not faults:
+            raise
+        faults += error.faults
+    if faults:
+        raise PresetError(*faults)
+    return path
+
+
+def locate(preset: str | PathLike[str]) -> Path:
+    """Return the file of a preset, which need not exist if a path is given.
+
+    Raises
+    ------
+    PresetError
+        If it is neither the name of a preset nor the path of a TOML file.
+    """
+    if isinstance(preset, str) and _NAME.fullmatch(preset):
+        if preset not in preset_names():
+            raise PresetError(f"preset '{preset}' is unknown{did_you_mean(preset, preset_names())}")
+        return _folder() / f"{preset}.toml"
+    try:
+        path = Path(preset)
+    except TypeError:
+        raise PresetError(
+            f"a preset is a name or the path of a file, not {shown(preset)}"
+        ) from None
+    if path.suffix.lower() != ".toml":
+        names = preset_names()
+        cure = did_you_mean(path.stem, names)
+        if not cure.startswith("; did you mean"):
+            cure = "; see the names with `optipath presets`"
+        raise PresetError(
+            f"'{preset}' is neither the name of a preset (a-z, 0-9 and -) nor the path of a "
+            f".toml file{cure}"
+        )
+    return path
+
+
+def read_preset(path: Path) -> PathGraph:
+    """Return the path that a file describes.
+
+    Raises
+    ------
+    PresetError
+        If the file cannot be read, is too large, or is not UTF-8, TOML, or format 1.
+    PathError
+        With every fault of what it says.
+    """
+    # Not for every import of the library.
+    from optipath.paths.format.schema import FORMAT  # noqa: PLC0415
+    from optipath.paths.presets.reader import read  # noqa: PLC0415
+
+    document = _parse(path, _text(path))
+    number = document.get("format", FORMAT)
+    if number != FORMAT or isinstance(number, bool):
+        raise PresetError(
+            f"'{path}' has format {shown(number)}, but this version reads format {FORMAT}"
+        )
+    try:
+        with few_suggestions():
+            return read(document)
+    except OptipathError as error:
+        raise PathError(*(f"{path.name}: {fault}" for fault in error.faults)) from None
+
+
+def _number_of(case: object) -> str:
+    return shown(int(case) if isinstance(case, Integral) else case)
+
+
+def _text(path: Path) -> str:
+    try:
+        if path.exists() and not path.is_file():
+            raise PresetError(f"'{path}' cannot be read: it is no file")
+        with path.open("rb") as file:
+            data = file.read(_LARGEST + 1)
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise PresetError(f"'{path}' cannot be read: {reason}") from None
+    if len(data) > _LARGEST:
+        raise PresetError(f"'{path}' is larger than {_LARGEST // 1024**2} MiB; no preset is")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise PresetError(
+            f"'{path}' is not UTF-8: byte {error.start} is 0x{data[error.start]:02x}; "
+            f"save it as UTF-8"
+        ) from None
+
+
+def _parse(path: Path, text: str) -> dict[str, Any]:
+    import tomllib  # noqa: PLC0415 - as above
+
+    from optipath.paths.format.limits import refuse_unwieldy  # noqa: PLC0415 - as above
+
+    try:
+        refuse_unwieldy(text)
+    except PresetError as error:
+        raise PresetError(f"'{path}' is not TOML as presets use it: {error}") from None
+    try:
+        return tomllib.loads(text)
+    except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.
+        reason = "too deeply nested" if isinstance(error, RecursionError) else str(error)
+        raise PresetError(f"'{path}' is not TOML: {reason}") from None
+
+
+def _folder() -> Path:
+    # Inside the package in an installed wheel; beside src/ where the project is installed in place.
+    package = Path(__file__).resolve().parents[2]
+    installed = package / "presets"
+    return installed if installed.is_dir() else package.parents[1] / "presets"

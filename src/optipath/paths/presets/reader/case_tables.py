@@ -1,0 +1,53 @@
+"""Reading a case: values for parameters, and what was published for them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import did_you_mean, shown
+from optipath.paths.format import decode_given, schema
+from optipath.values.cases import Case
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.paths.presets.reader.faults import Faults
+    from optipath.values.parameters import Parameter
+
+_LARGEST = 1e308
+
+
+def read_case(
+    where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
+) -> Case:
+    """Return the case that a table describes, without what is faulty in it."""
+    before = len(faults)
+    faults += schema.type_faults(where, table, schema.CASE)
+    if len(faults) > before:
+        return Case({})
+    values = {}
+    for name, raw in table.get("values", {}).items():
+        if name not in parameters:
+            cure = did_you_mean(name, parameters)
+            faults.append(f"{where}: parameter '{name}' is unknown{cure}")
+            continue
+        parameter = parameters[name]
+        value = faults.attempt(f"{where}.{name}", decode_given, raw, parameter)
+        if value is not None:
+            faults.attempt(f"{where}.{name}", parameter.resolve, value)
+            values[name] = value
+    published = {}
+    for name, stokes in table.get("published", {}).items():
+        if _is_stokes(stokes):
+            published[name] = tuple(float(part) for part in stokes)
+        else:
+            faults.append(
+                f"{where}.published.{name} must be four finite numbers, not {shown(stokes)}"
+            )
+    return Case(values, published, table.get("note", ""))
+
+
+def _is_stokes(stokes: Any) -> bool:
+    if not isinstance(stokes, list) or len(stokes) != 4:
+        return False
+    return all(type(part) in (int, float) and abs(part) < _LARGEST for part in stokes)

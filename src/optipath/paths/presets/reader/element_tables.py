@@ -1,0 +1,65 @@
+"""Reading an element: its kind, its values, and its world frames."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.elements import Element, element_class
+from optipath.errors import shown
+from optipath.light.frames import Frame
+from optipath.paths.format import decode, schema
+from optipath.values.domains import Choice
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.paths.presets.reader.faults import Faults
+
+_STAND_IN = Parameter("unknown")
+"""Takes the place of a value that is missing or faulty, so that the rest is checked too."""
+
+
+def read_element(
+    where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
+) -> Element | None:
+    """Return the element that a table describes; None where its kind is not known."""
+    kind = table.get("kind")
+    if not isinstance(kind, str):
+        what = f"'kind' must be a text, not {shown(kind)}" if "kind" in table else "kind is missing"
+        faults.append(f'{where}: {what}; write kind = "..."')
+        return None
+    found = faults.attempt(where, element_class, kind)
+    if found is None:
+        return None
+    domains = found.domains()
+    faults += schema.key_faults(where, table, ["kind", "frames", *domains])
+    values: dict[str, Any] = {}
+    for name, domain in domains.items():
+        if name in table:
+            value = faults.attempt(f"{where}.{name}", decode, table[name], domain, parameters)
+            if value is not None:
+                values[name] = value
+            elif not isinstance(domain, Choice):
+                values[name] = _STAND_IN
+        elif found.needs(name):
+            faults.append(f"{where}: '{name}' is missing; every {kind} needs one")
+            values[name] = _STAND_IN
+    return faults.attempt(where, found, **values)
+
+
+def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
+    """Return the world frames of an element's ports."""
+    if not isinstance(table, dict) or not all(isinstance(axes, dict) for axes in table.values()):
+        faults.append(f"{where}.frames must be tables with x, y and z, one for each port")
+        return {}
+    frames = {}
+    for port, axes in table.items():
+        at = f"{where}.frames.{port}"
+        wrong = schema.key_faults(at, axes, ("x", "y", "z"))
+        wrong += [f"{at}: axis '{axis}' is missing" for axis in "xyz" if axis not in axes]
+        faults += wrong
+        frame = None if wrong else faults.attempt(at, Frame, **axes)
+        if frame is not None:
+            frames[port] = frame
+    return frames

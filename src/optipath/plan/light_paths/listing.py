@@ -1,0 +1,62 @@
+"""The ways of light through a path, listed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import ParameterError, whole_number
+from optipath.plan.light_paths.best_first import Search
+from optipath.plan.light_paths.cycles import endless
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.plan.light_paths.light_path import LightPath
+    from optipath.plan.whole_path import WholePath
+
+
+def light_paths(
+    whole: WholePath,
+    limit: int | None,
+    bounces: int | None,
+    parameters: Mapping[str, Any],
+    framed: Callable[[Any], Any],
+) -> list[LightPath]:
+    """Return the ways of light through a path, the brightest first.
+
+    Parameters
+    ----------
+    whole : WholePath
+        The path as it stands.
+    limit : int or None
+        How many at most.
+    bounces : int or None
+        How many reflections each may have.
+    parameters : mapping of str to Any
+        As a plan takes them.
+    framed : callable
+        Gives the frame of a reading for these values, or what makes it.
+
+    Raises
+    ------
+    ParameterError
+        If what is given is not allowed, or there is no end of ways.
+    """
+    faults = [] if limit is None else whole_number("limit", limit)
+    faults += [] if bounces is None else whole_number("bounces", bounces, 0)
+    if faults:
+        raise ParameterError(*faults)
+    if limit is None and (place := endless(whole.program, bounces)):
+        cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
+        raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
+    whole.refuse_traced(parameters, "light paths are listed")
+    _, batch = whole.inputs.resolve(parameters)
+    found: list[LightPath] = []
+    with whole.enough_for(batch, 2 * len(whole.program.readings) + 8, twice=True):
+        # Refuses light that never fades.
+        whole.stepwise.lights(whole.sorter.sort(parameters))
+        for path in Search(whole, parameters, framed).paths(bounces):
+            if len(found) == limit:
+                break
+            found.append(path)
+    return found

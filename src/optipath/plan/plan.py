@@ -1,0 +1,414 @@
+"""Plan: a composed path, run as often as one likes with other parameter values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.engines import LARGE
+from optipath.errors import ParameterError, did_you_mean, shown, whole_number
+from optipath.light.frames import Frame
+from optipath.light.light import Light
+from optipath.light.mueller import Mueller
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.elements.vertices import VertexFrame
+    from optipath.engines.program.program import Program
+    from optipath.engines.program.reduction import Reduction, Tolerance
+    from optipath.plan.approximation import Approximation
+    from optipath.plan.certificate import Certificate
+    from optipath.plan.execution import Execution
+    from optipath.plan.explanation import Explanation
+    from optipath.plan.light_paths import LightPath
+    from optipath.plan.running.found import Found
+    from optipath.plan.running.runner import Manner
+    from optipath.plan.whole_path import WholePath
+    from optipath.values.inputs import Inputs
+
+
+_MADE = ("_approximation", "_detector", "execution", "whole_path")
+
+
+class Part(NamedTuple):
+    """A part of a batch: its index in arrays of the batch's shape, and its light."""
+
+    where: tuple[int | slice, ...]
+    light: Light
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a composer makes of a path: steps in order, and nothing of the graph.
+
+    Attributes
+    ----------
+    whole : Program
+        The path as it stands.
+    reduction : Reduction
+        What is left of it for what the detectors read.
+    inputs : Inputs
+        The parameters that are open, and what may be given for them.
+    outlets : tuple of str
+        Ports whose light leaves the path unread.
+    copied : tuple of str
+        Ports whose light goes to several links, whole to each.
+    instead : Tolerance or None
+        What is taken in its place where a certificate allows it.
+    tolerance : float or None
+        What the composer was given.
+    method, composing, dtype : str
+        How Fresnel's equations are computed, whether light is carried as Stokes or as Jones
+        vectors, and in which precision.
+    chosen : str
+        The engine that the composer was asked for.
+    threads : int
+        How many threads share a large batch.
+    """
+
+    whole: Program
+    reduction: Reduction
+    inputs: Inputs
+    outlets: tuple[str, ...]
+    copied: tuple[str, ...]
+    method: str
+    composing: str
+    dtype: str
+    chosen: str = "auto"
+    threads: int = 1
+    instead: Tolerance | None = None
+    tolerance: float | None = None
+
+    @property
+    def program(self) -> Program:
+        """The steps that are run."""
+        return self.reduction.program
+
+    @property
+    def model(self) -> str:
+        """What is carried along: ``"scalar"``, ``"sp"``, ``"linear"`` or ``"full"``.
+
+        With a tolerance, what is carried wherever a certificate allows it.
+        """
+        return self.instead.model if self.instead else self.reduction.model
+
+    @property
+    def engine(self) -> str:
+        """What runs large batches; `engine_for` says what runs smaller ones."""
+        return self.engine_for(LARGE).partition(",")[0]
+
+    def engine_for(self, count: int, /) -> str:
+        """Return what runs a batch of so many paths.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> plan.engine, plan.engine_for(10)
+        ('numpy', 'numpy, step by step')
+        """
+        if faults := whole_number("the number of paths", count, 0):
+            raise ParameterError(*faults)
+        return self.execution.engine_for(count)
+
+    def run(self, /, **parameters: Any) -> Light:
+        """Return the light at the only detector.
+
+        Parameters
+        ----------
+        **parameters : float or array_like
+            In radians and metres; arrays broadcast together.
+
+        Returns
+        -------
+        Light
+            ``stokes`` has the broadcast shape of all values with 4 behind it. It is NaN for
+            values that JAX traces outside their domain: these cannot be refused.
+
+        Raises
+        ------
+        ParameterError
+            With every unknown, missing or unsuitable parameter, or if there are
+            several detectors.
+        """
+        name, place, frame = self._detector
+        if self.instead is not None:
+            return self.run_all(**parameters)[name]
+        execution = self.execution
+        usual = execution.single.usual(parameters)
+        if type(frame) is not Frame:
+            frame = self._made(frame, parameters)
+        if usual is not None:
+            return Light.of(usual[place][:4], frame, usual[place][4])
+        light = execution.lights(parameters)[name]
+        return Light.of(light.stokes, frame, light.exponent)
+
+    def run_all(self, /, **parameters: Any) -> dict[str, Light]:
+        """Return the light at every detector and every dump, by name.
+
+        Of a plan that keeps all, also that on every link, such as ``"lamp.out -> eye.in"``,
+        and that which leaves the path by an outlet, such as ``"glass.transmitted"``.
+
+        Raises
+        ------
+        ParameterError
+            With every unknown, missing or unsuitable parameter.
+        """
+        return self._in_frames(self._runner.lights(parameters), parameters)
+
+    def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
+        """Yield the light of a batch part by part, in memory that the parts need.
+
+        Parameters
+        ----------
+        size : int, optional
+            How many paths a part has at most.
+        **parameters : float or array_like
+            As in `run`. A grid is given by axes that broadcast, such as shapes (m, 1) and
+            (n,), and is never laid out as a whole.
+
+        Yields
+        ------
+        Part
+            ``where``, its index in arrays of the batch's shape, and ``light``.
+
+        Raises
+        ------
+        ParameterError
+            As `run`; of values outside their range when their part is met.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.load_preset("malus").compose()
+        >>> [part.where for part in plan.stream(2, angle=[0.0, 0.1, 0.2])]
+        [(slice(0, 2, None),), (slice(2, 3, None),)]
+        """
+        name, _, _ = self._detector
+        if faults := whole_number("the size of a part", size):
+            raise ParameterError(*faults)
+        for where, lights in self._runner.stream(size, parameters):
+            yield Part(where, self._in_frames(lights, parameters, where)[name])
+
+    def _in_frames(
+        self, lights: Mapping[str, Found], parameters: Mapping[str, Any], where: Any = ()
+    ) -> dict[str, Light]:
+        found = {}
+        for name, reading in self.program.readings.items():
+            frame = self._made(reading.frame, parameters, where)
+            found[name] = Light.of(lights[name].stokes, frame, lights[name].exponent)
+        return found
+
+    def _made(
+        self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
+    ) -> Any:
+        """Return a frame, or what makes it of the values that a run was given."""
+        if isinstance(frame, Frame):
+            return frame
+        from optipath.plan.running.outlet_frames import LaterFrame  # noqa: PLC0415 - not for every import
+
+        return LaterFrame(frame, self.inputs, parameters, where)
+
+    def mueller(
+        self, source: str | None = None, detector: str | None = None, /, **parameters: Any
+    ) -> Mueller:
+        """Return the Mueller matrix from one source to one detector.
+
+        Entries too small for a float are 0; `run` keeps light however faint.
+
+        Parameters
+        ----------
+        source, detector : str, optional
+            Their names; needed only where there are several.
+        **parameters : float or array_like
+            As in `run`.
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if a source or detector is not named or not known.
+        """
+        program = self.whole
+        begin = self._only("source", tuple(program.sources), "mueller(source, detector)", source)
+        ends = tuple(program.readings if detector is not None else program.detectors)
+        end = self._only("detector", ends, "mueller(source, detector)", detector)
+        reading = program.readings[end]
+        matrix = self.whole_path.matrix(begin, reading, parameters)
+        frames = (self._made(f, parameters) for f in (program.sources[begin][1], reading.frame))
+        return Mueller(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
+
+    def certificate(self, detector: str | None = None, /, **parameters: Any) -> Certificate:
+        """Return how far the intensity at a detector can be from that without polarisation.
+
+        Parameters
+        ----------
+        detector : str, optional
+            Its name; needed only where there are several.
+        **parameters : float or array_like
+            As in `run`.
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if a detector is not named or not known, if light goes round, or
+            if a Mueller matrix is unphysical.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import optipath as op
+        >>> gold = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
+        >>> found = op.load_preset("npgr026").compose().certificate(**gold, phi=[0.2, 1.2])
+        >>> print(found.error.round(5))
+        [3.00e-05 1.27e-03]
+        """
+        ends = tuple(self.whole.readings if detector is not None else self.whole.detectors)
+        end = self._only("detector", ends, "certificate(detector)", detector)
+        whole = self.whole_path
+        return whole.certificates(whole.given(parameters), parameters)[end]
+
+    def paths(
+        self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
+    ) -> list[LightPath]:
+        """Return the ways of light from sources to detectors and dumps, the brightest first.
+
+        The light of all of them together is what `run_all` gives; where light goes round, there
+        is no end of them, and with more bounces their sum comes as near as one likes.
+
+        Parameters
+        ----------
+        limit : int, optional
+            How many at most.
+        bounces : int, optional
+            How often light may be reflected at most on its way.
+        **parameters : float or array_like
+            As in `run`; of a batch, the brightest member counts.
+
+        Raises
+        ------
+        ParameterError
+            As in `run`, or if light goes round and nothing says when to stop.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> for path in op.load_preset("coated-metal").compose().paths(limit=2):
+        ...     print(path)
+        0.539067  lamp.out -> surface.transmitted -> metal.reflected -> surface.reflected -> eye
+        0.388729  lamp.out -> surface.transmitted -> metal.transmitted -> heat
+        """
+        from optipath.plan.light_paths import light_paths  # noqa: PLC0415 - not for every import
+
+        def framed(frame: Any) -> Any:
+            return self._made(frame, parameters)
+
+        return light_paths(self.whole_path, limit, bounces, parameters, framed)
+
+    def explain(self) -> str:
+        """Return the plan in words: its steps in order, what it reads, what leaves unread.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> print(plan.explain().splitlines()[0])
+        1 source, 1 detector, 5 steps; method stable, model linear, engine numpy, float64
+        """
+        return str(self.explanation())
+
+    def explanation(self) -> Explanation:
+        """Return the plan explained, part by part, as `explain` writes it down."""
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.plan.explaining import explanation_of  # noqa: PLC0415
+
+        return explanation_of(self)
+
+    def evaluations(self, /, **parameters: Any) -> dict[str, int]:
+        """Return how often each step's numbers are computed for a batch.
+
+        An element is evaluated only along those axes of a batch on which it depends: an
+        interface that sees one of the two axes of a grid once for each value on it, and one
+        without open values once.
+
+        Raises
+        ------
+        ParameterError
+            As `run`.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import optipath as op
+        >>> plan = op.load_preset("npgr026").compose()
+        >>> delta, phi = np.linspace(0, 1, 1000)[:, np.newaxis], np.linspace(0, 1, 1000)
+        >>> found = plan.evaluations(delta=delta, phi=phi)
+        >>> found["X1.reflected"], found["X2.reflected"]
+        (1000, 1000)
+        """
+        from optipath.plan.running.counts import evaluations  # noqa: PLC0415 - not for every import
+
+        return evaluations(self.execution, parameters)
+
+    @cached_property
+    def _detector(self) -> tuple[str, int, Any]:
+        """The name of the only detector, its place among the ends, and its frame."""
+        name = self._only("detector", tuple(self.program.detectors), "run_all()")
+        place = list(self.program.readings).index(name)
+        return name, place, self.program.detectors[name].frame
+
+    @cached_property
+    def execution(self) -> Execution:
+        """What gives light."""
+        return self._executed(self.reduction)
+
+    @cached_property
+    def _approximation(self) -> Approximation | None:
+        if self.instead is None:
+            return None
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.plan.approximation import Approximation  # noqa: PLC0415
+
+        model = self.instead.model
+        cheap = None if model == "scalar" else self._executed(self.reduction.by(model))
+        return Approximation(self.whole_path, self.execution, cheap, model, self.instead.most)
+
+    @property
+    def _runner(self) -> Execution | Approximation:
+        return self._approximation or self.execution
+
+    def _executed(self, reduction: Reduction) -> Execution:
+        # Imported where it is needed, so that the library itself is there quickly.
+        from optipath.plan.execution import Execution  # noqa: PLC0415
+
+        return Execution(reduction, self.inputs, self._manner)
+
+    @cached_property
+    def whole_path(self) -> WholePath:
+        """What gives matrices, and bounds of intensities."""
+        from optipath.plan.whole_path import WholePath  # noqa: PLC0415 - not for every import
+
+        return WholePath(self.whole, self.inputs, self._manner)
+
+    @property
+    def _manner(self) -> Manner:
+        from optipath.plan.running.runner import Manner  # noqa: PLC0415 - not for every import
+
+        return Manner(self.method, self.composing, self.dtype, self.chosen, self.threads)
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What has been compiled stays here.
+        return {name: value for name, value in self.__dict__.items() if name not in _MADE}
+
+    @staticmethod
+    def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
+        if name is not None:
+            if isinstance(name, str) and name in names:
+                return name
+            raise ParameterError(f"{what} {shown(name)} does not exist{did_you_mean(name, names)}")
+        if len(names) != 1:
+            raise ParameterError(
+                f"the path has {len(names)} {what}s ({', '.join(names)}); use {cure}"
+            )
+        return names[0]

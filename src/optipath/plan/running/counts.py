@@ -1,0 +1,65 @@
+"""Counts: how many operations a path takes, and how often each step is evaluated."""
+
+from __future__ import annotations
+
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.values.arrays.shapes import joint_shape
+from optipath.values.operands import MANY
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.kernels import Way
+    from optipath.plan.running.runner import Runner
+
+
+def operations(
+    runner: Runner, *, as_it_stands: bool, way: type[Way] | None = None
+) -> dict[str, int] | None:
+    """Return how many operations a path takes in all, and of the dear sorts.
+
+    Light may be counted as carried in another way than it is.
+
+    None for what cannot be compiled, and so not counted.
+    """
+    if not runner.compilable:
+        return None
+    options: dict[str, Any] = {"polynomials": False, "as_it_stands": as_it_stands}
+    try:
+        return runner.lights_formula(runner.all_given_as(MANY), way=way, **options).operations
+    except Exception:  # noqa: BLE001 - an element of one's own may ask what its numbers are
+        return None
+
+
+def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]:
+    """Return how often the numbers of each step are computed for a batch.
+
+    Raises
+    ------
+    ParameterError
+        With every fault of what is given.
+    """
+    runner.refuse_traced(parameters, "evaluations are counted")
+    runner.inputs.resolve(parameters)
+    given, program = runner.sorter.sort(parameters), runner.program
+    found: dict[str, int] = {}
+    for step in program.steps:
+        if step.evaluation is None:
+            continue
+        shapes: list[tuple[int, ...]] = [given.batch] if runner.as_it_stands else []
+        for leaf in program.evaluations[step.evaluation].arguments:
+            view = program.leaves[leaf]
+            if view.known:
+                array = runner.known_arrays.get(f".{leaf}")
+                shapes.append(() if array is None else array.shape)
+            else:
+                raws = (view.raw, *(view.raw._replace(part=part) for part in ("cos", "sin")))
+                shapes += [np.shape(given.numbers[raw]) for raw in raws if raw in given.numbers]
+        count = prod(joint_shape(*shapes))
+        # What one element does in several steps goes by one name.
+        found[step.label] = max(count, found.get(step.label, 0))
+    return found

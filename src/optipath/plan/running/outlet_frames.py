@@ -1,0 +1,61 @@
+"""The frame of light by the values of a run, made when somebody looks at it."""
+
+from __future__ import annotations
+
+from copy import deepcopy
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.plan.running.batch import sliced
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.elements.vertices import VertexFrame
+    from optipath.light.frames import Frame
+    from optipath.values.inputs import Inputs
+
+
+class LaterFrame:
+    """Makes a frame out of what a run was given.
+
+    Parameters
+    ----------
+    frame : VertexFrame
+        What makes it.
+    inputs : Inputs
+        What could be given.
+    parameters : mapping of str to Any
+        What was; arrays that somebody may change are copied.
+    where : tuple, optional
+        Which part of the batch the light is.
+    """
+
+    def __init__(
+        self, frame: VertexFrame, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()
+    ) -> None:
+        self.frame = frame
+        self.inputs = inputs
+        self.where = where
+        # The batch, of which the light is a part, depends on all of them.
+        kept = parameters if where else frame.names & parameters.keys()
+        self.parameters = {name: _kept(parameters[name]) for name in kept}
+
+    def __call__(self) -> Frame:
+        """Return the frame."""
+        opened = self.inputs.open
+        given = {
+            name: opened[name].resolve(self.parameters.get(name, opened[name].default))
+            for name in self.frame.names
+        }
+        if not self.where:
+            return self.frame.frame(given)
+        _, batch = self.inputs.resolve(self.parameters)
+        return self.frame.frame(given, lambda numbers: sliced(numbers, batch, self.where))
+
+
+def _kept(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.copy() if value.flags.writeable else value
+    return deepcopy(value) if isinstance(value, list) else value

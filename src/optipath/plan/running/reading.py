@@ -1,0 +1,206 @@
+"""What is given to a plan, sorted into numbers and arrays."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.plan.running.batch import sliced
+from optipath.values.angles import CosSin
+from optipath.values.arrays.shapes import joint_shape
+from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
+from optipath.values.roundings import is_beyond
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.engines.program.program import Program
+    from optipath.values.inputs import Inputs
+    from optipath.values.parameters import Resolved
+
+_PAIR = ("cos", "sin")
+
+
+class Given(NamedTuple):
+    """Numbers for a program.
+
+    Attributes
+    ----------
+    numbers : mapping of Raw to float or ndarray
+        What is given; a bool or an array of them for whether an element is there.
+    batch : tuple of int
+        The shape that all arrays broadcast to, those known beforehand included.
+    before : Given, optional
+        What this is a part of.
+    where : tuple, optional
+        The index of the part in it.
+    """
+
+    numbers: Mapping[Raw, Any]
+    batch: tuple[int, ...]
+    before: Given | None = None
+    where: tuple[Any, ...] = ()
+
+    @property
+    def paths(self) -> int:
+        """The number of paths."""
+        return int(np.prod(self.batch, dtype=np.int64))
+
+    def cut(self, array: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+        """Return what belongs to this part of an array that broadcasts to the whole batch."""
+        if self.before is None or not array.ndim:
+            return array
+        return sliced(self.before.cut(array), self.before.batch, self.where)
+
+    def part(self, where: tuple[Any, ...]) -> Given:
+        """Return a part of what is given: an index for each axis, or a mask of the paths."""
+        numbers = {
+            raw: _one_number(sliced(n, self.batch, where)) if isinstance(n, np.ndarray) else n
+            for raw, n in self.numbers.items()
+        }
+        return Given(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
+
+    def within(self, limits: Mapping[str, tuple[float, float]]) -> bool:
+        """Tell whether each single number is within the range of its parameter."""
+        return all(
+            isinstance(n, (np.ndarray, bool))
+            or raw.part in _PAIR
+            or (limits[raw.name][0] <= n <= limits[raw.name][1] and abs(n) < np.inf)
+            for raw, n in self.numbers.items()
+        )
+
+    @property
+    def is_single(self) -> bool:
+        """Whether everything is one plain number."""
+        return all(
+            (type(number) is float or number is True or number is False) and raw.part not in _PAIR
+            for raw, number in self.numbers.items()
+        )
+
+    def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[Raw, str], ...]:
+        """Return in which form each number is given."""
+        return tuple((raw, _form(raw, number, dtype)) for raw, number in self.numbers.items())
+
+
+class Sorter:
+    """Sorts what is given to a program.
+
+    Parameters
+    ----------
+    program : Program
+        What needs the numbers.
+    inputs : Inputs
+        What may be given.
+    dtype : dtype
+        The precision of the plan.
+    """
+
+    def __init__(self, program: Program, inputs: Inputs, dtype: np.dtype[Any]) -> None:
+        self.inputs = inputs
+        self._widest = np.result_type(dtype, np.float64)
+        found = dict.fromkeys(view.raw for view in program.leaves if not view.known)
+        self.raws = {name: [r for r in found if r.name == name] for name in inputs.open}
+        # A formula checks the range of a number that it reads, and of no other.
+        self._plain = {
+            name
+            for name, raws in self.raws.items()
+            if not inputs.tails[name] and any(raw.part in ("value", "real") for raw in raws)
+        }
+        shows = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
+        self._plain |= {name for name, raws in self.raws.items() if raws and shows[name]}
+        self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
+        self._angles -= {name for name, p in inputs.open.items() if p.optional}
+        self._known = joint_shape(*inputs.shapes.values())
+
+    def sort(self, parameters: Mapping[str, Any]) -> Given:
+        """Return the numbers that are given.
+
+        Ranges of plain floats and arrays of floats are left to be checked by who uses them.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given.
+        """
+        opened = self.inputs.open
+        numbers: dict[Raw, Any] = {}
+        shapes = [self._known]
+        if parameters.keys() <= opened.keys():
+            try:
+                for name, parameter in opened.items():
+                    value = parameters.get(name, parameter.default)
+                    if type(value) is int:
+                        value = float(value)
+                    present: Any = True
+                    if type(value) is CosSin and name in self._angles:
+                        shapes.append(value.shape)
+                        numbers |= {
+                            Raw(name, part): self._number(getattr(value, part)) for part in _PAIR
+                        }
+                        continue
+                    if name in self._plain and self._is_plain(name, value):
+                        real = value
+                    else:
+                        real, present = self._resolved(name, value)
+                    if type(real) is not float:
+                        shape = np.shape(real)
+                        shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
+                    for raw in self.raws[name]:
+                        numbers[raw] = self._number(self._part(raw, real, present))
+                return Given(numbers, joint_shape(*shapes))
+            except (OptipathError, ArithmeticError, ValueError, TypeError) as fault:
+                self.inputs.resolve(parameters)  # Tells all faults.
+                raise ParameterError(*getattr(fault, "faults", [shown(fault)])) from None
+        self.inputs.resolve(parameters)
+        raise AssertionError("parameters that are unknown are refused")
+
+    def _part(self, raw: Raw, value: Any, present: Any) -> Any:
+        if raw.part == "present":
+            return True if np.all(present) else present
+        if type(value) is float:
+            return 0.0 if raw.part == "imag" else value
+        return part_of(value, raw.part, self.inputs.tails[raw.name])
+
+    def _number(self, value: Any) -> Any:
+        """Return one number as a float or a bool, and arrays in a precision engines know."""
+        if isinstance(value, bool) or type(value) is float:
+            return value
+        array = np.asarray(value)
+        if array.dtype.char not in "fd?" or not array.dtype.isnative:
+            array = array.astype(self._widest)
+        return _one_number(array)
+
+    def _is_plain(self, name: str, value: Any) -> bool:
+        """Tell whether a value may be used as it is: a float, or an array of them."""
+        tail = self.inputs.tails[name]
+        if type(value) is float:
+            return not tail
+        if type(value) is not np.ndarray or not value.dtype.isnative:
+            return False
+        if value.dtype.char != "d" and (
+            value.dtype.char != "f" or is_beyond(value, self.inputs.limits[name])
+        ):
+            return False
+        return bool(value.shape[value.ndim - len(tail) :] == tail)
+
+    def _resolved(self, name: str, value: Any) -> Resolved:
+        resolved = self.inputs.open[name].resolve(value, self.inputs.limits[name])
+        for use in self.inputs.uses:
+            if use.value.name == name:
+                use.check_given(resolved.value)
+        return resolved
+
+
+def _one_number(array: np.ndarray[Any, Any]) -> Any:
+    """Return an array of one number as that number."""
+    return array if array.size != 1 or array.dtype.char == "g" else array.item()
+
+
+def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:
+    if isinstance(number, np.ndarray):
+        return WIDE if number.dtype.itemsize > dtype.itemsize else MANY
+    if raw.part == "present":
+        return ONE if number else ABSENT
+    return ZERO if number == 0.0 else ONE

@@ -1,5 +1,0 @@
-"""Reading presets: from a parsed TOML document to a path, all faults at once."""
-
-from optipath.preset_reader.document import read
-
-__all__ = ["read"]

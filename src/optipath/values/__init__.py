@@ -1,0 +1,1 @@
+"""What a user gives: parameters, units, domains, angles, materials, cases, arrays."""

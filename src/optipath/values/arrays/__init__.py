@@ -1,0 +1,1 @@
+"""Arrays as they are given: what is taken for one, its shape, whether there is memory for it."""

@@ -1,0 +1,70 @@
+"""Case: a named set of parameter values, with the result that was published for it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from optipath.errors import ParameterError, shown
+from optipath.values.arrays.array_likes import array_of
+from optipath.values.arrays.read_only import frozen, same
+from optipath.values.roundings import as_doubles
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A named set of values for the parameters of a path.
+
+    Attributes
+    ----------
+    values : mapping of str to Any
+        What is given for each parameter, in radians and metres, or a word.
+    published : mapping of str to tuple of float
+        The published Stokes vector for each detector, as printed.
+    note : str
+        What a reader should know about it.
+
+    Raises
+    ------
+    ParameterError
+        If they are no mappings, or what is published are no numbers.
+    """
+
+    values: Mapping[str, Any]
+    published: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        given = {"values": self.values, "published": self.published}
+        faults = [
+            f"{name} of a case must be a mapping by names, not {shown(one)}"
+            for name, one in given.items()
+            if not isinstance(one, Mapping)
+        ]
+        if not isinstance(self.note, str):
+            faults.append(f"the note of a case must be a text, not {shown(self.note)}")
+        if faults:
+            raise ParameterError(*faults)
+        values = {str(name): frozen(value) for name, value in self.values.items()}
+        published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
+        object.__setattr__(self, "values", values)
+        object.__setattr__(self, "published", published)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Case):
+            return NotImplemented
+        return (
+            self.values.keys() == other.values.keys()
+            and all(same(value, other.values[name]) for name, value in self.values.items())
+            and (self.published, self.note) == (other.published, other.note)
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _numbers(name: Any, stokes: Any) -> tuple[float, ...]:
+    array = array_of(f"what is published at {name}", stokes, ParameterError)
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
+        raise ParameterError(f"what is published at {name} must be numbers, not {shown(stokes)}")
+    return tuple(as_doubles(array).tolist())

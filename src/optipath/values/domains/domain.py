@@ -1,0 +1,170 @@
+"""Domain: which real numbers a quantity of an element may be."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import ValueFault, shown
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.arrays.read_only import frozen
+from optipath.values.parameters import Parameter
+from optipath.values.roundings import as_doubles, doubles, rounding_of
+from optipath.values.units import USUAL_UNITS, format_quantity
+
+
+@dataclass(frozen=True)
+class Domain:
+    """Real numbers between two limits, both included.
+
+    Attributes
+    ----------
+    name : str
+        What error messages call the quantity.
+    dimension : str
+        ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per length"``, or ``""``.
+    minimum, maximum : float
+        The limits, in radians and metres where there is a dimension.
+    tail : tuple of int
+        The axes behind the batch: ``(4,)`` for a Stokes vector.
+    own_unit : str
+        The unit that is usual here, where it is not the usual one of the dimension.
+    complex_parts : tuple of str
+        What files call the two parts of a complex number; none where numbers are real.
+    """
+
+    complex_parts: ClassVar[tuple[str, ...]] = ()
+
+    name: str
+    dimension: str = ""
+    minimum: float = -np.inf
+    maximum: float = np.inf
+    tail: tuple[int, ...] = ()
+    own_unit: str = ""
+
+    @property
+    def unit(self) -> str:
+        """The unit in which values are written where nobody says another."""
+        return self.own_unit or USUAL_UNITS[self.dimension]
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        """Return the value as an array of numbers, or say what is wrong with it.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner, the value, and what is asked for.
+        """
+        if self.quickly_allows(value):
+            return np.array(value)
+        if is_traced(value):
+            self._check_shape(owner, value.shape)
+            return value  # type: ignore[no-any-return]
+        given = as_given(owner, value)
+        array = doubles(given, (self.minimum, self.maximum))
+        if array.dtype.kind in "iu":
+            array = array.astype(np.float64)
+        if array.dtype.kind not in "fc":
+            raise ValueFault(f"{owner} must be {self.described()}, not {shown(value)}")
+        self._check_shape(owner, array.shape)
+        if not np.all(np.isfinite(array)):
+            found = array[~np.isfinite(array)].ravel()[0]
+            raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
+        self._check_numbers(owner, array, rounding_of(given))
+        return array
+
+    def _check_shape(self, owner: str, shape: tuple[int, ...]) -> None:
+        if self.tail and shape[-len(self.tail) :] != self.tail:
+            wanted = ", ".join(map(str, ("...", *self.tail)))
+            raise ValueFault(f"{owner} must have shape ({wanted}), not {shape}")
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed, or for which paths; JAX's as well.
+
+        Examples
+        --------
+        >>> Domain("share", minimum=0.0, maximum=1.0).allows(np.array([0.5, 2.0, np.nan]))
+        array([ True, False, False])
+        """
+        inside = namespace(numbers).isfinite(numbers)
+        if numbers.dtype.kind == "c":
+            return inside & False
+        return inside & (numbers >= self.minimum) & (numbers <= self.maximum)
+
+    def check_parameter(self, owner: str, parameter: Parameter) -> None:
+        """Say what is wrong with a parameter standing here, whatever its value; mostly nothing.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner and the parameter.
+        """
+
+    @property
+    def shows_in_light(self) -> bool:
+        """Whether no light is finite where an array of the right shape is not allowed.
+
+        Formulas look at their light anyway, so that nobody needs to look at the array first.
+        """
+        return False
+
+    def quickly_allows(self, value: Any) -> bool:
+        """Tell, for the plain floats that long paths are made of, whether all is well."""
+        inside = type(value) is float and self.minimum <= value <= self.maximum
+        return inside and math.isfinite(value) and not self.tail
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change."""
+        return frozen(value, (self.minimum, self.maximum))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of real numbers; wide open where they are limited in other ways too."""
+        return self.minimum, self.maximum
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the numbers that make up a value: their names, values and domains."""
+        return [(name, value, self)]
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        low, high = self._text(self.minimum), self._text(self.maximum)
+        if np.isinf(self.minimum) and np.isinf(self.maximum):
+            return f"a real {self.name}"
+        if np.isinf(self.maximum):
+            return f"a real {self.name} of {low} or more"
+        return f"a real {self.name} within {low} .. {high}"
+
+    def _text(self, value: float) -> str:
+        return format_quantity(value, self.unit)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
+        if array.dtype.kind == "c":
+            raise ValueFault(f"{owner} is complex; give {self.described()}")
+        if np.isinf(self.minimum) and np.isinf(self.maximum):
+            return
+        # Limits are doubles, and what rounds to one of them is inside.
+        rounded = as_doubles(array)
+        bad = ~self.allows(rounded)
+        if np.any(bad):
+            value = self._text(float(array[bad].ravel()[0]))
+            raise ValueFault(f"{owner} is {value}; give {self.described()}")
+
+
+def in_unit_of(value: Any, domain: Domain) -> Any:
+    """Return a value; a parameter without a unit gets the usual one of a domain.
+
+    Examples
+    --------
+    >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
+    'deg'
+    """
+    if isinstance(value, Parameter) and not value.unit:
+        return replace(value, unit=domain.unit)
+    return value

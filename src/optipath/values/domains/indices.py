@@ -1,0 +1,189 @@
+"""Domains of indices of refraction: of what light meets, comes from, or goes to and fro in."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import ValueFault, shown
+from optipath.values.arrays.array_likes import entries_of
+from optipath.values.arrays.jax_values import namespace
+from optipath.values.arrays.read_only import frozen
+from optipath.values.domains.domain import Domain
+from optipath.values.materials import Material
+
+_N = Domain("index of refraction", minimum=0.0)
+_K = Domain("extinction coefficient", minimum=0.0)
+_NO_K = Domain("extinction coefficient of the medium that light comes from", minimum=0.0, maximum=0)
+_NO_K_BEHIND = Domain(
+    "extinction coefficient, since light comes from there too (by port 'back')",
+    minimum=0.0,
+    maximum=0.0,
+)
+_LEAST = float(np.finfo(float).tiny)
+
+
+class IndexDomain(Domain):
+    """Complex numbers n + ik with n and k not negative."""
+
+    complex_parts = ("n", "k")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of n and of k."""
+        return 0.0, math.inf
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself."""
+        if not isinstance(value, Material):
+            return super().parts(name, value)
+        return [(f"{name}.n", value.n, _N), (f"{name}.k", value.k, _K)]
+
+    def quickly_allows(self, value: Any) -> bool:
+        """Tell, for plain floats, whether all is well."""
+        return type(value) is float and 0.0 <= value < math.inf
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return "an index of refraction n + ik with n and k not negative"
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed."""
+        there = namespace(numbers).isfinite(numbers)
+        return there & (numbers.real >= 0.0) & (numbers.imag >= 0.0)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
+        bad = ~self.allows(array)
+        if np.any(bad):
+            value = array[bad].ravel()[0]
+            cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
+            raise ValueFault(f"{owner} is {value}; give {self.described()}{cure}")
+
+
+class OutsideDomain(Domain):
+    """Positive real numbers: the medium that light comes from does not absorb."""
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return "a real index of refraction above 0, since light comes from there"
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself."""
+        if not isinstance(value, Material):
+            return super().parts(name, value)
+        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K)]
+
+
+class OptionalOutside(OutsideDomain):
+    """The same, or none."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself, if there is one."""
+        return [] if value is None else super().parts(name, value)
+
+
+class LitBehind(OutsideDomain):
+    """Indices of a medium behind a boundary from which light comes as well."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return n and k of a material, or the value itself."""
+        if not isinstance(value, Material):
+            return [(name, value, self)]
+        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K_BEHIND)]
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return (
+            "a real index of refraction above 0, since light comes from there too (by port "
+            "'back'), and let a Medium absorb between"
+        )
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed; a complex one without an imaginary part."""
+        return super().allows(numbers.real) & (numbers.imag == 0.0)
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        # A complex number without an imaginary part will do.
+        real = array.real if array.dtype.kind == "c" and not np.any(array.imag) else array
+        super()._check_numbers(owner, real, rounding)
+
+
+class InnerDomain(OutsideDomain):
+    """Indices of the layers of a stack, between which light goes to and fro."""
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return (
+            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; what a layer "
+            f"absorbs depends on how thick it is: link Interfaces with a Medium between"
+        )
+
+
+class IndicesDomain(Domain):
+    """Indices of the media of a stack, the front medium first and the substrate last."""
+
+    def kept(self, value: Any) -> Any:
+        """Return the indices one by one, since each may be an array of its own."""
+        if not isinstance(value, (list, tuple, np.ndarray)):
+            return value
+        try:
+            entries = entries_of("", "indices", value)
+        except ValueFault:
+            return value  # For validation to name.
+        return tuple(_plain_index(frozen(index)) for index in entries)
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the numbers of each index, with what it may be."""
+        if not isinstance(value, tuple) or len(value) < 2:
+            return [(name, value, self)]
+        domains = [OUTSIDE, *[INNER] * (len(value) - 2), INDEX]
+        return [
+            part
+            for place, (index, domain) in enumerate(zip(value, domains, strict=True))
+            for part in domain.parts(f"{name}[{place}]", index)
+        ]
+
+    def check(self, owner: str, value: Any) -> Any:
+        """Refuse what is no list of two or more.
+
+        Raises
+        ------
+        ValueFault
+            Always, since good lists are checked by their parts.
+        """
+        entries_of(owner, "two indices or more", value)
+        raise ValueFault(
+            f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
+            f"first and the substrate last"
+        )
+
+    def check_parameter(self, owner: str, parameter: Any) -> None:
+        """Refuse one for the whole list.
+
+        Raises
+        ------
+        ValueFault
+            Always.
+        """
+        name = parameter.name
+        raise ValueFault(
+            f"{owner} cannot be the parameter '{name}'; give a list, of parameters too"
+        )
+
+
+def _plain_index(index: Any) -> Any:
+    """Return an index that came out of an array with others as the real number that it is."""
+    return index.real if isinstance(index, complex) and index.imag == 0.0 else index
+
+
+INDEX = IndexDomain("index of refraction")
+OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
+OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=_LEAST)
+LIT_BEHIND = LitBehind("index of refraction", minimum=_LEAST)
+# Beyond, waves across a layer have squares that vanish.
+INNER = InnerDomain("index of refraction", minimum=1e-60, maximum=1e60)
+INDICES = IndicesDomain("indices of refraction")

@@ -1,0 +1,47 @@
+"""The types that fields of elements are annotated with: ``angle: Angle = 0.0``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Annotated, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.values.domains.choice import Choice
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.indices import INDEX, INDICES, OPTIONAL_OUTSIDE, OUTSIDE
+from optipath.values.domains.states import AmplitudeDomain, StokesDomain
+from optipath.values.materials import Material
+from optipath.values.parameters import Parameter
+
+Quantity: TypeAlias = npt.ArrayLike | Parameter
+"""A number, an array over paths, or a parameter that will give either."""
+
+REAL = Domain("number")
+
+ANGLE = Domain("angle", "angle")
+Angle: TypeAlias = Annotated[Quantity, ANGLE]
+INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
+Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
+Fraction: TypeAlias = Annotated[Quantity, Domain("fraction", minimum=0.0, maximum=1.0)]
+NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
+Real: TypeAlias = Annotated[Quantity, REAL]
+Index: TypeAlias = Annotated[Quantity | Material, INDEX]
+OutsideIndex: TypeAlias = Annotated[Quantity | Material, OUTSIDE]
+Indices: TypeAlias = Annotated[Sequence[Quantity | Material], INDICES]
+OptionalIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_OUTSIDE]
+AMPLITUDE = AmplitudeDomain("amplitude")
+Amplitude: TypeAlias = Annotated[Quantity, AMPLITUDE]
+Length: TypeAlias = Annotated[Quantity, Domain("length", "length", minimum=0.0, own_unit="mm")]
+Absorption: TypeAlias = Annotated[
+    Quantity, Domain("absorption coefficient", "inverse length", minimum=0.0)
+]
+AnglePerLength: TypeAlias = Annotated[Quantity, Domain("angle per length", "angle per length")]
+RotatoryPower: TypeAlias = Annotated[
+    Quantity, Domain("rotatory power", "angle per length", own_unit="deg/dm")
+]
+StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
+MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
+READINGS = ("stokes", "linear", "intensity")
+Reads: TypeAlias = Annotated[str, Choice("reading", words=READINGS)]

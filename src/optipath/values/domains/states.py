@@ -1,0 +1,91 @@
+"""Domains of Stokes vectors, and of the amplitudes of reflection."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import ValueFault
+from optipath.values.arrays.jax_values import namespace
+from optipath.values.arrays.read_only import frozen
+from optipath.values.domains.domain import Domain
+from optipath.values.roundings import rounding_of
+
+_ROUNDING = 1e-12
+_SINGLE_ROUNDING = 1e-6
+"""How far the size of an amplitude may be above 1: numbers of single precision are rounded so."""
+
+
+class AmplitudeDomain(Domain):
+    """Complex numbers of a size of 1 or less, but for the rounding of single precision."""
+
+    complex_parts = ("re", "im")
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of both parts."""
+        return -1.0 - _SINGLE_ROUNDING, 1.0 + _SINGLE_ROUNDING
+
+    def quickly_allows(self, value: Any) -> bool:
+        """Tell, for plain floats, whether all is well."""
+        return type(value) is float and -1.0 <= value <= 1.0
+
+    def described(self) -> str:
+        """Say in words which values are allowed."""
+        return f"a real or complex {self.name} of a size of 1 or less"
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array are allowed."""
+        xp = namespace(numbers)
+        # Cut off, so that squares of what is far too much do not overflow.
+        parts = (xp.minimum(abs(part), 2.0) for part in (numbers.real, numbers.imag))
+        return xp.hypot(*parts) <= 1.0 + _SINGLE_ROUNDING
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        del rounding
+        bad = ~self.allows(array)
+        if np.any(bad):
+            raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
+
+
+class StokesDomain(Domain):
+    """Stokes vectors that light can have; none at all is unpolarised light."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        """Return the vector, if there is one."""
+        return [] if value is None else super().parts(name, value)
+
+    def kept(self, value: Any) -> Any:
+        """Return a value that nobody can change, in the precision by which it is judged."""
+        return frozen(value, widened=False)
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which vectors of an array are allowed."""
+        finite = super().allows(numbers).all(axis=-1)
+        return finite & (numbers[..., 0] >= 0.0) & _can_be(numbers, rounding_of(numbers))
+
+    def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        super()._check_numbers(owner, array, rounding)
+        negative = array[..., 0] < 0.0
+        if np.any(negative):
+            value = array[..., 0][negative].ravel()[0]
+            raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
+        bad = ~_can_be(array, rounding)
+        if np.any(bad):
+            state = array[bad].reshape(-1, 4)[0].tolist()
+            raise ValueFault(
+                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
+            )
+
+
+def _can_be(stokes: Any, rounding: float) -> Any:
+    """Return which Stokes vectors are polarised by 100 % at most."""
+    xp = namespace(stokes)
+    dark = stokes[..., :1] == 0.0
+    shares = abs(stokes[..., 1:]) / xp.where(dark, 1.0, stokes[..., :1])
+    # Cut off, so that squares of what is far too much do not overflow.
+    polarised = xp.linalg.norm(xp.minimum(shares, 2.0), axis=-1)
+    most = 1.0 + max(_ROUNDING, rounding * (1.0 + rounding))
+    return polarised <= xp.where(dark[..., 0], 0.0, most)

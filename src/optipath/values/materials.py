@@ -1,0 +1,40 @@
+"""Material: what an interface separates the light from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from optipath.values.arrays.read_only import frozen, same
+
+
+@dataclass(frozen=True, eq=False)
+class Material:
+    """A homogeneous medium, given by its complex index of refraction n + ik.
+
+    Parameters
+    ----------
+    n : float, array_like or Parameter
+        The index of refraction, not negative.
+    k : float, array_like or Parameter, optional
+        The extinction coefficient, not negative; k > 0 absorbs.
+
+    Examples
+    --------
+    >>> Material(0.608, 2.12)
+    Material(n=0.608, k=2.12)
+    """
+
+    n: Any
+    k: Any = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "n", frozen(self.n))
+        object.__setattr__(self, "k", frozen(self.k))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Material):
+            return NotImplemented
+        return same(self.n, other.n) and same(self.k, other.k)
+
+    __hash__ = None  # type: ignore[assignment]

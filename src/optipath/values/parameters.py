@@ -1,0 +1,316 @@
+"""Parameter: a value that is given when a plan runs, not when a path is built."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import ParameterError, UnitError, did_you_mean, shown
+from optipath.values.angles import CosSin
+from optipath.values.arrays.array_likes import array_of, as_given
+from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.arrays.read_only import frozen, same
+from optipath.values.roundings import doubles, traced_within, within
+from optipath.values.units import dimension_of, format_quantity, parse_quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+ABSENT = "none"
+"""The word that takes the element of an optional parameter out of the path."""
+
+
+class Resolved(NamedTuple):
+    """Numbers for a parameter, and where an optional one is there at all."""
+
+    value: npt.NDArray[Any]
+    present: npt.NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Parameter:
+    """A named value of a path that is given when it is traced.
+
+    Used in place of a value of any element; ``-parameter`` stands for its negative.
+
+    Parameters
+    ----------
+    name : str
+        The keyword that gives it, so a Python identifier.
+    default : float or array_like, optional
+        Used when none is given; without one, the parameter must be given.
+    unit : str, optional
+        The unit in which files and the command line give it. In Python every
+        value is in radians or metres, the default and the limits here too.
+    minimum, maximum : float, optional
+        The range, both ends included.
+    help : str, optional
+        One line for the command line.
+    words : mapping of str to float, optional
+        Values that have a name, such as ``{"horizontal": 0.0}``.
+    optional : bool, optional
+        Whether the word ``"none"`` takes the element out of the path.
+    bound : bool, optional
+        Whether the default is the value for good.
+    negative : bool, optional
+        Whether it stands for its negative; ``-parameter`` says so.
+
+    Raises
+    ------
+    ParameterError
+        If the name is no identifier, a bound parameter has no value, or the
+        default lies outside the range.
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    >>> Parameter("filter", words={"diagonal": 0.785}).resolve("diagonal").value
+    array(0.785)
+    """
+
+    name: str
+    default: Any = None
+    unit: str = ""
+    minimum: float = -np.inf
+    maximum: float = np.inf
+    help: str = ""
+    words: Mapping[str, float] = field(default_factory=dict)
+    optional: bool = False
+    bound: bool = False
+    negative: bool = False
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not self.name.isidentifier():
+            raise ParameterError(
+                f"parameter name {shown(self.name)} must be letters, digits and underscores, "
+                f"not starting with a digit"
+            )
+        dimension_of(self.unit)
+        self._check_types()
+        low, high = (self._limit(limit) for limit in (self.minimum, self.maximum))
+        if not low <= high:
+            raise ParameterError(
+                f"parameter '{self.name}' has the range {low} .. {high}; begin with the lower end"
+            )
+        object.__setattr__(self, "minimum", low)
+        object.__setattr__(self, "maximum", high)
+        object.__setattr__(self, "words", {w: self._word(w, v) for w, v in self.words.items()})
+        if isinstance(self.default, CosSin):
+            raise ParameterError(
+                f"parameter '{self.name}' cannot keep a cosine and a sine; give them when the "
+                f"plan runs, or give an angle"
+            )
+        if self.default is not None:
+            default = frozen(self._as_number(self.default), (low, high), widened=False)
+            object.__setattr__(self, "default", default)
+            self.resolve(self.default)
+        elif self.bound:
+            raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
+
+    def _check_types(self) -> None:
+        kinds: dict[str, tuple[type, str]] = {
+            "help": (str, "a text"),
+            "words": (dict, "a dict from word to number"),
+            "optional": (bool, "True or False"),
+            "bound": (bool, "True or False"),
+            "negative": (bool, "True or False"),
+        }
+        for name, (kind, described) in kinds.items():
+            value = getattr(self, name)
+            if not isinstance(value, kind):
+                raise ParameterError(
+                    f"{name} of parameter '{self.name}' must be {described}, not {shown(value)}"
+                )
+
+    def _limit(self, value: Any) -> float:
+        array = array_of(f"the range of parameter '{self.name}'", value, ParameterError)
+        if array.ndim or array.dtype.kind not in "iuf":
+            raise ParameterError(
+                f"the range of parameter '{self.name}' must be numbers, not {shown(value)}"
+            )
+        return float(array)
+
+    def _word(self, word: Any, value: Any) -> float:
+        if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():
+            raise ParameterError(
+                f"parameter '{self.name}' cannot have the word {shown(word)}; begin with a letter, "
+                f"and keep '{ABSENT}' for an element that is left out"
+            )
+        what = f"the word '{word}' of parameter '{self.name}'"
+        number = array_of(what, value, ParameterError, (self.minimum, self.maximum))
+        if isinstance(value, str) or number.ndim or number.dtype.kind not in "iuf":
+            raise ParameterError(f"{what} must be a number, not {shown(value)}")
+        return float(self.resolve(value).value)
+
+    def _as_number(self, value: Any) -> Any:
+        """Return a default with its texts read; words stay words."""
+        if isinstance(value, str):
+            return self.parse(value)
+        if not isinstance(value, (list, tuple)):
+            return value
+        array = as_given(f"parameter '{self.name}'", value, ParameterError)
+        if array.dtype.kind not in "UO":
+            return array
+        read = [self._as_number(entry) for entry in array.ravel().tolist()]
+        return np.array(read, object).reshape(array.shape).tolist()
+
+    def __neg__(self) -> Parameter:
+        return replace(self, negative=not self.negative)
+
+    def same_specification(self, other: Parameter) -> bool:
+        """Tell whether another parameter says the same, its sign aside."""
+        names = (f.name for f in fields(self) if f.name != "negative")
+        return all(same(getattr(self, name), getattr(other, name)) for name in names)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Parameter):
+            return NotImplemented
+        return self.negative == other.negative and self.same_specification(other)
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+    def resolve(self, raw: Any, limits: tuple[float, float] | None = None) -> Resolved:
+        """Return the numbers that a given value stands for, sign aside.
+
+        Parameters
+        ----------
+        raw : float, complex, str or array_like
+            Numbers in radians or metres, words of this parameter, texts with a
+            unit (``"30 deg"``), or an array or list of any of these.
+        limits : tuple of float, optional
+            The least and the largest number allowed where it stands; by default its own.
+
+        Returns
+        -------
+        Resolved
+            ``value`` and ``present``, both of the shape of `raw`.
+
+        Raises
+        ------
+        ParameterError
+            If it is no number or word, not finite, or outside the range.
+        """
+        if isinstance(raw, CosSin):
+            raw = self._angle(raw)
+        limits = limits or (self.minimum, self.maximum)
+        if is_traced(raw):
+            return Resolved(traced_within(raw, limits), np.ones((), dtype=bool))
+        # Arrays stay in the precision in which they are given, by which some are judged.
+        array = within(as_given(f"parameter '{self.name}'", raw, ParameterError), limits)
+        present = np.ones(array.shape, dtype=bool)
+        if array.dtype.kind in "USO":
+            entries = [self._entry(entry, limits) for entry in array.ravel().tolist()]
+            present = np.array([entry is not None for entry in entries], bool).reshape(array.shape)
+            numbers = [0.0 if entry is None else entry for entry in entries]
+            array = np.array(numbers).reshape(array.shape)
+        elif array.dtype.kind not in "iufc":
+            raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(raw)}")
+        if array.dtype.kind in "iu":
+            array = array.astype(np.float64)
+        self._check_range(array)
+        return Resolved(array if array.ndim else doubles(array), present)
+
+    def _angle(self, given: CosSin) -> Any:
+        if dimension_of(self.unit) != "angle":
+            raise ParameterError(
+                f"parameter '{self.name}' is no angle, but a cosine and a sine are given; "
+                f"give a number"
+            )
+        if not given.is_traced:
+            given.check(f"parameter '{self.name}'")
+        return given.angle
+
+    def parse(self, text: str, default_unit: str = "") -> Any:
+        """Return what a text stands for: a word, as it is, or a number.
+
+        Parameters
+        ----------
+        text : str
+            A word of the parameter, or a number with its unit; where it has none, the
+            number may be complex, such as ``"0.3+0.4j"``.
+        default_unit : str, optional
+            The unit of a number without one.
+
+        Raises
+        ------
+        ParameterError
+            If it is another word.
+        UnitError
+            If it is no quantity of the parameter's dimension.
+        """
+        if text in self.words or (self.optional and text == ABSENT):
+            return text
+        if text[:1].isalpha():
+            cure = did_you_mean(text, self.all_words) if self.all_words else "; give a number"
+            raise ParameterError(f"parameter '{self.name}' knows no word '{text}'{cure}")
+        try:
+            return parse_quantity(text, dimension_of(self.unit), default_unit)
+        except UnitError as error:
+            raise UnitError(f"parameter '{self.name}': {error}") from None
+
+    def text(self, value: Any) -> str:
+        """Write a value as files and the command line give it."""
+        if isinstance(value, str):
+            return value
+        if isinstance(value, np.ndarray):
+            return f"array of shape {value.shape}"
+        return format_quantity(value, self.unit)
+
+    @property
+    def all_words(self) -> tuple[str, ...]:
+        """The words that may be given, the one for absence included."""
+        return (*self.words, *([ABSENT] if self.optional else []))
+
+    def default_text(self) -> str:
+        """Write the default, or that there is none."""
+        return "must be given" if self.default is None else self.text(self.default)
+
+    def range_text(self) -> str:
+        """Write the range, or nothing where there is none."""
+        low, high = self.minimum, self.maximum
+        if np.isinf(low) and np.isinf(high):
+            return ""
+        if np.isinf(high):
+            return f"{self.text(low)} or more"
+        if np.isinf(low):
+            return f"{self.text(high)} or less"
+        return f"{self.text(low)} .. {self.text(high)}"
+
+    def _entry(self, entry: Any, limits: tuple[float, float]) -> Any:
+        if not isinstance(entry, str):
+            number = array_of(f"parameter '{self.name}'", entry, ParameterError, limits)
+            if number.ndim or number.dtype.kind not in "iufc":
+                wrong = f"parameter '{self.name}' must be a number, not {shown(entry)}"
+                raise ParameterError(wrong)
+            return number[()]
+        value = self.parse(entry)
+        return self.words.get(value) if isinstance(value, str) else value
+
+    def allows(self, numbers: Any) -> Any:
+        """Return which numbers of an array, JAX's as well, are finite and within the range."""
+        inside = namespace(numbers).isfinite(numbers)
+        if numbers.dtype.kind == "c":
+            return inside & (self.minimum == -np.inf) & (self.maximum == np.inf)
+        return inside & (numbers >= self.minimum) & (numbers <= self.maximum)
+
+    def _check_range(self, array: npt.NDArray[Any]) -> None:
+        if array.dtype.kind == "c" and np.isfinite([self.minimum, self.maximum]).any():
+            raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
+        bad = ~self.allows(array)
+        if not np.any(bad):
+            return
+        value = array[bad].ravel()[0]
+        if not np.isfinite(value):
+            place = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
+            where = f" at {place if len(place) > 1 else place[0]}" if place else ""
+            raise ParameterError(f"parameter '{self.name}' is {value}{where}; give a finite number")
+        given = self.text(float(value))
+        raise ParameterError(
+            f"parameter '{self.name}' is {given}, outside its range; give {self.range_text()}"
+        )

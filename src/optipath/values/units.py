@@ -1,0 +1,233 @@
+"""Quantities with units, as they stand in files and on the command line.
+
+Inside the library an angle is in radians and a length in metres, and so is what is given per
+length.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from decimal import Decimal
+from typing import NamedTuple
+
+from optipath.errors import UnitError, did_you_mean, shown
+
+
+class Unit(NamedTuple):
+    """A unit: so many base units, times ten to a power.
+
+    Attributes
+    ----------
+    dimension : str
+        What it measures.
+    power : int
+        By how many places the decimal point of a number moves, which rounds nothing.
+    size : float
+        What is left of its size then; 1 but for angles in degrees and parts of them.
+    """
+
+    dimension: str
+    power: int = 0
+    size: float = 1.0
+
+
+_ANGLES = {
+    "deg": Unit("angle", size=math.pi / 180.0),
+    "rad": Unit("angle"),
+    "mrad": Unit("angle", -3),
+    "arcmin": Unit("angle", size=math.pi / 10800.0),
+    "arcsec": Unit("angle", size=math.pi / 648000.0),
+}
+_LENGTHS = {"nm": -9, "um": -6, "mm": -3, "cm": -2, "dm": -1, "m": 0}
+_PER_LENGTH = ("um", "mm", "cm", "dm", "m")
+
+UNITS: dict[str, Unit] = {
+    **_ANGLES,
+    **{length: Unit("length", power) for length, power in _LENGTHS.items()},
+    **{f"1/{length}": Unit("inverse length", -_LENGTHS[length]) for length in _PER_LENGTH},
+    **{
+        f"{angle}/{length}": Unit("angle per length", -_LENGTHS[length], _ANGLES[angle].size)
+        for angle in ("deg", "rad")
+        for length in _PER_LENGTH
+    },
+}
+
+USUAL_UNITS = {
+    "angle": "deg",
+    "length": "nm",
+    "inverse length": "1/cm",
+    "angle per length": "deg/mm",
+    "": "",
+}
+"""The unit in which a dimension is written where nobody says another."""
+
+_BASE_UNITS = {"angle": "rad", "length": "m", "inverse length": "1/m", "angle per length": "rad/m"}
+
+# Written so that no text matches in two ways, and long ones take no longer than they are.
+_NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
+_QUANTITY = re.compile(rf"([-+]?{_NUMBER})\s*(.*)", re.ASCII)
+_COMPLEX = re.compile(rf"(?:[-+]?{_NUMBER}(?=[-+]))?[-+]?{_NUMBER}j", re.ASCII)
+_SIGN_BETWEEN = re.compile(r"(?<!\s)\s*([-+])\s*")
+_LONGEST = 2000
+"""How many characters a quantity may have; no float needs more than 1100, all zeros written."""
+
+_DIGITS = (15, 16, 17)
+"""How many digits a number is written with: the fewest that give it back."""
+
+_NOTHING = Unit("")
+
+
+def dimension_of(unit: str) -> str:
+    """Return the dimension of a unit, such as ``"angle"``; ``""`` for no unit.
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown.
+
+    Examples
+    --------
+    >>> dimension_of("deg"), dimension_of("1/cm"), dimension_of("")
+    ('angle', 'inverse length', '')
+    """
+    if isinstance(unit, str) and unit == "":
+        return ""
+    if not isinstance(unit, str) or unit not in UNITS:
+        word = unit if isinstance(unit, str) else shown(unit)
+        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
+    return UNITS[unit].dimension
+
+
+def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float | complex:
+    """Return the number that a text such as ``"30 deg"`` stands for.
+
+    Parameters
+    ----------
+    text : str
+        A number and its unit.
+    dimension : str
+        The dimension asked for: ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per
+        length"``, or ``""``.
+    default_unit : str, optional
+        The unit of a bare number; without one, a bare number is accepted only
+        where there is no dimension.
+
+    Returns
+    -------
+    float or complex
+        Radians, metres, what of them there is per metre, or a pure number, which may be
+        complex: ``"0.3+0.4j"``, with parentheses or without.
+
+    Raises
+    ------
+    UnitError
+        If the text is no number, or its unit is missing, unknown or of another dimension.
+
+    Examples
+    --------
+    >>> parse_quantity("180 deg", "angle")
+    3.141592653589793
+    >>> parse_quantity("20 um", "length"), parse_quantity("(0.3 - 0.4j)", "")
+    (2e-05, (0.3-0.4j))
+    """
+    text = text.strip()
+    if len(text) > _LONGEST:
+        raise UnitError(f"{shown(text)} has {len(text)} characters; no number needs as many")
+    if not dimension and (number := _complex(text)) is not None:
+        return number
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        example = f"30 {USUAL_UNITS[dimension]}".strip()
+        raise UnitError(f"'{text}' is not a quantity; write a number such as '{example}'")
+    unit = match[2] or default_unit
+    found = dimension_of(unit)
+    if found != dimension:
+        raise UnitError(_mismatch(text, unit, dimension))
+    return _in_base_units(match[1], UNITS[unit] if unit else _NOTHING)
+
+
+def in_unit(value: float, unit: str) -> float:
+    """Return a number in base units in another unit, without the noise of conversion.
+
+    Examples
+    --------
+    >>> in_unit(0.8377580409572782, "deg")
+    48.0
+    >>> in_unit(2e-05, "mm")
+    0.02
+    """
+    return float(_candidates(float(value), UNITS[unit])[0]) if unit else float(value)
+
+
+def format_quantity(value: complex, unit: str) -> str:
+    """Write a number with a unit so that reading it gives the very same number back.
+
+    Examples
+    --------
+    >>> format_quantity(0.8377580409572782, "deg"), format_quantity(1.33, "")
+    ('48 deg', '1.33')
+    >>> format_quantity(0.3 - 0.4j, "")
+    '0.3-0.4j'
+    """
+    if isinstance(value, complex):
+        return str(value).strip("()")
+    if unit == "":
+        return repr(float(value)).removesuffix(".0")
+    value, of_unit = float(value), UNITS[unit]
+    if not math.isfinite(value):
+        return f"{value!r} {unit}"
+    for number in _candidates(value, of_unit):
+        if _in_base_units(number, of_unit) == value:
+            return f"{number} {unit}"
+    return f"{value!r} {_BASE_UNITS[of_unit.dimension]}"
+
+
+def with_article(dimension: str) -> str:
+    """Return the name of a dimension for a sentence.
+
+    Examples
+    --------
+    >>> with_article("length"), with_article("angle per length")
+    ('a length', 'an angle per length')
+    """
+    return f"{'an' if dimension[:1] in 'aeiou' else 'a'} {dimension}"
+
+
+def _in_base_units(number: str, unit: Unit) -> float:
+    if not math.isfinite(float(number)):
+        return float(number)
+    mantissa, _, exponent = number.lower().partition("e")
+    return float(f"{mantissa}e{int(exponent or 0) + unit.power}") * unit.size
+
+
+def _candidates(value: float, unit: Unit) -> list[str]:
+    """Return numbers that a value may be in a unit, those that give it back first."""
+    if unit.size == 1.0:
+        numbers = [repr(value)]
+    else:
+        numbers = [f"{value / unit.size:.{digits}g}" for digits in _DIGITS]
+    moved = [Decimal(number).scaleb(-unit.power) for number in numbers]
+    found = [text for number in moved for text in (_plainly(number), str(number))]
+    return sorted(found, key=lambda number: _in_base_units(number, unit) != value)
+
+
+def _plainly(number: Decimal) -> str:
+    return repr(float(number)).removesuffix(".0")
+
+
+def _complex(text: str) -> complex | None:
+    """Return the complex number that a text stands for; None where it is none."""
+    number = text[1:-1].strip() if text.startswith("(") and text.endswith(")") else text
+    number = _SIGN_BETWEEN.sub(r"\1", number)
+    return complex(number) if _COMPLEX.fullmatch(number) else None
+
+
+def _mismatch(text: str, unit: str, dimension: str) -> str:
+    units = ", ".join(name for name, known in UNITS.items() if known.dimension == dimension)
+    if not dimension:
+        return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
+    if not unit:
+        asked = with_article(dimension)
+        return f"'{text}' has no unit, but {asked} is asked for; add one of {units}"
+    return f"'{text}' is no {dimension}; use one of {units}"

@@ -1,0 +1,36 @@
+"""The measurements behind ``optipath bench``: what is compiled for them, and what is refused."""
+
+from collections import Counter
+
+import pytest
+
+import optipath as op
+from optipath.engines import numpy_engine
+from optipath.lab.bench import bench, report
+
+
+def test_no_formula_is_compiled_twice(monkeypatch):
+    compiled, texts = numpy_engine.compiled, Counter()
+
+    def counted(formula):
+        texts[tuple(map(repr, formula.steps)), formula.dtype.name] += 1
+        return compiled(formula)
+
+    monkeypatch.setattr(numpy_engine, "compiled", counted)
+    monkeypatch.setattr(report, "race", lambda contenders, **_: run_once(contenders))
+    bench(op.load_preset("npgr026"), lambda: None, largest=10_000, engines=["numpy"])
+    assert len(texts) > 2
+    assert set(texts.values()) == {1}
+
+
+def run_once(contenders):
+    for name, action in contenders.items():
+        if "import" not in name:
+            action()
+    return {}
+
+
+def test_an_engine_that_is_not_installed_is_told(monkeypatch):
+    monkeypatch.setattr(report, "is_installed", lambda engine: engine != "jax")
+    with pytest.raises(op.OptipathError, match="need jax, which is not installed"):
+        bench(op.load_preset("malus"), lambda: None, engines=["numpy", "jax"])

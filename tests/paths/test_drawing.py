@@ -1,0 +1,21 @@
+import optipath as op
+from optipath.paths.drawing import draw
+
+
+def test_nodes_are_drawn_in_the_order_of_travel():
+    lines = draw(op.load_preset("npgr026")).splitlines()
+    nodes = [line.split()[0] for line in lines if not line.startswith(" ")]
+    assert nodes == ["L", "P", "X2", "X1", "E"]
+
+
+def test_each_link_stands_below_the_node_it_leaves():
+    lines = draw(op.load_preset("npgr026")).splitlines()
+    assert lines[lines.index("  | reflected --> X1.in") - 1].startswith("X2")
+    assert "  | transmitted --> leaves the path" in lines
+
+
+def test_a_path_with_a_cycle_can_still_be_drawn():
+    path = op.PathGraph()
+    one, other = path.add("one", op.Polarizer()), path.add("other", op.Rotator(0.5))
+    one >> other >> one
+    assert "  | out --> one.in" in draw(path).splitlines()

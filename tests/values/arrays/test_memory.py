@@ -1,0 +1,139 @@
+"""What a batch takes is estimated before anything of it is made."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.values.arrays import memory
+
+GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
+ALONG = np.linspace(0.0, 1.5, 10**6)
+ACROSS = ALONG[:, np.newaxis]
+WIDE = {"delta": ACROSS, "phi": ALONG}
+SIX = {
+    name: np.linspace(0.1, 1.4, 100).reshape(-1, *[1] * axis)
+    for axis, name in enumerate(["delta", "rho", "phi", "n1", "k1", "n2"])
+}
+
+
+def plan(**options):
+    return op.Composer(**options).compose(op.load_preset("npgr026"))
+
+
+def chain():
+    angles = op.VerticesByAngles((op.Parameter("a"), op.Parameter("b")), (0.3,))
+    return op.path_from_vertices(angles, [1.5, 1.5])
+
+
+def of_fields():
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source())
+    for name, angles in (("first", ACROSS), ("second", ALONG)):
+        node = node >> path.add(name, op.Interface(1.5, angles))
+    node >> path.add("eye", op.Detector())
+    return path
+
+
+def tiled(*values):
+    return [np.tile(value, (10**6, *[1] * (1 + axis))) for axis, value in enumerate(values)]
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba", "jax"])
+def test_a_batch_too_large_for_the_machine_is_refused_with_the_cure(engine):
+    pytest.importorskip(engine)
+    of_engine = plan(engine=engine, dtype="float32") if engine == "jax" else plan(engine=engine)
+    for values in (GOLD | WIDE, {"k2": 1.0} | SIX):
+        cure = "give fewer values" if engine == "jax" else "plan.stream"
+        for use in (of_engine.run, of_engine.run_all):
+            with pytest.raises(op.ParameterError, match=rf"1e\+12 paths, .* GB; .*{cure}"):
+                use(**values)
+        for use in (of_engine.mueller, of_engine.certificate, of_engine.paths):
+            with pytest.raises(op.ParameterError, match=r"1e\+12 paths, .* GB; give fewer"):
+                use(**values)
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda: plan(keep="all").run_all(**GOLD, **WIDE),
+        lambda: plan(tolerance=0.1).run(**GOLD, **WIDE),
+        lambda: plan(dtype="longdouble").run(**GOLD, **WIDE),
+        lambda: next(plan().stream(10**12, **GOLD, **WIDE)),
+        lambda: op.polarization(op.load_preset("npgr026"), **GOLD, **WIDE),
+        lambda: of_fields().trace(),
+        lambda: of_fields().mueller(),
+        lambda: op.Interface(1.5 + ACROSS, ALONG).mueller(),
+        lambda: chain().trace(a=ACROSS, b=ALONG),
+        lambda: op.vertices_from_angles([ACROSS, ALONG], [0.1]),
+        lambda: op.Light(np.ones((10**6, 1, 4)), exponent=np.zeros(10**6, int)),
+        lambda: op.Light(np.ones((10**6, 1, 4))).in_frame(op.Frame().turned(ALONG)),
+        lambda: op.Light(np.ones((10**6, 1, 4))) + op.Light(np.ones((10**6, 4))),
+        lambda: op.Mueller(np.ones((10**5, 1, 4, 4))) @ op.Mueller(np.ones((10**5, 4, 4))),
+        lambda: op.Frame(*tiled([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]), [0.0, 0.0, -1.0]),
+        lambda: op.Frame.from_direction(*tiled([0.0, 0.0, 1.0], [1.0, 0.0, 0.0])),
+        lambda: op.plane_of_incidence(*tiled([0.0, 1.0, 1.0], [0.0, 0.0, 1.0])),
+        lambda: op.CosSin(np.cos(ACROSS), np.sin(ALONG)),
+        lambda: op.fresnel_reflection(1.5 + ACROSS, np.cos(ALONG), np.sin(ALONG)),
+        lambda: op.refraction_angle(1.5 + ACROSS, ALONG),
+        lambda: op.intensity_bounds(ACROSS / 2.0, [ALONG / 2.0]),
+        lambda: op.path_from_vertices(
+            np.tile([[0.0, 0.0, 3.0], [0.0, 0.0, 0.0], [0.0, 4.0, 0.0]], (10**5, 1, 1, 1)),
+            [1.5],
+            np.tile([[0.0, 1.0, 1.0]], (10**5, 1, 1)),
+        ),
+    ],
+)
+def test_no_way_in_makes_what_does_not_fit(use):
+    with pytest.raises(op.OptipathError, match=r"1e\+1\d paths, .* GB of memory or more, and this"):
+        use()
+
+
+def test_a_batch_too_large_is_taken_part_by_part_and_counted():
+    part = next(plan().stream(1000, **GOLD, **WIDE))
+    expected = plan().run(**GOLD, delta=ACROSS[0], phi=ALONG[:1000])
+    np.testing.assert_array_equal(part.light.stokes, expected.stokes)
+    assert plan().evaluations(**GOLD, **WIDE)["X1.reflected"] == 10**6
+    assert "none, since a batch of 1e+12 paths" in of_fields().compose().explain()
+    frame = next(chain().compose().stream(100, a=ACROSS, b=ALONG)).light.frame
+    assert frame == chain().trace(a=ACROSS[0], b=ALONG[:100]).frame
+
+
+def test_what_fits_is_run():
+    found = plan(engine="numpy").run(**GOLD, delta=ACROSS[:300], phi=ALONG[:300])
+    assert found.stokes.shape == (300, 300, 4)
+
+
+def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_tell(monkeypatch):
+    assert memory.memory() > 2**28
+    monkeypatch.delattr("os.sysconf")
+    assert memory.memory() == 16 * 2**30
+    with pytest.raises(op.ParameterError, match=r"and this machine has 17.2 GB"):
+        plan().run(**GOLD, **WIDE)
+
+
+def test_memory_that_runs_out_on_the_way_is_told_in_the_same_words():
+    told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
+    with told, memory.enough_for((3, 4), 32):
+        raise MemoryError
+
+
+@pytest.mark.parametrize("axes", [31, 33, 64])
+def test_a_batch_has_thirty_axes_at_most(axes):
+    for use in (plan().run, plan().mueller, plan().certificate, plan().paths):
+        with pytest.raises(op.ParameterError, match=f"delta has {axes} axes, .* 30 at most"):
+            use(**GOLD, delta=np.full((1,) * axes, 0.1))
+    with pytest.raises(op.PathError, match="30 at most"):
+        op.Rotator(np.full((1,) * axes, 0.1)).mueller()
+
+
+def test_thirty_axes_are_run():
+    several = np.linspace(0.1, 0.2, 3).reshape((1,) * 29 + (3,))
+    assert plan().run(**GOLD, delta=several).stokes.shape == (*several.shape, 4)
+    assert plan().mueller(**GOLD, delta=several).matrix.shape == (*several.shape, 4, 4)
+
+
+def test_more_paths_than_can_be_counted_are_refused_even_in_parts():
+    thousand = np.linspace(0.1, 1.4, 1000)
+    values = {name: thousand.reshape(-1, *given.shape[1:]) for name, given in SIX.items()}
+    with pytest.raises(op.ParameterError, match=r"9e\+15 paths at most, not 1e\+18"):
+        next(plan().stream(10, k2=1.0, **values))

@@ -1,0 +1,224 @@
+"""Limits of what is given: one that is rounded to the precision of a value is inside."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.paths.presets.loader import preset_names
+from optipath.values import domains
+from optipath.values.domains import INCIDENCE, Domain
+from optipath.values.units import UNITS, format_quantity, parse_quantity
+
+NARROW = [np.float16, np.float32]
+PRECISIONS = [*NARROW, np.float64, np.longdouble, ">f2", ">f4", ">f8"]
+RIGHT = np.pi / 2.0
+ABOVE = np.pi / 2.0 + 1e-3
+
+
+def forms(value, kind):
+    """The same number as a scalar, in arrays, and in lists."""
+    array = np.full(3, value).astype(kind)
+    return [
+        array[0],
+        array[:1].reshape(()),
+        array,
+        array.reshape(3, 1),
+        list(array),
+        [0.5, array[0]],
+    ]
+
+
+def path(**options):
+    graph = op.PathGraph()
+    lamp = graph.add("lamp", op.Source())
+    glass = graph.add("glass", op.Interface(1.5, op.Parameter("theta", **options)))
+    lamp >> glass >> graph.add("eye", op.Detector())
+    return graph
+
+
+def fixed(theta):
+    graph = op.PathGraph()
+    lamp = graph.add("lamp", op.Source())
+    lamp >> graph.add("glass", op.Interface(1.5, theta)) >> graph.add("eye", op.Detector())
+    return graph.trace()
+
+
+WAYS = {
+    "a field": fixed,
+    "trace": lambda v: path().trace(theta=v),
+    "a default": lambda v: path(default=v).trace(),
+    "bind": lambda v: path().bind(theta=v).trace(),
+    "every link": lambda v: path().trace(keep="all", theta=v)["glass.reflected -> eye.in"],
+    "a stream": lambda v: [part.light for part in path().compose().stream(2, theta=v)][-1],
+    "a range": lambda v: path(maximum=RIGHT).trace(theta=v),
+    "a matrix": lambda v: path().mueller(theta=v) @ op.Light([1.0, 0.0, 0.0, 0.0]),
+    "in float32": lambda v: op.Composer(dtype="float32").compose(path()).run(theta=v),
+}
+
+
+@pytest.mark.parametrize("kind", PRECISIONS, ids=str)
+@pytest.mark.parametrize("way", WAYS)
+def test_a_right_angle_of_any_precision_is_grazing_incidence(way, kind):
+    grazing = WAYS[way](RIGHT).stokes
+    for theta in forms(RIGHT, kind):
+        found = WAYS[way](theta).stokes.reshape(-1, 4)[-1]
+        if np.dtype(kind).itemsize > 2:  # That of float16 is half a mrad less.
+            np.testing.assert_array_equal(found, grazing)
+        assert found[0] <= 1.0
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba", "jax"])
+def test_every_engine_takes_a_right_angle_of_single_precision(engine):
+    pytest.importorskip(engine)
+    plan = op.Composer(engine=engine).compose(path())
+    theta = np.linspace(0.0, RIGHT, 3000).astype(np.float32)
+    doubles = theta.astype(np.float64)
+    doubles[-1] = RIGHT
+    np.testing.assert_array_equal(plan.run(theta=theta).stokes, plan.run(theta=doubles).stokes)
+    with pytest.raises(op.ParameterError, match="90"):
+        plan.run(theta=np.nextafter(theta, np.float32(2.0)))
+
+
+@pytest.mark.parametrize("kind", PRECISIONS, ids=str)
+@pytest.mark.parametrize("way", WAYS)
+def test_what_is_beyond_the_rounding_of_a_limit_is_refused(way, kind):
+    native = np.dtype(kind).newbyteorder("=")
+    beyond = np.nextafter(np.array(RIGHT).astype(native), native.type(2.0))
+    if native == np.longdouble:
+        beyond = np.longdouble(np.nextafter(RIGHT, 2.0))
+    if float(beyond) <= RIGHT:  # The next number of float16 is still inside.
+        beyond = np.nextafter(beyond, native.type(2.0))
+    with pytest.raises(op.OptipathError):
+        WAYS[way](beyond.astype(kind))
+    with pytest.raises(op.OptipathError):
+        WAYS[way](np.array([0.5, beyond]).astype(kind))
+
+
+def test_a_double_next_to_a_limit_is_refused():
+    for value in (float(np.float32(RIGHT)), np.nextafter(RIGHT, 2.0), np.nextafter(0.0, -1.0)):
+        with pytest.raises(op.OptipathError, match="theta"):
+            path().trace(theta=value)
+
+
+LIMITED = {
+    name: found
+    for name, found in vars(domains).items()
+    if isinstance(found, Domain) and np.isfinite([found.minimum, found.maximum]).any()
+} | {
+    "a tenth": Domain("number", minimum=-0.1, maximum=0.1),
+    "a third": Domain("number", minimum=1.0 / 3.0, maximum=0.7),
+    "a large one": Domain("number", minimum=-1e5, maximum=1e5),
+}
+
+
+@pytest.mark.parametrize("kind", PRECISIONS, ids=str)
+@pytest.mark.parametrize("name", LIMITED)
+def test_every_domain_takes_its_limits_in_every_precision(name, kind):
+    domain = LIMITED[name]
+    for limit in (domain.minimum, domain.maximum):
+        with np.errstate(over="ignore", under="ignore"):
+            given = np.array(limit).astype(kind)
+        if np.isfinite(given) and (given != 0.0 or not limit):
+            for value in forms(given, kind)[:-1]:
+                found = np.asarray(domain.check("it", value))
+                assert found.dtype.itemsize >= 8
+                assert np.all((domain.minimum <= found) & (found <= domain.maximum))
+
+
+@pytest.mark.parametrize("kind", NARROW, ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize("preset", preset_names())
+def test_every_preset_takes_the_ranges_of_its_parameters_in_less_precision(preset, kind):
+    graph = op.load_preset(preset)
+    for name, parameter in graph.parameters.items():
+        for limit in (parameter.minimum, parameter.maximum):
+            if np.isfinite(limit):
+                for value in (kind(limit), np.full(2, limit, kind)):
+                    found = parameter.resolve(value).value
+                    assert np.all((found >= parameter.minimum) & (found <= parameter.maximum)), name
+                assert op.load_preset(preset, **{name: kind(limit)}).parameters[name].bound
+
+
+def test_ranges_of_a_parameter_are_met_in_less_precision():
+    generator = np.random.default_rng(3)
+    for low, high in np.sort(generator.uniform(-10.0, 10.0, (200, 2))):
+        parameter = op.Parameter("a", minimum=low, maximum=high)
+        for kind in NARROW:
+            for limit, way in ((low, -np.inf), (high, np.inf)):
+                given = kind(limit)
+                assert low <= parameter.resolve(given).value <= high
+                beyond = np.nextafter(given, kind(way))
+                beyond = (
+                    beyond if not low <= float(beyond) <= high else np.nextafter(beyond, kind(way))
+                )
+                with pytest.raises(op.ParameterError, match="range"):
+                    parameter.resolve(beyond)
+
+
+@pytest.mark.parametrize("unit", [unit for unit, of in UNITS.items() if of.dimension == "angle"])
+def test_a_right_angle_written_in_any_unit_is_one(unit):
+    text = format_quantity(RIGHT, unit)
+    assert INCIDENCE.check("it", parse_quantity(text, "angle")) == RIGHT
+    assert path().trace(theta=text) == path().trace(theta=RIGHT)
+
+
+@pytest.mark.parametrize("kind", NARROW, ids=lambda kind: kind.__name__)
+def test_fully_polarised_states_of_less_precision_are_taken(kind):
+    generator = np.random.default_rng(4)
+    directions = generator.normal(size=(500, 3))
+    directions /= np.linalg.norm(directions, axis=-1, keepdims=True)
+    intensity = generator.uniform(0.5, 50.0, (500, 1))
+    states = np.concatenate([intensity, intensity * directions], axis=-1).astype(kind)
+
+    def lamp(stokes):
+        graph = op.PathGraph()
+        graph.add("lamp", op.Source(1.0, stokes)) >> graph.add("eye", op.Detector())
+        return graph
+
+    expected = states.astype(np.float64)
+    for some in (states, states[0]):
+        np.testing.assert_array_equal(lamp(some).trace().stokes, some.astype(np.float64))
+    opened = lamp(op.Parameter("state"))
+    np.testing.assert_array_equal(opened.trace(state=states).stokes, expected)
+    np.testing.assert_array_equal(opened.bind(state=states).trace().stokes, expected)
+    np.testing.assert_array_equal(lamp(op.Parameter("s", states)).trace().stokes, expected)
+    too_much = np.array([1.0, 1.0 + 3.0 * np.finfo(kind).eps, 0.0, 0.0], kind)
+    for use in (lambda s: lamp(s).trace(), lambda s: opened.trace(state=s)):
+        with pytest.raises(op.OptipathError, match="more than 100 %"):
+            use(too_much)
+        with pytest.raises(op.OptipathError, match="more than 100 %"):
+            use(np.array([1.0, 1.0 + 1e-9, 0.0, 0.0]))
+
+
+@pytest.mark.parametrize("kind", NARROW, ids=lambda kind: kind.__name__)
+def test_cosines_and_sines_of_less_precision_belong_to_angles(kind):
+    angles = np.linspace(0.0, RIGHT, 301).astype(kind)
+    cos, sin = np.cos(angles), np.sin(angles)
+    found = path().trace(theta=op.CosSin(cos, sin))
+    assert np.all(found.intensity <= 1.0)
+    assert np.all(op.fresnel_reflection(1.5, cos, sin)[0] <= 1.0)
+    for some in (0, 150, 299, 300):
+        light = path().trace(theta=op.CosSin(cos[some], sin[some]))
+        np.testing.assert_allclose(light.intensity, found.intensity[some], rtol=1e-12)
+    with pytest.raises(op.OptipathError):
+        path().trace(theta=op.CosSin(kind(-0.01), kind(1.0)))
+    with pytest.raises(op.OptipathError):
+        path().trace(theta=op.CosSin(kind(0.7), kind(0.8)))
+
+
+@pytest.mark.parametrize("kind", NARROW, ids=lambda kind: kind.__name__)
+def test_axes_of_less_precision_make_a_frame(kind):
+    generator = np.random.default_rng(5)
+    turned, _ = np.linalg.qr(generator.normal(size=(200, 3, 3)))
+    turned *= np.linalg.det(turned)[:, np.newaxis, np.newaxis]
+    axes = turned.astype(kind)
+    frames = op.Frame(axes[:, 0], axes[:, 1], axes[:, 2])
+    whole = np.stack([frames.x, frames.y, frames.z], axis=-2)
+    np.testing.assert_allclose(
+        whole @ np.swapaxes(whole, -1, -2), np.tile(np.eye(3), (200, 1, 1)), atol=1e-15
+    )
+    np.testing.assert_allclose(whole, turned, atol=4 * np.finfo(kind).eps)
+    assert op.Frame().rotated(axes).z.shape == (200, 3)
+    with pytest.raises(op.FrameError, match="orthogonal unit vectors"):
+        op.Frame(axes[:, 0], axes[:, 1], kind(1.1) * axes[:, 2])
+    with pytest.raises(op.FrameError, match="orthogonal unit vectors"):
+        op.Frame(*(turned[:, i] * (1.0 + 1e-6) for i in range(3)))

@@ -1,0 +1,143 @@
+import math
+from contextlib import suppress
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from optipath.errors import UnitError
+from optipath.values.units import UNITS, format_quantity, in_unit, parse_quantity
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("90 deg", "angle", math.pi / 2),
+        ("-1.5rad", "angle", -1.5),
+        ("60 arcmin", "angle", math.pi / 180),
+        ("516 nm", "length", 516e-9),
+        ("1e-3 mm", "length", 1e-6),
+        ("2 dm", "length", 0.2),
+        ("0.5 1/cm", "inverse length", 50.0),
+        ("3 1/um", "inverse length", 3e6),
+        ("66.5 deg/dm", "angle per length", math.radians(665)),
+        ("2 rad/mm", "angle per length", 2000.0),
+        (" 2.5 ", "", 2.5),
+    ],
+)
+def test_quantities_are_read_in_their_units(text, dimension, value):
+    assert parse_quantity(text, dimension) == pytest.approx(value, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "message"),
+    [
+        ("30 dgr", "angle", "'dgr' is unknown; did you mean 'deg'"),
+        ("30", "angle", "'30' has no unit"),
+        ("30 nm", "angle", "no angle"),
+        ("30 deg", "", "pure number"),
+        ("30", "length", "a length is asked for; add one of nm, um"),
+        ("5 mm", "inverse length", "no inverse length; use one of 1/um, 1/mm, 1/cm, 1/dm, 1/m"),
+        ("5 deg", "angle per length", "no angle per length; use one of deg/um"),
+        ("5 deg/km", "angle per length", "'deg/km' is unknown; did you mean 'deg/m'"),
+        ("thirty deg", "angle", "not a quantity"),
+        ("", "", "not a quantity"),
+        ("nan deg", "angle", "not a quantity"),
+        ("1_000", "", "unknown"),
+    ],
+)
+def test_what_is_no_quantity_is_refused(text, dimension, message):
+    with pytest.raises(UnitError, match=message):
+        parse_quantity(text, dimension)
+
+
+@given(value=st.floats(allow_nan=False, allow_infinity=False), unit=st.sampled_from(["", *UNITS]))
+def test_writing_and_reading_gives_the_very_same_number(value, unit):
+    dimension = UNITS[unit][0] if unit else ""
+    assert parse_quantity(format_quantity(value, unit), dimension) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "unit", "written"),
+    [
+        ("20 um", "length", "mm", "0.02 mm"),
+        ("30 cm", "length", "dm", "3 dm"),
+        ("-500 nm", "length", "nm", "-500 nm"),
+        ("4.5 deg/um", "angle per length", "deg/mm", "4500 deg/mm"),
+        ("0.7 1/um", "inverse length", "1/cm", "7000 1/cm"),
+        ("90 deg", "angle", "deg", "90 deg"),
+    ],
+)
+def test_units_are_changed_without_noise(text, dimension, unit, written):
+    value = parse_quantity(text, dimension)
+    assert format_quantity(value, unit) == written
+    assert in_unit(value, unit) == float(written.split()[0])
+
+
+@given(
+    places=st.integers(0, 6), number=st.integers(-(10**9), 10**9), unit=st.sampled_from([*UNITS])
+)
+def test_reading_and_writing_gives_the_very_same_text(places, number, unit):
+    text = f"{repr(number / 10**places).removesuffix('.0')} {unit}"
+    assert format_quantity(parse_quantity(text, UNITS[unit].dimension), unit) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0.3+0.4j", 0.3 + 0.4j),
+        ("0.4j", 0.4j),
+        ("(-0.9+0.1j)", -0.9 + 0.1j),
+        (" -0.3 - 2e-1j ", -0.3 - 0.2j),
+        ("1e-3j", 1e-3j),
+    ],
+)
+def test_numbers_without_dimension_may_be_complex(text, value):
+    assert parse_quantity(text, "") == value
+    assert parse_quantity(format_quantity(value, ""), "") == value
+
+
+@pytest.mark.parametrize("text", ["0.3+0.4", "0.30.4j", "(0.3+0.4j", "1_0+2j", "0.3+0.4j deg"])
+def test_what_is_no_complex_number_is_refused(text):
+    with pytest.raises(UnitError):
+        parse_quantity(text, "")
+
+
+LONG = [
+    "1" * 1000 + "+" + "1" * 999,
+    "1." * 900,
+    "1" * 1999,
+    "1 " + " " * 1990 + "x",
+    "(" + "1" * 1000 + "+" + "1" * 900 + ")",
+    "1e" + "1" * 1900,
+    "+" * 1990,
+    "1" * 10**6,
+    " " * 10**6 + "x",
+    "1+" * 10**6 + "j",
+]
+
+
+@pytest.mark.parametrize("text", LONG, ids=range(len(LONG)))
+@pytest.mark.parametrize("dimension", ["", "length"])
+def test_long_texts_are_read_in_time_that_grows_with_their_length(text, dimension):
+    # Where digits could be read in two ways, the first of them took half a minute.
+    with suppress(UnitError):
+        assert parse_quantity(text, dimension) >= 1e300
+
+
+def test_a_long_text_is_told_by_its_ends():
+    with pytest.raises(UnitError, match="has 1000000 characters; no number needs as many") as error:
+        parse_quantity("1" * 10**6, "")
+    assert len(str(error.value)) < 300
+
+
+@pytest.mark.parametrize("text", ["1e5000 nm", "-1e400 mm", "1e999999999 m", "1e-999999999 m"])
+def test_numbers_beyond_floats_are_infinite_or_0(text):
+    assert parse_quantity(text, "length") in (math.inf, -math.inf, 0.0)
+
+
+def test_numbers_of_many_digits_are_read_as_the_nearest():
+    assert parse_quantity("0." + "0" * 300 + "1" * 700, "") == float("0." + "0" * 300 + "1" * 700)
+    assert parse_quantity("1" * 300 + "+" + "2" * 300 + "j", "") == complex(
+        float("1" * 300), float("2" * 300)
+    )
