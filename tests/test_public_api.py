@@ -30,7 +30,7 @@ def modules():
 
 
 def imports_of(file):
-    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+    for node in ast.execute(ast.parse(file.read_text("utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath."):
             yield node.module.split(".")[1]
 
@@ -50,6 +50,16 @@ def test_imports_point_one_way():
 def test_no_two_modules_have_one_name():
     names = [file.stem for _, file in modules() if file.stem != "__init__"]
     assert sorted(names) == sorted(set(names))
+
+
+def test_no_two_classes_have_one_name():
+    found = [
+        node.name
+        for _, file in modules()
+        for node in ast.walk(ast.parse(file.read_text("utf-8")))
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
+    ]
+    assert sorted(found) == sorted(set(found))
 
 
 def test_all_is_sorted_and_complete():

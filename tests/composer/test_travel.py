@@ -1,6 +1,6 @@
 """The order of ports, and loops among them."""
 
-from optipath.composer.travel import rounds, stretches
+from optipath.composer.travel import cycles, stretches
 
 
 def ways(*links):
@@ -23,14 +23,14 @@ def test_ports_come_in_the_order_of_travel_and_else_by_name():
 def test_the_ports_of_a_loop_stand_together_with_their_knots_first():
     found = stretches(ways(("in", "b"), ("b", "c"), ("c", "a"), ("a", "b"), ("c", "out")))
     assert [names(s.ports) for s in found] == [["in"], ["b", "c", "a"], ["out"]]
-    assert names(found[1].knots) == ["b"]
+    assert names(found[1].junctions) == ["b"]
 
 
 def test_loops_that_share_a_port_are_one():
     chained = ways(("in", "a"), ("a", "b"), ("b", "a"), ("b", "c"), ("c", "b"), ("c", "out"))
-    assert [set(names(ports)) for ports in rounds(chained)] == [{"a", "b", "c"}]
+    assert [set(names(ports)) for ports in cycles(chained)] == [{"a", "b", "c"}]
 
 
 def test_what_leads_to_a_loop_or_comes_from_it_is_no_part_of_it():
-    found = rounds(ways(("in", "x"), ("x", "y"), ("y", "x"), ("y", "out"), ("out", "end")))
+    found = cycles(ways(("in", "x"), ("x", "y"), ("y", "x"), ("y", "out"), ("out", "end")))
     assert [set(names(ports)) for ports in found] == [{"x", "y"}]

@@ -5,7 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.engines.formulas import lights_formula
-from optipath.kernels import Plain
+from optipath.kernels import StokesCarrier
 from optipath.values.operands import MANY
 
 numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
@@ -16,10 +16,10 @@ from optipath.engines.numba_engine import source  # noqa: E402
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="reads x86 assembly")
 def test_a_path_is_computed_many_at_a_time():
     plan = op.load_preset("npgr026").compose()
-    forms = {view.raw: MANY for view in plan.program.leaves if not view.known}
-    forms = {raw: "absent" if raw.part == "present" else form for raw, form in forms.items()}
+    forms = {operand.input_key: MANY for operand in plan.program.operands if not operand.known}
+    forms = {key: "absent" if key.part == "present" else form for key, form in forms.items()}
     formula = lights_formula(
-        plan.program, Plain, "float64", forms, plan.inputs.limits, polynomials=True
+        plan.program, StokesCarrier, "float64", forms, plan.inputs.limits, polynomials=True
     )
     text = assembly(source(formula))
     packed, single = text.count("mulpd"), text.count("mulsd")

@@ -98,12 +98,12 @@ def test_no_physical_matrix_is_refused_whatever_engine_bounds_it(terms):
     scale = rng.choice([1e-150, 1e-3, 1.0], (20_000, 1, 1))
     matrices = scale * physical(rng, 20_000, terms=terms)
     path = chain([op.MuellerElement(op.Parameter("M"))], [1.0, 0.8, 0.0, 0.6], reads="intensity")
-    compiled, careful = (
+    compiled, fallback = (
         op.Composer(engine=engine).compose(path).certificate(M=part)
         for engine, part in (("numba", matrices), ("numpy", matrices[:500]))
     )
-    np.testing.assert_allclose(compiled.upper[:500], careful.upper, rtol=1e-11)
-    np.testing.assert_allclose(compiled.lower[:500], careful.lower, rtol=0.0, atol=1e-11)
+    np.testing.assert_allclose(compiled.upper[:500], fallback.upper, rtol=1e-11)
+    np.testing.assert_allclose(compiled.lower[:500], fallback.lower, rtol=0.0, atol=1e-11)
 
 
 def behind(state, matrices):

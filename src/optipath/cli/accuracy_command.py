@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 from rich.table import Table
 
-from optipath.cli.console import Terminal, cell, say
+from optipath.cli.console import PlainConsole, cell, say
 from optipath.cli.text_files import read_text, write
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def accuracy(samples: int, generations: int | None, file: Path | None) -> None:
         write(file, put_tables(text, found(), marks).encode())
         say(f"wrote {file}")
         return
-    console = Terminal()
+    console = PlainConsole()
     for table in found():
         shown = Table(*table.header, title=table.title, box=None, header_style="bold")
         for row in table.rows:

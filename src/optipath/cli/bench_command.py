@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from rich.table import Table
 
-from optipath.cli.console import Terminal
+from optipath.cli.console import PlainConsole
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.cli.progress_bar import progress_bar
 from optipath.paths.presets.loader import load_preset
@@ -70,7 +70,7 @@ def _bench(
         click.echo(json.dumps({"preset": preset, **asdict(report)}))
         return
     for table in _tables(report):
-        Terminal().print(table)
+        PlainConsole().print(table)
 
 
 def _opened(preset: str, case: str | None, values: dict[str, Any]) -> Any:

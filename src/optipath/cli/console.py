@@ -35,7 +35,7 @@ def headed(*headers: str, **keywords: Any) -> Table:
     return made
 
 
-class Terminal(Console):
+class PlainConsole(Console):
     """A console that leaves it to a narrow terminal to break lines, rather than to cut them."""
 
     def __init__(self, **keywords: Any) -> None:

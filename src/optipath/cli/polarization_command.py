@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 import numpy as np
 
-from optipath.cli.console import Terminal, cell, headed
+from optipath.cli.console import PlainConsole, cell, headed
 from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.errors import listed
@@ -36,7 +36,7 @@ def _polarization(preset: str, case: str | None, values: dict[str, Any], *, as_j
         detectors = {name: _as_json(one) for name, one in found.items()}
         click.echo(json.dumps({"preset": preset, "detectors": detectors}))
         return
-    console = Terminal()
+    console = PlainConsole()
     console.print(cell(preset, style="bold"), cell(path.description))
     for name, one in found.items():
         console.print(_table(name, one))

@@ -7,7 +7,7 @@ import json
 import click
 from rich.table import Table
 
-from optipath.cli.console import Terminal, cell
+from optipath.cli.console import PlainConsole, cell
 from optipath.paths.presets.loader import load_preset, preset_names
 
 
@@ -22,4 +22,4 @@ def presets(*, as_json: bool) -> None:
     table = Table("preset", "what it is", box=None, header_style="bold")
     for name, description in descriptions.items():
         table.add_row(cell(name), cell(description))
-    Terminal().print(table)
+    PlainConsole().print(table)

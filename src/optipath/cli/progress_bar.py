@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-from optipath.cli.console import Terminal
+from optipath.cli.console import PlainConsole
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 def progress_bar(total: float) -> Iterator[Callable[..., None]]:
     """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
     columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
-    console = Terminal(stderr=True)
+    console = PlainConsole(stderr=True)
     with Progress(
         *columns, console=console, transient=True, disable=not console.is_terminal
     ) as bar:

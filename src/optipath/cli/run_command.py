@@ -12,7 +12,7 @@ import click
 import numpy as np
 from rich.table import Table
 
-from optipath.cli.console import Terminal, cell, headed
+from optipath.cli.console import PlainConsole, cell, headed
 from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer import Composer
@@ -153,7 +153,7 @@ def _polarization(light: Light) -> dict[str, Any]:
 
 
 def _print(result: Result) -> None:
-    console = Terminal()
+    console = PlainConsole()
     title = result.preset + (f", case {result.case}" if result.case else "")
     console.print(cell(title, style="bold"), cell(result.path.description))
     console.print(_parameter_table(result))

@@ -10,7 +10,7 @@ import click
 from rich.cells import cell_len
 from rich.table import Table
 
-from optipath.cli.console import Terminal, cell
+from optipath.cli.console import PlainConsole, cell
 from optipath.cli.text_files import NewFile, write
 from optipath.errors import printable
 from optipath.paths.drawing import draw
@@ -36,20 +36,20 @@ def show(preset: str, case: str | None, svg: Path | None) -> None:
     path = load_preset(preset, case=case)
     if svg is not None:
         write(svg, _picture(path, f"optipath show {preset}").encode())
-    _print(Terminal(), path)
+    _print(PlainConsole(), path)
 
 
 def _picture(path: PathGraph, title: str) -> str:
     # A picture has a width of its own; what is printed has the terminal's.
     text = StringIO()
-    _print(Terminal(width=100, file=text), path)
+    _print(PlainConsole(width=100, file=text), path)
     width = max(100, *map(cell_len, text.getvalue().splitlines()))
-    recorder = Terminal(record=True, width=width, file=StringIO())
+    recorder = PlainConsole(record=True, width=width, file=StringIO())
     _print(recorder, path)
     return _FROM_THE_NET.sub("", recorder.export_svg(title=printable(title)))
 
 
-def _print(console: Terminal, path: PathGraph) -> None:
+def _print(console: PlainConsole, path: PathGraph) -> None:
     console.print(cell(path.description, style="bold"), end="\n\n")
     if path.parameters:
         table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")

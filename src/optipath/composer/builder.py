@@ -1,4 +1,4 @@
-"""Builder: collects leaves, evaluations and steps of a program; equal ones are entered once."""
+"""Builder: collects operands, evaluations and steps of a program; equal ones are entered once."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ if TYPE_CHECKING:
     from optipath.elements.vertices import VertexFrame
     from optipath.kernels import Kernel
     from optipath.light.frames import Frame
-    from optipath.values.operands import View
+    from optipath.values.operands import Operand
 
 
 class Builder:
     """A program in the making."""
 
     def __init__(self) -> None:
-        self.leaves: list[View] = []
+        self.operands: list[Operand] = []
         self.evaluations: list[Evaluation] = []
         self.steps: list[Step] = []
         self.loops: list[Loop] = []
-        self._leaf_at: dict[Hashable, int] = {}
+        self._operand_at: dict[Hashable, int] = {}
         self._evaluation_at: dict[Evaluation, int] = {}
 
     def program(
@@ -36,7 +36,7 @@ class Builder:
         links: Mapping[str, Reading],
     ) -> Program:
         """Return what has been collected."""
-        collected = tuple(self.leaves), tuple(self.evaluations), tuple(self.steps)
+        collected = tuple(self.operands), tuple(self.evaluations), tuple(self.steps)
         ends = sources, detectors, dumps
         return Program(*collected, *ends, loops=tuple(self.loops), links=links)
 
@@ -64,16 +64,16 @@ class Builder:
         label: str,
         inputs: tuple[int, ...],
         kernel: Kernel,
-        views: Sequence[View],
-        presence: View | None = None,
+        operands: Sequence[Operand],
+        presence: Operand | None = None,
         **about: Any,
     ) -> int:
         """Add a step that does something to light; return the light that it makes.
 
         What else a `Step` tells about itself may be given by name.
         """
-        arguments = tuple(map(self._leaf, views))
-        there = None if presence is None else self._leaf(presence)
+        arguments = tuple(map(self._operand, operands))
+        there = None if presence is None else self._operand(presence)
         evaluation = Evaluation(kernel, arguments, there)
         index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
         if index == len(self.evaluations):
@@ -88,34 +88,38 @@ class Builder:
         self.steps.append(Step(label, tuple(lights)))
         return len(self.steps) - 1
 
-    def knot(self, label: str) -> int:
+    def junction(self, label: str) -> int:
         """Add a sum whose lights are not all there yet; `close` says which they are."""
         self.steps.append(Step(label, ()))
         return len(self.steps) - 1
 
     def close(self, inputs: Mapping[int, Sequence[int]]) -> None:
-        """Say what the knots of a loop add up, now that all of its steps are there."""
-        for knot, lights in inputs.items():
-            self.steps[knot] = replace(self.steps[knot], inputs=tuple(lights))
+        """Say what the junctions of a loop add up, now that all of its steps are there."""
+        for junction, lights in inputs.items():
+            self.steps[junction] = replace(self.steps[junction], inputs=tuple(lights))
         start = min(inputs)
         order = in_order_of_elimination(self.steps, start, tuple(inputs))
         layered = all(count <= 2 for count in order.values())
         self.loops.append(Loop(tuple(order), len(self.steps), layered))
 
-    def knots_of(self, old: Program, loop: Loop | None) -> dict[int, int]:
-        """Add the knots of another program's loop; return the new light of each."""
-        knots = () if loop is None else sorted(loop.knots)
-        return {knot: self.knot(old.steps[knot].label) for knot in knots}
+    def junctions_of(self, old: Program, loop: Loop | None) -> dict[int, int]:
+        """Add the junctions of another program's loop; return the new light of each."""
+        junctions = () if loop is None else sorted(loop.junctions)
+        return {junction: self.junction(old.steps[junction].label) for junction in junctions}
 
     def close_like(self, old: Program, loop: Loop | None, moved: Callable[[int], int]) -> None:
         """Close a loop as another program has it, when its steps are there."""
         if loop is not None:
-            sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.knots}
-            self.close({moved(knot): lights for knot, lights in sums.items()})
+            sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.junctions}
+            self.close({moved(junction): lights for junction, lights in sums.items()})
 
-    def _leaf(self, view: View) -> int:
-        key = view.key()
-        index = len(self.leaves) if key is None else self._leaf_at.setdefault(key, len(self.leaves))
-        if index == len(self.leaves):
-            self.leaves.append(view)
+    def _operand(self, operand: Operand) -> int:
+        key = operand.key()
+        index = (
+            len(self.operands)
+            if key is None
+            else self._operand_at.setdefault(key, len(self.operands))
+        )
+        if index == len(self.operands):
+            self.operands.append(operand)
         return index

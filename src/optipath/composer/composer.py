@@ -11,7 +11,7 @@ import networkx as nx
 from optipath.composer.collection import put_off
 from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
 from optipath.composer.path_values import Values
-from optipath.composer.reduce import as_it_stands, by_name, for_jones, reduced, tolerated
+from optipath.composer.reduce import by_name, for_jones, reduced, tolerated, unreduced
 from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
@@ -204,7 +204,7 @@ class Composer:
         # Constants are multiplied in float64.
         constants = self.dtype != "longdouble"
         if self.model == "full":
-            return as_it_stands(whole), None
+            return unreduced(whole), None
         if self.composing == "jones":
             return for_jones(whole, constants=constants), None
         exact = reduced(whole, constants=constants)

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.engines.program.program import Program
-    from optipath.values.operands import View
+    from optipath.values.operands import Operand
 
 Entry: TypeAlias = float | None
 """A number, or None for one that is not known."""
@@ -27,24 +27,26 @@ Entries: TypeAlias = tuple[tuple[Entry, ...], ...]
 _UNKNOWN: Entries = ((None,) * 4,) * 4
 
 
-def number_of(view: View) -> float | None:
-    """Return the one real number that a view is known to be; None for all else."""
-    quickly = view.known_float
+def number_of(operand: Operand) -> float | None:
+    """Return the one real number that an operand is known to be; None for all else."""
+    quickly = operand.known_float
     if quickly is not None:
         return quickly
-    if not view.known or view.traced or view.part == "present":
+    if not operand.known or operand.traced or operand.part == "present":
         return None
-    numbers = view.numbers({})
+    numbers = operand.numbers({})
     return None if numbers.ndim or numbers.dtype.kind == "c" else float(numbers)
 
 
-def entries(kernel: Kernel, views: Sequence[View], presence: View | None = None) -> Entries:
+def entries(
+    kernel: Kernel, operands: Sequence[Operand], presence: Operand | None = None
+) -> Entries:
     """Return what is known of the matrix of a step, or of what it emits."""
-    numbers = tuple(number_of(view) for view in views)
+    numbers = tuple(number_of(operand) for operand in operands)
     if any(number is None for number in numbers):
         # Which numbers they are seldom matters, but for these two and arrays of zeros.
         known = tuple(n if n in (0.0, 1.0) else None for n in numbers)
-        zeros = map(vanishes, views)
+        zeros = map(vanishes, operands)
         known = tuple(0.0 if zero else n for n, zero in zip(known, zeros, strict=True))
         found = _symbolic(kernel, known)
     else:
@@ -62,11 +64,11 @@ def entries_of(program: Program, evaluation: int) -> Entries:
     return entries(*program.parts(evaluation))
 
 
-def vanishes(view: View) -> bool:
-    """Tell whether a view is known to be 0, for every path."""
-    if not view.known or view.traced:
+def vanishes(operand: Operand) -> bool:
+    """Tell whether an operand is known to be 0, for every path."""
+    if not operand.known or operand.traced:
         return False
-    numbers = view.numbers({})
+    numbers = operand.numbers({})
     # Of most arrays the first number tells.
     return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
 

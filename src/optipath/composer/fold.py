@@ -10,7 +10,7 @@ from optipath.composer.builder import Builder
 from optipath.composer.constants import Constant, multiplied
 from optipath.composer.entries import number_of, vanishes
 from optipath.kernels import FLOAT, FULL, TURN, TURN_BACK
-from optipath.values.operands import View
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -32,12 +32,12 @@ class Item:
 
     label: str
     kernel: Kernel
-    views: tuple[View, ...]
-    presence: View | None
+    operands: tuple[Operand, ...]
+    presence: Operand | None
 
     def constant(self) -> Constant | None:
         """Return its numbers, if all are known."""
-        numbers = tuple(map(number_of, self.views))
+        numbers = tuple(map(number_of, self.operands))
         if self.presence is not None or None in numbers or self.kernel.structure is None:
             return None
         return _constant(self.kernel, numbers)
@@ -78,10 +78,10 @@ class _Folding:
             if loop is not None:
                 self._settle_before(loop)
             self._once = loop is None
-            knots = self.builder.knots_of(self.old, loop)
-            self._waiting |= {knot: (light, []) for knot, light in knots.items()}
+            junctions = self.builder.junctions_of(self.old, loop)
+            self._waiting |= {junction: (light, []) for junction, light in junctions.items()}
             for light in lights:
-                if light not in knots:
+                if light not in junctions:
                     self._waiting[light] = self._of(self.old.steps[light])
             self.builder.close_like(self.old, loop, self._settled)
         return self.builder.instead_of(self.old, self._settled)
@@ -98,7 +98,7 @@ class _Folding:
             return self.builder.sum(step.label, [self._settled(i) for i in step.inputs]), []
         item = self._cheapest(Item(step.label, *self.old.parts(step.evaluation)))
         if not step.inputs:
-            return self.builder.step(step.label, (), item.kernel, item.views), []
+            return self.builder.step(step.label, (), item.kernel, item.operands), []
         (light,) = step.inputs
         base, items = self._waiting[light]
         if self.old.light_uses[light] > 1 or not items:
@@ -111,22 +111,22 @@ class _Folding:
         """Return the new light of an old one, its steps added."""
         base, items = self._waiting[light]
         for item in self._folded(items):
-            base = self.builder.step(item.label, (base,), item.kernel, item.views, item.presence)
+            base = self.builder.step(item.label, (base,), item.kernel, item.operands, item.presence)
         self._waiting[light] = base, []
         return base
 
     def _cheapest(self, item: Item) -> Item:
-        kernel, views = item.kernel.leaving_out(item.views, vanishes)
-        kernel = kernel.never_less(views, lambda view: view.span)
+        kernel, operands = item.kernel.specialised(item.operands, vanishes)
+        kernel = kernel.never_less(operands, lambda operand: operand.span)
         if kernel is not item.kernel:
             self.notes.append(f"cheaper at '{item.label}': {kernel.name}")
-        return replace(item, kernel=kernel, views=views)
+        return replace(item, kernel=kernel, operands=operands)
 
     def _folded(self, items: list[Item]) -> list[Item]:
         found: list[Item] = []
         for item in items:
             turns = found and _is_turn(item) and _is_turn(found[-1])
-            if turns and len(found[-1].views) < _MOST:
+            if turns and len(found[-1].operands) < _MOST:
                 found[-1:] = self._turned(found[-1], item)
             else:
                 found.append(item)
@@ -135,21 +135,21 @@ class _Folding:
     def _turned(self, first: Item, second: Item) -> list[Item]:
         """Return two turns as one, or as none if they undo each other."""
         self.notes.append(f"the turns at {_quoted([first, second])} are one")
-        views = [*_angles(first), *_angles(second)]
+        operands = [*_angles(first), *_angles(second)]
         # Sums are in float64.
         sums = self.constants and self._once
-        numbers = [number_of(view) if sums else None for view in views]
+        numbers = [number_of(operand) if sums else None for operand in operands]
         known = sum(number for number in numbers if number is not None)
-        left: list[View] = []
-        for view in (v for v, number in zip(views, numbers, strict=True) if number is None):
-            opposite = view.negated().key()
+        left: list[Operand] = []
+        for operand in (v for v, number in zip(operands, numbers, strict=True) if number is None):
+            opposite = operand.negated().key()
             undone = [w for w in left if opposite is not None and w.key() == opposite]
             if undone:
                 left.remove(undone[0])
             else:
-                left.append(view)
+                left.append(operand)
         if known:
-            left.append(View(known))
+            left.append(Operand(known))
         return [Item(_label([first, second]), TURN, tuple(left), None)] if left else []
 
     def _multiplied(self, items: list[Item]) -> list[Item]:
@@ -196,7 +196,7 @@ class _Folding:
         label = _label(items)
         names = " and ".join(f"{item.kernel.name} at '{item.label}'" for item in items)
         self.notes.append(f"constant, and multiplied: {names}")
-        return Item(label, constant.kernel, tuple(map(View, constant.numbers)), None)
+        return Item(label, constant.kernel, tuple(map(Operand, constant.numbers)), None)
 
 
 @lru_cache(1024)
@@ -226,5 +226,9 @@ def _is_turn(item: Item) -> bool:
     return item.presence is None and item.kernel in (TURN, TURN_BACK)
 
 
-def _angles(item: Item) -> list[View]:
-    return [view.negated() for view in item.views] if item.kernel is TURN_BACK else [*item.views]
+def _angles(item: Item) -> list[Operand]:
+    return (
+        [operand.negated() for operand in item.operands]
+        if item.kernel is TURN_BACK
+        else [*item.operands]
+    )

@@ -129,7 +129,7 @@ def trim(live: Live) -> tuple[Program, list[str]]:
     moved: dict[int, int] = {}
     left_out = []
     for lights, loop in old.stretches():
-        moved |= builder.knots_of(old, loop)
+        moved |= builder.junctions_of(old, loop)
         for light in lights:
             if light in moved:
                 continue

@@ -14,7 +14,7 @@ from optipath.elements import Detector, SpecularVertex
 from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
 from optipath.light.frames import Frame
-from optipath.values.operands import View, view_of
+from optipath.values.operands import Operand, operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -117,20 +117,23 @@ class _Lowering:
 
     def add(self, stretch: Stretch) -> None:
         """Add the steps that make the light at the ports of a stretch."""
-        if not stretch.knots:
+        if not stretch.junctions:
             for port in stretch.ports:
                 self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
             return
-        outside = {knot: self._arriving(knot) for knot in stretch.knots}
-        for knot in stretch.knots:
-            self.lights[knot] = self.builder.knot(".".join(knot))
-        # The knots come first.
-        for port in stretch.ports[len(stretch.knots) :]:
+        outside = {junction: self._arriving(junction) for junction in stretch.junctions}
+        for junction in stretch.junctions:
+            self.lights[junction] = self.builder.junction(".".join(junction))
+        # The junctions come first.
+        for port in stretch.ports[len(stretch.junctions) :]:
             self.lights[port] = self.builder.sum(".".join(port), self._arriving(port))
         members = set(stretch.ports)
-        inside = {knot: self._arriving(knot, members) for knot in stretch.knots}
+        inside = {junction: self._arriving(junction, members) for junction in stretch.junctions}
         self.builder.close(
-            {self.lights[knot]: [*outside[knot], *inside[knot]] for knot in stretch.knots}
+            {
+                self.lights[junction]: [*outside[junction], *inside[junction]]
+                for junction in stretch.junctions
+            }
         )
 
     def _arriving(self, port: Port, within: set[Port] | None = None) -> list[int]:
@@ -182,12 +185,12 @@ class _Lowering:
         label: str,
         inputs: tuple[int, ...],
         operation: Operation,
-        presence: View | None,
+        presence: Operand | None,
         **about: Any,
     ) -> int:
-        views = [view_of(argument) for argument in operation.arguments]
+        operands = [operand_of(argument) for argument in operation.arguments]
         kernel = operation.kernel.by_method(self.method)
-        return self.builder.step(label, inputs, kernel, views, presence, **about)
+        return self.builder.step(label, inputs, kernel, operands, presence, **about)
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
         """Return the frame in which light leaves an element; the unit frame if none is known."""
@@ -211,12 +214,12 @@ class _Lowering:
         return self._frame_behind(start, leaves)
 
 
-def _presence(operations: tuple[Operation, ...]) -> View | None:
+def _presence(operations: tuple[Operation, ...]) -> Operand | None:
     for operation in operations:
         for argument in operation.arguments:
-            value: Any = view_of(argument).value
+            value: Any = operand_of(argument).value
             if isinstance(value, Parameter) and value.optional:
-                presence = View(value, "present")
+                presence = Operand(value, "present")
                 if presence.known and np.all(presence.present()):
                     return None
                 return presence

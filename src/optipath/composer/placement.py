@@ -12,7 +12,7 @@ from optipath.elements import Operation, SpecularVertex, Terminal
 from optipath.errors import OptipathError
 from optipath.kernels import GIVEN_TURN, TURN
 from optipath.values.arrays.shapes import broadcast_fault
-from optipath.values.operands import View
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from optipath.composer.wiring import Link, Wiring
@@ -56,7 +56,7 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
         c, s = arriving.turn_to(expected)
         if np.all(c == 1.0) and np.all(s == 0.0):
             return None
-        return Operation(GIVEN_TURN, (View(c), View(s)))
+        return Operation(GIVEN_TURN, (Operand(c), Operand(s)))
     azimuth = azimuth_of(wiring, link)
     return None if _is_zero(azimuth) else Operation(TURN, (azimuth,))
 

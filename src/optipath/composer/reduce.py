@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 _ROUNDS = 3
 
 
-def as_it_stands(whole: Program) -> Reduction:
+def unreduced(whole: Program) -> Reduction:
     """Return a program with nothing reduced: all four components through every step."""
     live = tuple(Live(whole).components)
     reason = "asked for by name: every step as it stands"
-    return Reduction(whole, "full", reason, live, as_it_stands=True)
+    return Reduction(whole, "full", reason, live, unreduced=True)
 
 
 def for_jones(whole: Program, *, constants: bool) -> Reduction:

@@ -23,13 +23,13 @@ class Stretch(NamedTuple):
     Attributes
     ----------
     ports : tuple of Port
-        In the order of travel, the knots of a loop first.
-    knots : tuple of Port
+        In the order of travel, the junctions of a loop first.
+    junctions : tuple of Port
         Those of a loop where lights meet, one of which every way round passes.
     """
 
     ports: tuple[Port, ...]
-    knots: tuple[Port, ...] = ()
+    junctions: tuple[Port, ...] = ()
 
 
 def stretches(ways: Ways) -> list[Stretch]:
@@ -37,7 +37,7 @@ def stretches(ways: Ways) -> list[Stretch]:
 
     Where nothing else tells, ports come in the order of their names.
     """
-    together = rounds(ways)
+    together = cycles(ways)
     came_from = backwards(ways) if together else {}
     loops = {min(ports): _loop(ways, ports, came_from) for ports in together}
     stands_for = {port: first for first, loop in loops.items() for port in loop.ports}
@@ -64,7 +64,7 @@ def stretches(ways: Ways) -> list[Stretch]:
     return order
 
 
-def rounds(ways: Ways) -> list[set[Port]]:
+def cycles(ways: Ways) -> list[set[Port]]:
     """Return the ports of each loop: those that light can reach from each other."""
     core = among(ways, _going_round(ways))
     core = among(core, _going_round(backwards(core)))
@@ -119,10 +119,10 @@ def _going_round(ways: Ways) -> set[Port]:
 
 
 def _loop(ways: Ways, together: set[Port], before: Ways) -> Stretch:
-    """Return the ports of a loop; where several lights arrive is a knot."""
-    knots = {port for port in together if len(before[port]) > 1}
-    order = sorted(knots)
-    # Between knots, light has one way to come from.
+    """Return the ports of a loop; where several lights arrive is a junction."""
+    junctions = {port for port in together if len(before[port]) > 1}
+    order = sorted(junctions)
+    # Between junctions, light has one way to come from.
     for port in order:
-        order += sorted(p for p in ways[port] if p in together and p not in knots)
-    return Stretch(tuple(order), tuple(sorted(knots)))
+        order += sorted(p for p in ways[port] if p in together and p not in junctions)
+    return Stretch(tuple(order), tuple(sorted(junctions)))

@@ -8,7 +8,7 @@ import networkx as nx
 
 from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
-from optipath.composer.travel import among, rounds
+from optipath.composer.travel import among, cycles
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements import Detector, Source
 from optipath.errors import PathError
@@ -129,7 +129,7 @@ def _reach_faults(wiring: Wiring, unsure: set[str]) -> Iterator[str]:
 
 
 def _loop_faults(ports: Ways) -> Iterator[str]:
-    for together in rounds(ports):
+    for together in cycles(ports):
         start = min(together)
         inside = nx.DiGraph(among(ports, together))
         back = min(inside.predecessors(start))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from optipath.composer.placement import azimuth_of
 from optipath.elements import SpecularVertex
 from optipath.light.frames import Frame
-from optipath.values.operands import view_of
+from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from optipath.composer.travel import Port
     from optipath.composer.wiring import Link, Wiring
     from optipath.elements.vertices import VertexFrame
-    from optipath.values.operands import View
+    from optipath.values.operands import Operand
 
 
 def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
@@ -30,10 +30,12 @@ def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
 
 
 def _followed(
-    wiring: Wiring, port: Port, following: Callable[[Wiring, Port], tuple[Port, list[View]] | None]
+    wiring: Wiring,
+    port: Port,
+    following: Callable[[Wiring, Port], tuple[Port, list[Operand]] | None],
 ) -> VertexFrame | None:
     """Return the frame of the first vertex on the way from a port, with all turns between."""
-    turns: list[View] = []
+    turns: list[Operand] = []
     passed: set[Port] = set()
     while port not in passed:
         passed.add(port)
@@ -48,7 +50,7 @@ def _followed(
     return None
 
 
-def _before(wiring: Wiring, port: Port) -> tuple[Port, list[View]] | None:
+def _before(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
     """Return the port that all light at a port comes from, and the turns since then."""
     name, way = port
     if way not in wiring.elements[name].inputs:
@@ -64,7 +66,7 @@ def _before(wiring: Wiring, port: Port) -> tuple[Port, list[View]] | None:
     return (start, leaves), _turns(wiring, links[0])
 
 
-def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[View]] | None:
+def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
     """Return the port that light at a port goes to, and the turns till then, taken back."""
     name, way = port
     if way in wiring.elements[name].inputs:
@@ -78,9 +80,9 @@ def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[View]] | None:
     return (end, enters), [turn.negated() for turn in _turns(wiring, links[0])]
 
 
-def _turns(wiring: Wiring, link: Link) -> list[View]:
+def _turns(wiring: Wiring, link: Link) -> list[Operand]:
     azimuth = azimuth_of(wiring, link)
-    return [] if isinstance(azimuth, (int, float)) and azimuth == 0.0 else [view_of(azimuth)]
+    return [] if isinstance(azimuth, (int, float)) and azimuth == 0.0 else [operand_of(azimuth)]
 
 
 def _is_straight(wiring: Wiring, name: str, enters: str, leaves: str) -> bool:

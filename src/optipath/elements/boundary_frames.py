@@ -11,7 +11,7 @@ from optipath.elements.fresnel import refraction_angle
 from optipath.light.frames import Frame
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.materials import Material
-from optipath.values.operands import View
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 _TOLERANCE = 1e-7
 
 
-class Boundary(Protocol):
+class BoundaryElement(Protocol):
     """An element with a medium in front and one behind."""
 
     @property
@@ -39,7 +39,7 @@ class Boundary(Protocol):
         """Return what is wrong with the values."""
 
 
-def boundary_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> list[str]:
+def boundary_faults(owner: str, element: BoundaryElement, frames: Mapping[str, Frame]) -> list[str]:
     """Return what is wrong with the frames of an interface's ports, a sentence each."""
     placed = list(frames.items())
     apart = [f"'{owner}.{port}'" for port, frame in placed[1:] if not share_x(frame, placed[0][1])]
@@ -50,7 +50,9 @@ def boundary_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) 
     return [*_meeting_faults(owner, element, frames), *_passing_faults(owner, element, frames)]
 
 
-def refracted_frame(element: Boundary, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+def refracted_frame(
+    element: BoundaryElement, port: str, frames: Mapping[str, Frame]
+) -> Frame | None:
     """Return the frame of refracted light, of that of the other; None where it is not known."""
     if port != "transmitted" or not {"in", "reflected"} <= frames.keys():
         return None
@@ -71,12 +73,14 @@ def _unit(vector: Any) -> Any:
     return vector / np.where(length > 0.0, length, 1.0)
 
 
-def _meeting_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> Iterator[str]:
+def _meeting_faults(
+    owner: str, element: BoundaryElement, frames: Mapping[str, Frame]
+) -> Iterator[str]:
     if not {"in", "reflected"} <= frames.keys():
         return
     found = incidence_between(frames["in"], frames["reflected"])
     problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
-    if not View(element.incidence).known:
+    if not Operand(element.incidence).known:
         name = element.incidence.name
         yield f"{problem}; give that, not the parameter '{name}'"
     angles = _angles(owner, element)
@@ -84,7 +88,9 @@ def _meeting_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) 
         yield f"{problem}, but its incidence is {_degrees(angles[0])}; make them agree"
 
 
-def _passing_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) -> Iterator[str]:
+def _passing_faults(
+    owner: str, element: BoundaryElement, frames: Mapping[str, Frame]
+) -> Iterator[str]:
     angles = _angles(owner, element) if len(frames) > 1 else None
     if not angles:
         return
@@ -107,20 +113,20 @@ def _passing_faults(owner: str, element: Boundary, frames: Mapping[str, Frame]) 
                 )
 
 
-def _angles(owner: str, element: Boundary) -> tuple[Any, Any] | None:
+def _angles(owner: str, element: BoundaryElement) -> tuple[Any, Any] | None:
     """Return the angles in front and behind, if they are known and allowed."""
     before = getattr(element, "incidence_in", None)
     values = [element.incidence, element.index, element.outside, before]
     parts: list[Any] = [
         p for v in values for p in ((v.n, v.k) if isinstance(v, Material) else (v,))
     ]
-    views = [View(part) for part in parts]
-    if not all(v.known and not v.traced for v in views) or element.faults(owner):
+    operands = [Operand(part) for part in parts]
+    if not all(v.known and not v.traced for v in operands) or element.faults(owner):
         return None
     shapes = {str(place): np.shape(part) for place, part in enumerate(parts) if part is not None}
     if broadcast_fault(shapes):
         return None  # Named with all other shapes.
-    incidence, outside = View(element.incidence).numbers({}), _complex(element.outside).real
+    incidence, outside = Operand(element.incidence).numbers({}), _complex(element.outside).real
     if before is not None:
         incidence = refraction_angle(outside, incidence, _complex(before).real)
     return incidence, refraction_angle(_complex(element.index), incidence, outside)
@@ -128,8 +134,8 @@ def _angles(owner: str, element: Boundary) -> tuple[Any, Any] | None:
 
 def _complex(index: Any) -> Any:
     if isinstance(index, Material):
-        return View(index.n).numbers({}) + 1j * View(index.k).numbers({})
-    return View(index).numbers({})
+        return Operand(index.n).numbers({}) + 1j * Operand(index.k).numbers({})
+    return Operand(index).numbers({})
 
 
 def _agree(found: Any, given: Any) -> bool:

@@ -9,9 +9,9 @@ import numpy as np
 
 from optipath.kernels import NUMPY, TURN, TURN_BACK
 from optipath.light.mueller import stacked
-from optipath.values.arrays.read_only import frozen, same_fields
+from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.materials import Material
-from optipath.values.operands import View, view_of
+from optipath.values.operands import Operand, operand_of
 
 if TYPE_CHECKING:
     from optipath.kernels import Kernel, KernelFamily
@@ -52,8 +52,8 @@ class Coupling:
         matrix = np.eye(4)
         for operation in self.operations:
             kernel = operation.kernel.by_method(method)
-            values = [view_of(argument) for argument in operation.arguments]
-            numbers = kernel.made_for(NUMPY)(*(view.numbers({}) for view in values))
+            values = [operand_of(argument) for argument in operation.arguments]
+            numbers = kernel.made_for(NUMPY)(*(operand.numbers({}) for operand in values))
             assert kernel.structure is not None  # noqa: S101 - only sources have none
             matrix = stacked(kernel.structure.rows(NUMPY, numbers)) @ matrix
         faint = np.abs(matrix[..., :1, :1]) < np.finfo(np.float64).tiny
@@ -89,11 +89,11 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
     """
     if domain.tail:
         count = int(np.prod(domain.tail))
-        return tuple(View(value, position, domain.tail) for position in range(count))
+        return tuple(Operand(value, position, domain.tail) for position in range(count))
     if isinstance(value, Material):
         return value.n, value.k
     if not domain.complex_parts:
         return (value,)
     if isinstance(value, (int, float, complex, np.ndarray)):
-        return frozen(np.real(value)), frozen(np.imag(value))
-    return View(value, "real"), View(value, "imag")
+        return read_only(np.real(value)), read_only(np.imag(value))
+    return Operand(value, "real"), Operand(value, "imag")

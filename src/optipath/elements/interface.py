@@ -10,7 +10,7 @@ from optipath.elements.four_port import FourPort
 from optipath.kernels import REFLECTION, TRANSMISSION
 from optipath.values.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
 from optipath.values.materials import Material
-from optipath.values.operands import View
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,7 +71,7 @@ class Interface(FourPort, kind="interface"):
         """
         n, k = numbers_of(self.index, self.domains()["index"])
         media = (_real(self.outside), n, k)
-        angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
+        angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         before = () if self.incidence_in is None else (_real(self.incidence_in),)
         reflect = Operation(REFLECTION, (*media, *before, *angle))
         transmit = Operation(TRANSMISSION, (*media, *before, *angle))

@@ -14,7 +14,7 @@ from optipath.kernels import (
     STACK_TRANSMISSION_BACK,
 )
 from optipath.values.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
-from optipath.values.operands import View
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,7 +57,7 @@ class LayerStack(FourPort, kind="layer-stack"):
         """Return what is reflected and what is let through, from either side."""
         pairs = [numbers_of(index, INDEX) for index in self._media]
         media = [n for n, _ in pairs]
-        angle = (View(self.incidence, "cos"), View(self.incidence, "sin"))
+        angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         front, back = (*media, pairs[-1][1], *angle), (*media[::-1], 0.0, *angle)
         return self._ways(
             (Operation(STACK_REFLECTION, front), Operation(STACK_TRANSMISSION, front)),

@@ -23,7 +23,7 @@ from optipath.kernels import (
     THIRD_OF_ABSORPTION,
 )
 from optipath.values.arrays.jax_values import is_traced
-from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.domains import Absorption, Angle, AnglePerLength, Domain, Length, RotatoryPower
 from optipath.values.parameters import Parameter
@@ -126,7 +126,7 @@ class Medium(Element, kind="medium"):
         >>> round(Medium.from_extinction(1e-6, k=0.05, wavelength=500e-9).absorption)
         1256637
         """
-        k, wavelength = frozen(k), frozen(wavelength)
+        k, wavelength = read_only(k), read_only(wavelength)
         given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, _WAVELENGTH)}
         faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
         faults += [cls._option_fault(name) for name in others if name not in _OTHERS]

@@ -12,10 +12,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.engines.program.execute import walk
+from optipath.engines.program.execute import execute
 from optipath.errors import ComposerError
-from optipath.kernels import Linear, Primitives, cosine, sine
-from optipath.kernels.numbers.primitives import is_hidden, product_and_rest
+from optipath.kernels import MatrixCarrier, Primitives, cosine, sine
+from optipath.kernels.numbers.primitives import is_below_rounding, product_and_rest
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced
 from optipath.values.operands import part_of
@@ -24,10 +24,10 @@ from optipath.values.precision import wide
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from optipath.engines.program.loops import Meeting
+    from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
-    from optipath.kernels import Components, Way
-    from optipath.values.operands import View
+    from optipath.kernels import Carrier, Components
+    from optipath.values.operands import Operand
     from optipath.values.parameters import Resolved
 
 
@@ -98,7 +98,7 @@ JAX = Primitives(
     frexp=_frexp,
     ldexp=_ldexp,
     two_product=product_and_rest,
-    hidden=is_hidden,
+    below_rounding=is_below_rounding,
     fixed=jax.lax.stop_gradient,
     apart=_apart,
 )
@@ -130,21 +130,21 @@ class JaxPath:
     ----------
     program : Program
         The steps.
-    way : type
+    carrier : type
         How light is carried.
     dtype : dtype
         The precision.
     """
 
-    def __init__(self, program: Program, way: type[Way], dtype: np.dtype[Any]) -> None:
+    def __init__(self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any]) -> None:
         self.program = program
-        self.way = way(JAX)
+        self.carrier = carrier(JAX)
         self.dtype = dtype
         self._lights = jax.jit(self._traced_lights, static_argnames=("batch", "absent"))
         self._matrix = jax.jit(
             self._traced_matrix, static_argnames=("batch", "absent", "source", "reading")
         )
-        self._known_traced = any(view.traced for view in program.leaves)
+        self._known_traced = any(operand.traced for operand in program.operands)
 
     def lights(
         self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], given: Mapping[str, Any]
@@ -176,10 +176,10 @@ class JaxPath:
     def _traced_lights(
         self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
     ) -> tuple[tuple[Any, ...], Any]:
-        leaves = self._leaves(values, absent)
-        found, meetings = self._stokes(leaves, self.way, batch)
-        factor = self._factor(meetings, batch)[..., np.newaxis]
-        return tuple(factor * stokes for stokes in found.values()), _are_sound(meetings)
+        operands = self._operands(values, absent)
+        found, solvers = self._stokes(operands, self.carrier, batch)
+        factor = self._factor(solvers, batch)[..., np.newaxis]
+        return tuple(factor * stokes for stokes in found.values()), _are_sound(solvers)
 
     def _traced_matrix(
         self,
@@ -190,42 +190,44 @@ class JaxPath:
         source: str,
         reading: str,
     ) -> Any:
-        leaves = self._leaves(values, absent)
+        operands = self._operands(values, absent)
         columns: list[Any] = []
-        meetings: list[Meeting] = []
+        solvers: list[LoopSolver] = []
         for column in np.eye(4, dtype=self.dtype):
             emitted = {
                 step: tuple(map(self._number, column if name == source else 0.0 * column))
                 for name, (step, _) in self.program.sources.items()
             }
-            found, others = self._stokes(leaves, Linear(JAX), batch, emitted)
+            found, others = self._stokes(operands, MatrixCarrier(JAX), batch, emitted)
             columns.append(found[reading])
             # All light gains no more than unpolarised light does, which has some of each.
-            meetings = meetings or others
-        factor = self._factor(meetings, batch)[..., np.newaxis, np.newaxis]
-        return factor * jnp.stack(columns, axis=-1), _are_sound(meetings)
+            solvers = solvers or others
+        factor = self._factor(solvers, batch)[..., np.newaxis, np.newaxis]
+        return factor * jnp.stack(columns, axis=-1), _are_sound(solvers)
 
-    def _factor(self, meetings: Sequence[Meeting], batch: tuple[int, ...]) -> Any:
+    def _factor(self, solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> Any:
         """Return 1 where light that goes round adds up, and NaN where it gains."""
         slack = float(np.sqrt(np.finfo(self.dtype).eps))
-        holds = reduce(and_, (meeting.adds_up(slack) for meeting in meetings), True)  # noqa: FBT003
+        holds = reduce(and_, (solver.adds_up(slack) for solver in solvers), True)  # noqa: FBT003
         # As a factor it makes slopes NaN as well, and those of light that fades stay as they are.
         return self._number(jnp.broadcast_to(jnp.where(holds, 1.0, jnp.nan), batch))
 
     def _stokes(
         self,
-        leaves: Sequence[Any],
-        way: Way,
+        operands: Sequence[Any],
+        carrier: Carrier,
         batch: tuple[int, ...],
         emitted: Mapping[int, Components] | None = None,
-    ) -> tuple[dict[str, Any], list[Meeting]]:
+    ) -> tuple[dict[str, Any], list[LoopSolver]]:
         """Return the Stokes vector of every reading, and what has been solved for loops."""
-        meetings: list[Meeting] = []
-        fixed = JAX.fixed(leaves)
-        found = walk(self.program, fixed, way, emitted, self._number, None, meetings)
+        solvers: list[LoopSolver] = []
+        fixed = JAX.fixed(operands)
+        found = execute(self.program, fixed, carrier, emitted, self._number, None, solvers)
         # Where the smaller of two intensities changes, the light that is carried has no slope,
         # but what matrices make of it has: light comes from the one, its slope from the other.
-        smooth = walk(self.program, leaves, Linear(sloped(self.dtype)), emitted, self._number)
+        smooth = execute(
+            self.program, operands, MatrixCarrier(sloped(self.dtype)), emitted, self._number
+        )
         stokes = {}
         for name, reading in self.program.readings.items():
             components, exponent = found[reading.light]
@@ -233,7 +235,7 @@ class JaxPath:
                 components = tuple(_ldexp(part, exponent) for part in components)
             both = components, smooth[reading.light][0]
             stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
-        return stokes, meetings
+        return stokes, solvers
 
     def _number(self, number: Any) -> Any:
         if isinstance(number, jax.Array):
@@ -246,35 +248,35 @@ class JaxPath:
         parts = (*components[: reading.components], *unread)
         return jnp.stack([jnp.broadcast_to(self._number(p), batch) for p in parts], axis=-1)
 
-    def _leaves(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
+    def _operands(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
         return [
             self._number(values[_place(place)])
             if _place(place) in values
-            else self._leaf(view, values, absent)
-            for place, view in enumerate(self.program.leaves)
+            else self._operand(operand, values, absent)
+            for place, operand in enumerate(self.program.operands)
         ]
 
-    def _leaf(self, view: View, values: Mapping[str, Any], absent: frozenset[str]) -> Any:
-        name = getattr(view.value, "name", "")
-        if view.part == "present":
-            if view.known:
-                return view.present()
+    def _operand(self, operand: Operand, values: Mapping[str, Any], absent: frozenset[str]) -> Any:
+        name = getattr(operand.value, "name", "")
+        if operand.part == "present":
+            if operand.known:
+                return operand.present()
             return values.get(f"{name} present", name not in absent)
-        value = view.value
+        value = operand.value
         if hasattr(value, "name"):
             value = value.default if value.bound else values[name]
-            if is_traced(value) or not view.known:
-                value = part_of(jnp.asarray(value), view.raw_part, view.tail)
-                return self._done(view, -value if view.value.negative else value)
+            if is_traced(value) or not operand.known:
+                value = part_of(jnp.asarray(value), operand.input_part, operand.tail)
+                return self._done(operand, -value if operand.value.negative else value)
         elif is_traced(value):
-            return self._done(view, part_of(value, view.raw_part, view.tail))
-        return self._number(view.numbers({}))
+            return self._done(operand, part_of(value, operand.input_part, operand.tail))
+        return self._number(operand.numbers({}))
 
-    def _done(self, view: View, value: Any) -> Any:
+    def _done(self, operand: Operand, value: Any) -> Any:
         value = self._number(value)
-        if view.part in ("cos", "sin"):
+        if operand.part in ("cos", "sin"):
             # 0 at a right angle, but with its slope.
-            return (cosine if view.part == "cos" else sine)(JAX)(value)
+            return (cosine if operand.part == "cos" else sine)(JAX)(value)
         return value
 
     def _split(
@@ -286,17 +288,17 @@ class JaxPath:
         """
         values, absent = _split(resolved)
         kind = wide(self.dtype)
-        for place, view in enumerate(self.program.leaves):
-            if view.part not in ("cos", "sin") or view.known:
+        for place, operand in enumerate(self.program.operands):
+            if operand.part not in ("cos", "sin") or operand.known:
                 continue
-            name = view.value.name
+            name = operand.value.name
             pair, angle = given.get(name), values[name]
             if isinstance(pair, CosSin):
-                number = getattr(pair, view.part)
-                turned = view.part == "sin" and view.value.negative
+                number = getattr(pair, operand.part)
+                turned = operand.part == "sin" and operand.value.negative
                 values[_place(place)] = -number if turned else number
             elif kind != self.dtype and not is_jax(angle):
-                values[_place(place)] = view.of(angle, kind)
+                values[_place(place)] = operand.of(angle, kind)
         return values, absent
 
     def _precision(self, values: Mapping[str, Any]) -> Any:
@@ -318,9 +320,9 @@ class JaxPath:
         return _double()(True)  # noqa: FBT003 - as JAX has it
 
 
-def _are_sound(meetings: Sequence[Meeting]) -> Any:
+def _are_sound(solvers: Sequence[LoopSolver]) -> Any:
     """Return whether so much light leaves every loop that nobody needs to look at it."""
-    conditions = [condition for meeting in meetings for condition in meeting.conditions]
+    conditions = [condition for solver in solvers for condition in solver.conditions]
     return jnp.all(jnp.stack([jnp.all(holds) for holds in conditions])) if conditions else True
 
 
@@ -348,7 +350,7 @@ def _split(resolved: Mapping[str, Resolved]) -> tuple[dict[str, Any], frozenset[
 
 
 def _place(place: int) -> str:
-    """Return what a leaf is called that is computed before JAX is asked."""
+    """Return what an operand is called that is computed before JAX is asked."""
     return f".{place}"
 
 

@@ -8,7 +8,7 @@ from typing import TypeAlias
 
 from optipath.kernels.carriers.bounds_carrier import (
     Boosts,
-    Bounds,
+    BoundsCarrier,
     boosted,
     largest_error,
     ratio_bounds,
@@ -23,14 +23,14 @@ from optipath.kernels.carriers.carried import (
 )
 from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER, is_physical
 from optipath.kernels.carriers.composed import Composed, composed
-from optipath.kernels.carriers.intensity_carrier import Powers
-from optipath.kernels.carriers.jones_carrier import Jones
+from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
+from optipath.kernels.carriers.jones_carrier import JonesCarrier
 from optipath.kernels.carriers.kernel import Factory, Kernel, KernelFamily
-from optipath.kernels.carriers.matrix_carrier import Linear
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.carriers.parted import Parts, energy, light_of, parts_of, unit_light
-from optipath.kernels.carriers.scaled_carrier import Scaled
+from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 from optipath.kernels.carriers.sloped import Sloped
-from optipath.kernels.carriers.stokes_carrier import Plain
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.kernels.carriers.structures import (
     BLOCK,
     DEPOLARIZING_BLOCK,
@@ -166,7 +166,9 @@ STACK_TRANSMISSION = _stack_family(through=True, from_behind=False)
 STACK_REFLECTION_BACK = _stack_family(through=False, from_behind=True)
 STACK_TRANSMISSION_BACK = _stack_family(through=True, from_behind=True)
 
-Way: TypeAlias = Plain | Scaled | Jones | Linear | Powers | Bounds
+Carrier: TypeAlias = (
+    StokesCarrier | ScaledCarrier | JonesCarrier | MatrixCarrier | IntensityCarrier | BoundsCarrier
+)
 
 TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
@@ -243,26 +245,26 @@ __all__ = [
     "TURN_BETWEEN_PLANES",
     "UNPOLARIZED",
     "Boosts",
-    "Bounds",
+    "BoundsCarrier",
     "Carried",
+    "Carrier",
     "Components",
     "Composed",
     "DoubleDouble",
     "Elimination",
-    "Jones",
+    "IntensityCarrier",
+    "JonesCarrier",
     "Kernel",
     "KernelFamily",
-    "Linear",
+    "MatrixCarrier",
     "OfPlanes",
     "Parts",
-    "Plain",
     "PointsByAngles",
-    "Powers",
     "Primitives",
-    "Scaled",
+    "ScaledCarrier",
+    "StokesCarrier",
     "Structure",
     "TurnBetweenPlanes",
-    "Way",
     "add",
     "boosted",
     "carry",

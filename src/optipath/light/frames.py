@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels import ALIGN, NUMPY
 from optipath.values.arrays.array_likes import array_of, as_given
-from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.roundings import as_doubles, rounding_of
 
@@ -73,7 +73,7 @@ class Frame:
             x = _across(z, x)
             y = np.cross(z, x)
         for name, axis in zip("xyz", (x, y, z), strict=True):
-            object.__setattr__(self, name, frozen(axis))
+            object.__setattr__(self, name, read_only(axis))
 
     @classmethod
     def trusted(

@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import FrameError, shown
 from optipath.kernels import NUMPY, DoubleDouble
 from optipath.light.frames import Frame, vectors
-from optipath.light.underflow import near_one
+from optipath.light.underflow import normalise_exponent
 from optipath.values.arrays.shapes import check_broadcast
 
 if TYPE_CHECKING:
@@ -135,4 +135,4 @@ def _given(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     vector = vectors(what, value)
     if not np.all(np.any(vector, axis=-1)):
         raise FrameError(f"{what} has no length; give a vector with a direction of its own")
-    return near_one(vector, 0)[0]
+    return normalise_exponent(vector, 0)[0]

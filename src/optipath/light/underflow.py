@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-FAINT = 2.0**60
+UNDERFLOW = 2.0**60
 """How many times the smallest normal number light must be, lest what underflows is seen in it."""
 
 
@@ -22,7 +22,7 @@ def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any
     return np.asarray(np.ldexp(parts, np.asarray(power)[..., np.newaxis]))
 
 
-def near_one(
+def normalise_exponent(
     parts: np.ndarray[Any, Any], exponent: Any
 ) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
     """Return vectors over a power of two, their largest parts near 1, and its exponent.
@@ -50,11 +50,11 @@ def folded(
     array([    0, -5000])
     """
     plain = times_two_to(stokes, exponent)
-    faint = is_faint(plain[..., 0]) & (stokes[..., 0] > 0.0)
+    faint = underflows(plain[..., 0]) & (stokes[..., 0] > 0.0)
     return np.where(faint[..., np.newaxis], stokes, plain), np.where(faint, exponent, 0)
 
 
-def is_faint(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.bool_]]:
+def underflows(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.bool_]]:
     """Tell where light is so weak that what underflows on the way may be seen in it.
 
     Examples
@@ -62,4 +62,4 @@ def is_faint(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.boo
     >>> is_faint(np.array([1e-300, 1.0]))
     array([ True, False])
     """
-    return np.asarray(intensity < np.finfo(intensity.dtype).tiny * FAINT)
+    return np.asarray(intensity < np.finfo(intensity.dtype).tiny * UNDERFLOW)

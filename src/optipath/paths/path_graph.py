@@ -15,7 +15,7 @@ from optipath.light.frames import Frame
 from optipath.paths.binding import bind
 from optipath.paths.port_names import check_port, element_at, find_port
 from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import frozen, same
+from optipath.values.arrays.read_only import read_only, same
 from optipath.values.cases import Case
 from optipath.values.domains import ANGLE, in_unit_of
 
@@ -212,7 +212,7 @@ class PathGraph:
         if self._graph.has_edge(start, end, key=(out_port, in_port)):
             raise PathError(f"link '{leaves} -> {enters}' is there already; remove the second one")
         self._graph.add_edge(
-            start, end, key=(out_port, in_port), azimuth=in_unit_of(frozen(azimuth), ANGLE)
+            start, end, key=(out_port, in_port), azimuth=in_unit_of(read_only(azimuth), ANGLE)
         )
         self._plan = self._plan_of_all = None
 

@@ -143,7 +143,7 @@ def _over(difference: Any, scalar: Any) -> npt.NDArray[Any]:
 
 def _intensity(plan: Plan, program: Program, end: str, parameters: Mapping[str, Any]) -> Any:
     """Return the intensity at an end of a program that stands in for that of a plan."""
-    reduction = replace(plan.reduction, program=program, as_it_stands=False)
+    reduction = replace(plan.reduction, program=program, unreduced=False)
     return replace(plan, reduction=reduction, whole=program).run_all(**parameters)[end].intensity
 
 

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.plan.execution import Execution
-    from optipath.plan.running.reading import Given
+    from optipath.plan.running.reading import ResolvedInputs
     from optipath.plan.whole_path import WholePath
 
     Array = np.ndarray[Any, Any]
@@ -70,7 +70,7 @@ class Approximation:
         for piece in pieces(given.batch, size):
             yield piece.where, self._of(given.part(piece.where), parameters)
 
-    def _of(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
+    def _of(self, given: ResolvedInputs, parameters: Mapping[str, Any]) -> dict[str, Found]:
         scalar, error = self.whole.errors(self.model, given, parameters)
         beyond = ~(error <= self.tolerance)
         share = np.count_nonzero(beyond) / max(beyond.size, 1)

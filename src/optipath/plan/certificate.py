@@ -10,7 +10,7 @@ import numpy as np
 
 from optipath.errors import ParameterError, ValueFault
 from optipath.kernels import NUMPY, Boosts, boosted, largest_error, ratio_bounds
-from optipath.light.underflow import is_faint
+from optipath.light.underflow import underflows
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.arrays.shapes import check_broadcast
@@ -56,7 +56,7 @@ class Certificate:
     def error_of(self, model: str) -> npt.NDArray[Any]:
         """Return the largest error of a model by name that drops components."""
         error = largest_error(NUMPY, self.lower, self.upper, model)
-        return np.where(is_faint(self.scalar), np.inf, error)
+        return np.where(underflows(self.scalar), np.inf, error)
 
 
 def intensity_bounds(

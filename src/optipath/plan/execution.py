@@ -11,8 +11,8 @@ from optipath.errors import ParameterError
 from optipath.light.underflow import folded
 from optipath.plan.running.found import Found, in_shape, joined
 from optipath.plan.running.pieces import pieces
-from optipath.plan.running.runner import CACHED, Manner, Runner
-from optipath.plan.running.scalar_runner import Single
+from optipath.plan.running.runner import CACHED, Runner, RunOptions
+from optipath.plan.running.scalar_runner import ScalarRunner
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from optipath.engines.program.reduction import Reduction
     from optipath.plan.running.batch_runner import Results
     from optipath.plan.running.interpreter import Shared
-    from optipath.plan.running.reading import Given
+    from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
 
     Array = np.ndarray[Any, Any]
@@ -38,14 +38,14 @@ class Execution(Runner):
         The steps.
     inputs : Inputs
         What may be given.
-    manner : Manner
+    options : RunOptions
         How they are run.
     """
 
-    def __init__(self, reduction: Reduction, inputs: Inputs, manner: Manner) -> None:
+    def __init__(self, reduction: Reduction, inputs: Inputs, options: RunOptions) -> None:
         program = reduction.program
-        super().__init__(program, inputs, manner, as_it_stands=reduction.as_it_stands)
-        self.single = Single(program, inputs, self.stepwise, lambda: self.compilable)
+        super().__init__(program, inputs, options, unreduced=reduction.unreduced)
+        self.single = ScalarRunner(program, inputs, self.interpreter, lambda: self.compilable)
 
     def lights(self, parameters: Mapping[str, Any]) -> dict[str, Found]:
         """Return the light at every detector and dump.
@@ -55,7 +55,7 @@ class Execution(Runner):
         ParameterError
             With every fault of what is given, or if light is not finite.
         """
-        lights = self.single.usual(parameters)
+        lights = self.single.fast_path(parameters)
         if lights is not None:
             return self._named(lights)
         if self.is_for_jax(parameters):
@@ -83,7 +83,7 @@ class Execution(Runner):
         for piece in pieces(given.batch, size):
             yield piece.where, self.lights_of(given.part(piece.where), parameters)
 
-    def lights_of(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Found]:
+    def lights_of(self, given: ResolvedInputs, parameters: Mapping[str, Any]) -> dict[str, Found]:
         """Return the light at every end for what is given."""
         ends = self.program.readings
         if not given.batch and self.dtype == np.float64 and given.is_single:
@@ -101,32 +101,32 @@ class Execution(Runner):
             return self._stepped(given)
 
     def _compiled(
-        self, engine: str, given: Given, parameters: Mapping[str, Any]
+        self, engine: str, given: ResolvedInputs, parameters: Mapping[str, Any]
     ) -> dict[str, Found]:
         """Return the light at every end, by a formula."""
         ends = self.program.readings
 
         def formula(forms: Any, axes: Any) -> Formula:
-            return self.lights_formula(forms, axes=axes, as_it_stands=self.as_it_stands)
+            return self.lights_formula(forms, axes=axes, unreduced=self.unreduced)
 
-        def careful(part: Given) -> Array:
-            found = self._careful(part)
+        def fallback(part: ResolvedInputs) -> Array:
+            found = self._fallback(part)
             rows = [np.moveaxis(f.stokes.reshape(-1, 4), -1, 0) for f in found]
             return np.concatenate([*rows, [f.exponent.ravel() for f in found]])
 
         read = 4 * len(ends)
-        out, faint = self.filled(engine, "lights", formula, given, parameters, careful, read)
+        out, underflow = self.filled(engine, "lights", formula, given, parameters, fallback, read)
         return {
-            name: self._found(out, end, reading.components, given, faint=faint)
+            name: self._found(out, end, reading.components, given, underflow=underflow)
             for end, (name, reading) in enumerate(ends.items())
         }
 
-    def _stepped(self, given: Given) -> dict[str, Found]:
+    def _stepped(self, given: ResolvedInputs) -> dict[str, Found]:
         """Return the light at every end, step after step."""
         ends = self.program.readings
-        several = given.paths > CACHED and not self.as_it_stands
-        shared = self.stepwise.shared(given) if several else {}
-        parts = [self._careful(part, shared) for part in self.parts(given)]
+        several = given.paths > CACHED and not self.unreduced
+        shared = self.interpreter.shared(given) if several else {}
+        parts = [self._fallback(part, shared) for part in self.parts(given)]
         lights = [
             Found(
                 joined([part[end].stokes for part in parts], given.batch, (4,)),
@@ -136,10 +136,12 @@ class Execution(Runner):
         ]
         return dict(zip(ends, lights, strict=True))
 
-    def _found(self, out: Results, end: int, count: int, given: Given, *, faint: bool) -> Found:
+    def _found(
+        self, out: Results, end: int, count: int, given: ResolvedInputs, *, underflow: bool
+    ) -> Found:
         """Return the light at an end, of which some components are read."""
         first = 4 * end
-        if not faint and (count < 4 or out.together(first, first + 4) is None):
+        if not underflow and (count < 4 or out.together(first, first + 4) is None):
             components: list[Any] = [*out.each[first : first + count], *[np.nan] * (4 - count)]
             if not isinstance(components[0], np.ndarray):
                 components[0] = np.full(given.paths, components[0], self.dtype)
@@ -147,7 +149,7 @@ class Execution(Runner):
         block = self.block(out, first, first + 4)
         block[count:] = np.nan
         stokes = np.moveaxis(block.reshape(4, *given.batch), 0, -1)
-        if not faint:
+        if not underflow:
             return Found(stokes, 0)
         power = out.each[4 * len(self.program.readings) + end]
         exponent = np.broadcast_to(power, given.paths).astype(np.int64)
@@ -160,8 +162,8 @@ class Execution(Runner):
             for name, light in zip(self.program.readings, lights, strict=True)
         }
 
-    def _careful(self, given: Given, shared: Shared | None = None) -> list[Found]:
-        found = [Found(*light) for light in self.stepwise.lights(given, shared)]
+    def _fallback(self, given: ResolvedInputs, shared: Shared | None = None) -> list[Found]:
+        found = [Found(*light) for light in self.interpreter.lights(given, shared)]
         for light, reading in zip(found, self.program.readings.values(), strict=True):
             self.refuse_infinite(light.stokes[..., : reading.components])
         return found

@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.engines import LARGE, batches
 from optipath.errors import ParameterError
-from optipath.kernels import Plain
+from optipath.kernels import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.plan.running.counts import operations
 
@@ -32,7 +32,7 @@ def explanation_of(plan: Any) -> Explanation:
     }
     return Explanation(
         counts=counts,
-        manner={
+        options={
             "method": plan.method,
             "model": plan.model,
             "engine": plan.engine,
@@ -54,8 +54,8 @@ def explanation_of(plan: Any) -> Explanation:
 
 
 def _operations(plan: Any) -> dict[str, dict[str, int]] | None:
-    own = operations(plan.execution, as_it_stands=plan.reduction.as_it_stands)
-    full = operations(plan.whole_path, as_it_stands=True, way=Plain)
+    own = operations(plan.execution, unreduced=plan.reduction.unreduced)
+    full = operations(plan.whole_path, unreduced=True, carrier=StokesCarrier)
     return None if own is None or full is None else {"plan": own, "full": full}
 
 

@@ -73,7 +73,7 @@ class Explanation:
     ----------
     counts : mapping of str to int
         How many sources, detectors, dumps and steps there are.
-    manner : mapping of str to str
+    options : mapping of str to str
         The method, model, engine, precision, and how light is composed.
     reason : str
         Why this model.
@@ -101,7 +101,7 @@ class Explanation:
     """
 
     counts: Mapping[str, int]
-    manner: Mapping[str, str]
+    options: Mapping[str, str]
     reason: str
     steps: tuple[ExplainedStep, ...]
     reads: Mapping[str, tuple[str, ...]]
@@ -120,10 +120,10 @@ class Explanation:
 
     def __str__(self) -> str:
         counted = [_count(n, what) for what, n in self.counts.items() if n or what != "dump"]
-        manner = self.manner
-        words = [f"{name} {manner[name]}" for name in ("method", "model", "engine")]
-        words.append(manner["dtype"])
-        if manner["composing"] == "jones":
+        options = self.options
+        words = [f"{name} {options[name]}" for name in ("method", "model", "engine")]
+        words.append(options["dtype"])
+        if options["composing"] == "jones":
             words.append("composing Jones columns")
         reads = [
             f"{name} reads {', '.join(self.reads[name])} of light {light}"
@@ -131,7 +131,7 @@ class Explanation:
         ]
         lines = [
             f"{', '.join(counted)}; {', '.join(words)}",
-            f"model {manner['model']}: {self.reason}",
+            f"model {options['model']}: {self.reason}",
             "",
             *self._heading(),
             *_step_lines(self.steps),
@@ -179,8 +179,8 @@ def explained_loops(program: Program) -> Iterator[ExplainedLoop]:
     """Yield the loops of a program in words."""
     for loop in program.loops:
         yield ExplainedLoop(
-            tuple(program.steps[knot].label for knot in loop.knots),
-            sum(map(program.count, loop.knots)),
+            tuple(program.steps[junction].label for junction in loop.junctions),
+            sum(map(program.count, loop.junctions)),
             loop.layered and not any(_turns(program, at) for at in range(loop.start, loop.stop)),
         )
 

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from optipath.plan.explanation import Explanation
     from optipath.plan.light_paths import LightPath
     from optipath.plan.running.found import Found
-    from optipath.plan.running.runner import Manner
+    from optipath.plan.running.runner import RunOptions
     from optipath.plan.whole_path import WholePath
     from optipath.values.inputs import Inputs
 
@@ -137,11 +137,11 @@ class Plan:
         if self.instead is not None:
             return self.run_all(**parameters)[name]
         execution = self.execution
-        usual = execution.single.usual(parameters)
+        fast_path = execution.single.fast_path(parameters)
         if type(frame) is not Frame:
             frame = self._made(frame, parameters)
-        if usual is not None:
-            return Light.of(usual[place][:4], frame, usual[place][4])
+        if fast_path is not None:
+            return Light.of(fast_path[place][:4], frame, fast_path[place][4])
         light = execution.lights(parameters)[name]
         return Light.of(light.stokes, frame, light.exponent)
 
@@ -392,10 +392,10 @@ class Plan:
         return WholePath(self.whole, self.inputs, self._manner)
 
     @property
-    def _manner(self) -> Manner:
-        from optipath.plan.running.runner import Manner  # noqa: PLC0415 - not for every import
+    def _manner(self) -> RunOptions:
+        from optipath.plan.running.runner import RunOptions  # noqa: PLC0415 - not for every import
 
-        return Manner(self.method, self.composing, self.dtype, self.chosen, self.threads)
+        return RunOptions(self.method, self.composing, self.dtype, self.chosen, self.threads)
 
     def __getstate__(self) -> dict[str, Any]:
         # What has been compiled stays here.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Reading
-    from optipath.plan.running.reading import Given
+    from optipath.plan.running.reading import ResolvedInputs
 
     Array = np.ndarray[Any, Any]
 
@@ -41,15 +41,15 @@ class WholePath(Runner):
                 found, sound = self.jax.matrix(resolved, batch, parameters, source, name)
             if not self.traces(resolved) and not np.all(sound):
                 given = self.sorter.sort(parameters)
-                parts = [self.stepwise.matrix(p, source, reading) for p in self.parts(given)]
+                parts = [self.interpreter.matrix(p, source, reading) for p in self.parts(given)]
                 found = joined(parts, given.batch, (4, 4))
             found = self.nan_outside(found, resolved, 2)
             self.refuse_infinite(found[..., : reading.components, :])
             return found  # type: ignore[no-any-return]
         given = self.sorter.sort(parameters)
 
-        def careful(part: Given) -> Array:
-            found = self.stepwise.matrix(part, source, reading)
+        def fallback(part: ResolvedInputs) -> Array:
+            found = self.interpreter.matrix(part, source, reading)
             self.refuse_infinite(found[..., : reading.components, :])
             return found
 
@@ -61,20 +61,20 @@ class WholePath(Runner):
         with self.enough_for(given.batch, 16, twice=True):
             if engine == NUMPY_STEPS:
                 self.inputs.resolve(parameters)
-                return joined([careful(part) for part in self.parts(given)], given.batch, (4, 4))
+                return joined([fallback(part) for part in self.parts(given)], given.batch, (4, 4))
             out, _ = self.filled(
                 engine,
                 (source, reading.light, reading.components),
                 formula,
                 given,
                 parameters,
-                lambda part: np.moveaxis(careful(part).reshape(-1, 16), -1, 0),
+                lambda part: np.moveaxis(fallback(part).reshape(-1, 16), -1, 0),
                 16,
             )
             rows = self.block(out, 0, 16).reshape(4, 4, *given.batch)
             return np.moveaxis(rows, (0, 1), (-2, -1))
 
-    def given(self, parameters: Mapping[str, Any]) -> Given:
+    def given(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
         """Return what is given, for both the bounds and the light.
 
         Raises
@@ -90,7 +90,9 @@ class WholePath(Runner):
         self.refuse_traced(parameters, "certificates are made")
         return self.sorter.sort(parameters)
 
-    def certificates(self, given: Given, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
+    def certificates(
+        self, given: ResolvedInputs, parameters: Mapping[str, Any]
+    ) -> dict[str, Certificate]:
         """Return bounds of the intensity at every end.
 
         Raises
@@ -103,10 +105,10 @@ class WholePath(Runner):
         with self.enough_for(given.batch, 4 * len(ends), twice=stepped):
             if stepped:
                 self.inputs.resolve(parameters)
-                parts = [self._careful(part) for part in self.parts(given)]
+                parts = [self._fallback(part) for part in self.parts(given)]
                 rows = np.concatenate(parts, axis=1)
             else:
-                rows = self._bounds(None, given, parameters, self._careful, 4 * len(ends))
+                rows = self._bounds(None, given, parameters, self._fallback, 4 * len(ends))
         each = rows.reshape(len(ends), 4, *given.batch)
         return {
             name: Certificate(*map(np.asarray, found[:3]))
@@ -114,7 +116,7 @@ class WholePath(Runner):
         }
 
     def errors(
-        self, model: str, given: Given, parameters: Mapping[str, Any]
+        self, model: str, given: ResolvedInputs, parameters: Mapping[str, Any]
     ) -> tuple[dict[str, Array], Array]:
         """Return the scalar intensity at every end, and the largest error of a model at any.
 
@@ -125,7 +127,7 @@ class WholePath(Runner):
         """
         ends = self.program.readings
 
-        def found(part: Given) -> Array:
+        def found(part: ResolvedInputs) -> Array:
             each = self.certificates(part, parameters).values()
             totals = [one.scalar.reshape(-1) for one in each]
             return np.array(
@@ -140,16 +142,16 @@ class WholePath(Runner):
         *totals, error = (row.reshape(given.batch) for row in rows)
         return dict(zip(ends, totals, strict=True)), error
 
-    def _careful(self, given: Given) -> Array:
+    def _fallback(self, given: ResolvedInputs) -> Array:
         """Return the bounds of a part, step after step."""
-        return np.concatenate([rows.reshape(4, -1) for rows in self.stepwise.bounds(given)])
+        return np.concatenate([rows.reshape(4, -1) for rows in self.interpreter.bounds(given)])
 
     def _bounds(
         self,
         model: str | None,
-        given: Given,
+        given: ResolvedInputs,
         parameters: Mapping[str, Any],
-        careful: Callable[[Given], Array],
+        fallback: Callable[[ResolvedInputs], Array],
         count: int,
     ) -> Array:
         """Return the results of a formula of bounds, shape (results, paths)."""
@@ -159,5 +161,5 @@ class WholePath(Runner):
             return bounds_formula(self.program, kind, forms, limits, axes, model)
 
         engine, what = self.engine_for(given.paths), ("bounds", model)
-        out, _ = self.filled(engine, what, formula, given, parameters, careful, count)
+        out, _ = self.filled(engine, what, formula, given, parameters, fallback, count)
         return self.block(out, 0, count)

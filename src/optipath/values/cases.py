@@ -8,7 +8,7 @@ from typing import Any
 
 from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import array_of
-from optipath.values.arrays.read_only import frozen, same
+from optipath.values.arrays.read_only import read_only, same
 from optipath.values.roundings import as_doubles
 
 
@@ -46,7 +46,7 @@ class Case:
             faults.append(f"the note of a case must be a text, not {shown(self.note)}")
         if faults:
             raise ParameterError(*faults)
-        values = {str(name): frozen(value) for name, value in self.values.items()}
+        values = {str(name): read_only(value) for name, value in self.values.items()}
         published = {str(name): _numbers(name, stokes) for name, stokes in self.published.items()}
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from optipath.values.arrays.read_only import frozen, same
+from optipath.values.arrays.read_only import read_only, same
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +29,8 @@ class Material:
     k: Any = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "n", frozen(self.n))
-        object.__setattr__(self, "k", frozen(self.k))
+        object.__setattr__(self, "n", read_only(self.n))
+        object.__setattr__(self, "k", read_only(self.k))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Material):

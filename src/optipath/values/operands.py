@@ -1,4 +1,4 @@
-"""View: one number for each path, taken from a value that may have more."""
+"""Operand: one number for each path, taken from a value that may have more."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _COMPARED = 1 << 20
 """How many bytes of an array are compared with those of another."""
 
 
-class Raw(NamedTuple):
+class InputKey(NamedTuple):
     """A number that is given for a parameter, before anything is done to it.
 
     Attributes
@@ -39,7 +39,7 @@ class Raw(NamedTuple):
     name : str
         The parameter.
     part : str or int
-        As in `View`; cosines and sines are made of ``"value"``.
+        As in `Operand`; cosines and sines are made of ``"value"``.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Raw(NamedTuple):
 
 
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
-    """Return a part of numbers, as `View` names them.
+    """Return a part of numbers, as `Operand` names them.
 
     Examples
     --------
@@ -66,7 +66,7 @@ def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class View:
+class Operand:
     """A number, an array or a parameter, and which part of it a kernel is given.
 
     Attributes
@@ -96,12 +96,12 @@ class View:
         return is_traced(value.default if isinstance(value, Parameter) else value)
 
     @property
-    def raw(self) -> Raw:
+    def input_key(self) -> InputKey:
         """What must be given for it, where it is not known."""
-        return Raw(self.value.name, self.raw_part)
+        return InputKey(self.value.name, self.input_part)
 
     @property
-    def raw_part(self) -> str | int:
+    def input_part(self) -> str | int:
         """The part, but for cosines and sines, which are made of the value."""
         return "value" if self.part in ("cos", "sin") else self.part
 
@@ -114,11 +114,11 @@ class View:
         """
         if not isinstance(self.value, Parameter):
             return np.asarray(
-                self._done_to(part_of(_doubles(self.value), self.raw_part, self.tail), kind)
+                self._done_to(part_of(_doubles(self.value), self.input_part, self.tail), kind)
             )
         if self.part == "present":
             return self.present(given)
-        raw = part_of(_doubles(self._resolved(given).value), self.raw_part, self.tail)
+        raw = part_of(_doubles(self._resolved(given).value), self.input_part, self.tail)
         return np.asarray(self.of(raw, kind))
 
     def of(self, raw: Any, kind: np.dtype[Any] = _DOUBLE) -> Any:
@@ -158,12 +158,12 @@ class View:
         low, high = self.value.minimum, self.value.maximum
         return (-high, -low) if self.value.negative else (low, high)
 
-    def negated(self) -> View:
+    def negated(self) -> Operand:
         """Return the same view of the value with the other sign."""
-        return View(-self.value, self.part, self.tail)
+        return Operand(-self.value, self.part, self.tail)
 
     def key(self) -> Hashable:
-        """Return what equal views share; a large array is equal to itself alone."""
+        """Return what equal operands share; a large array is equal to itself alone."""
         if type(self.value) is float and self.value:
             return self.value, self.part
         if isinstance(self.value, Parameter):
@@ -173,7 +173,7 @@ class View:
         if isinstance(self.value, np.ndarray) and self.value.nbytes <= _COMPARED:
             value = self.value
             return value.tobytes(), value.dtype.str, value.shape, self.part, self.tail
-        # Whoever keeps the key keeps the view as well, so that no other array gets this number.
+        # Whoever keeps the key keeps the operand as well, so that no other array gets this number.
         is_array = isinstance(self.value, np.ndarray)
         return (id(self.value), self.part, self.tail) if is_array else None
 
@@ -187,7 +187,7 @@ class View:
         return numbers
 
     def __eq__(self, other: object) -> bool:
-        if not isinstance(other, View):
+        if not isinstance(other, Operand):
             return NotImplemented
         if self.known and other.known and "present" not in (self.part, other.part):
             return same(self.numbers({}), other.numbers({}))
@@ -201,6 +201,6 @@ def _doubles(numbers: Any) -> Any:
     return numbers if is_traced(numbers) else doubles(np.asarray(numbers))
 
 
-def view_of(argument: Any) -> View:
-    """Return the argument of an operation as a view."""
-    return argument if isinstance(argument, View) else View(argument)
+def operand_of(argument: Any) -> Operand:
+    """Return the argument of an operation as an operand."""
+    return argument if isinstance(argument, Operand) else Operand(argument)

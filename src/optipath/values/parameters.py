@@ -11,7 +11,7 @@ from optipath.errors import ParameterError, UnitError, did_you_mean, shown
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.read_only import frozen, same
+from optipath.values.arrays.read_only import read_only, same
 from optipath.values.roundings import doubles, traced_within, within
 from optipath.values.units import dimension_of, format_quantity, parse_quantity
 
@@ -106,7 +106,7 @@ class Parameter:
                 f"plan runs, or give an angle"
             )
         if self.default is not None:
-            default = frozen(self._as_number(self.default), (low, high), widened=False)
+            default = read_only(self._as_number(self.default), (low, high), widened=False)
             object.__setattr__(self, "default", default)
             self.resolve(self.default)
         elif self.bound:

@@ -10,6 +10,7 @@ import optipath as op
 from lossless import networks
 from optipath.engines import is_installed
 from optipath.lab.accuracy.path_reference import exact_lights
+from slabs import slab
 
 # Light in front of n = 1.5 over 0.608 + 2.12i at 40 deg: A, B, C and S of the sum over all
 # rounds, r + t^2 q / (1 - r q) for s, for p and for r_s conj(r_p), in mpmath with 50 digits.
@@ -19,26 +20,6 @@ COATED = (
     -0.56399840020557617714082243542759277962432665496713,
     0.14233991458225464946225168719640066294691353412397,
 )
-
-
-def slab(n, theta, behind=1.0, state=None, medium=None):
-    path = op.PathGraph(loops="sum")
-    path.add("lamp", op.Source(1.0, state))
-    path.add("front", op.Interface(n, theta))
-    path.add("back", op.Interface(behind, theta, outside=n, incidence_in=1.0))
-    path.add("R", op.Detector())
-    path.add("T", op.Detector())
-    path.connect("lamp.out", "front.in")
-    if medium is None:
-        path.connect("front.transmitted", "back.in")
-    else:
-        path.add("down", medium)
-        path.connect("front.transmitted", "down.in")
-        path.connect("down.out", "back.in")
-    path.connect("back.reflected", "front.back")
-    path.connect("front.reflected", "R.in")
-    path.connect("back.transmitted", "T.in")
-    return path
 
 
 def closed_slab(n, theta):

@@ -4,8 +4,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.engines.program.execute import walk
-from optipath.kernels import BLOCK, FLOAT, NUMPY, ROTATION, SCALE, Jones, Linear, Plain, Scaled
+from optipath.engines.program.execute import execute
+from optipath.kernels import (
+    BLOCK,
+    FLOAT,
+    NUMPY,
+    ROTATION,
+    SCALE,
+    JonesCarrier,
+    MatrixCarrier,
+    ScaledCarrier,
+    StokesCarrier,
+)
 
 SHARES = st.floats(-1.0, 1.0)
 ANGLES = st.floats(-4.0, 4.0)
@@ -31,34 +41,39 @@ def steps(draw):
     return BLOCK, (Fs, Fp, 0.5 * (Fs - Fp), size * np.cos(angle), size * np.sin(angle))
 
 
-def result(way, light, chain):
-    state = way.emit(light)
+def result(carrier, light, chain):
+    state = carrier.emit(light)
     for structure, numbers in chain:
-        state = way.act(structure, numbers, state)
-    stokes, exponent = way.read(state)
+        state = carrier.act(structure, numbers, state)
+    stokes, exponent = carrier.read(state)
     return np.array(stokes) * 2.0**exponent
 
 
 @given(light=lights(), chain=st.lists(steps(), max_size=6))
 def test_all_ways_of_carrying_light_agree(light, chain):
-    plain = result(Plain(FLOAT), light, chain)
-    for way in (Scaled(FLOAT), Jones(FLOAT), Linear(FLOAT)):
-        np.testing.assert_allclose(result(way, light, chain), plain, rtol=0, atol=1e-14)
+    plain = result(StokesCarrier(FLOAT), light, chain)
+    for carrier in (ScaledCarrier(FLOAT), JonesCarrier(FLOAT), MatrixCarrier(FLOAT)):
+        np.testing.assert_allclose(result(carrier, light, chain), plain, rtol=0, atol=1e-14)
 
 
 @given(first=lights(), second=lights(), share=st.floats(1e-9, 1.0))
 def test_lights_add_incoherently_in_all_ways(first, second, share):
     second = tuple(share * part for part in second)
     expected = np.add(first, second)
-    for way in (Plain(FLOAT), Scaled(FLOAT), Jones(FLOAT), Linear(FLOAT)):
-        stokes, exponent = way.read(way.add(way.emit(first), way.emit(second)))
+    for carrier in (
+        StokesCarrier(FLOAT),
+        ScaledCarrier(FLOAT),
+        JonesCarrier(FLOAT),
+        MatrixCarrier(FLOAT),
+    ):
+        stokes, exponent = carrier.read(carrier.add(carrier.emit(first), carrier.emit(second)))
         found = np.array(stokes) * 2.0**exponent
         np.testing.assert_allclose(found, expected, rtol=0, atol=2e-15)
 
 
 @given(light=lights(), chain=st.lists(steps(), min_size=20, max_size=40))
 def test_jones_columns_are_never_polarised_by_more_than_100_percent(light, chain):
-    s0, *rest = result(Jones(FLOAT), light, chain)
+    s0, *rest = result(JonesCarrier(FLOAT), light, chain)
     assert np.linalg.norm(rest) <= s0 * (1 + 2.3e-16)
 
 
@@ -101,21 +116,23 @@ def test_what_may_depolarise_is_refused_by_jones_columns_with_its_name():
         op.Composer(composing="jones").compose(path)
 
 
-@pytest.mark.parametrize("way", [Plain, Scaled, Jones, Linear])
+@pytest.mark.parametrize("carrier", [StokesCarrier, ScaledCarrier, JonesCarrier, MatrixCarrier])
 @pytest.mark.parametrize("dtype", ["float32", "longdouble"])
-def test_no_number_changes_its_precision_on_the_way(dtype, way):
+def test_no_number_changes_its_precision_on_the_way(dtype, carrier):
     paths = [op.load_preset(name) for name in op.preset_names()]
     paths += [branches(), op.load_preset("npgr026", filter=["none", "horizontal"])]
     for path in paths:
         plan = op.Composer(dtype=dtype).compose(path)
         structures = (evaluation.kernel.structure for evaluation in plan.whole.evaluations)
         has_jones = all(s is None or s.jones is not None for s in structures)
-        if way is Jones and (plan.whole.loops or not has_jones):
+        if carrier is JonesCarrier and (plan.whole.loops or not has_jones):
             continue
         given_, _ = plan.inputs.resolve({"theta": 0.3} if "theta" in plan.inputs.open else {})
-        leaves = [view.numbers(given_) for view in plan.whole.leaves]
+        leaves = [operand.numbers(given_) for operand in plan.whole.operands]
         leaves = [n if n.dtype == bool else n.astype(dtype) for n in leaves]
-        found = walk(plan.whole, leaves, way(NUMPY), None, lambda number: np.asarray(number, dtype))
+        found = execute(
+            plan.whole, leaves, carrier(NUMPY), None, lambda number: np.asarray(number, dtype)
+        )
         for reading in plan.whole.readings.values():
             read = found[reading.light][0][: reading.components]
             assert {np.asarray(component).dtype for component in read} == {np.dtype(dtype)}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optipath.kernels import NUMPY, SCALE, Scaled
+from optipath.kernels import NUMPY, SCALE, ScaledCarrier
 
 
 class _Emptied:
@@ -19,7 +19,7 @@ class _Emptied:
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, np.longdouble])
 def test_exponents_of_dark_light_stay_integers_of_the_size_that_frexp_gives(dtype):
     # NumPy from 2.5 refuses integers that do not fit the others.
-    way = Scaled(NUMPY)
+    way = ScaledCarrier(NUMPY)
     intensity = np.array([0.0, 1.0, 1e-30], dtype)
     dark = np.zeros(3, dtype)
     state = way.emit((intensity, dark, dark, dark))
@@ -33,7 +33,7 @@ def test_exponents_of_dark_light_stay_integers_of_the_size_that_frexp_gives(dtyp
 
 
 def test_faint_light_that_meets_none_at_all_in_a_loop_keeps_its_digits():
-    way = Scaled(NUMPY)
+    way = ScaledCarrier(NUMPY)
     dark = np.zeros(1)
     faint = way.emit((np.ones(1), dark, dark, dark))
     for _ in range(9):

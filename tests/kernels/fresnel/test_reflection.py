@@ -165,7 +165,7 @@ def test_the_cheaper_kernel_for_lossless_media_gives_the_same_bits(
 ):
     whole = family.by_method(method)
     c, s = float(np.cos(angle)), float(np.sin(angle))
-    cheaper, given_ = whole.leaving_out((outside, n, 0.0, c, s), lambda number: number == 0.0)
+    cheaper, given_ = whole.specialised((outside, n, 0.0, c, s), lambda number: number == 0.0)
     assert len(given_) == 4
     one, other = (
         kernel.made_for(FLOAT)(*arguments)

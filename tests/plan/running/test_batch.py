@@ -3,9 +3,9 @@ import pytest
 
 import optipath as op
 from optipath.engines.formulas import Symbol, lights_formula, stages
-from optipath.kernels import Plain
+from optipath.kernels import StokesCarrier
 from optipath.plan.running.batch import Layout, sliced
-from optipath.values.operands import MANY, Raw
+from optipath.values.operands import MANY, InputKey
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12, "filter": 0.3}
 DRAW = np.random.default_rng(2).uniform
@@ -52,11 +52,17 @@ def test_interfaces_of_a_grid_are_evaluated_once_for_each_of_their_own_angles():
 
 def test_the_last_stage_of_a_grid_has_nothing_of_the_interfaces_left_to_do():
     plan = op.load_preset("npgr026", **METAL, rho=0.2).compose()
-    forms = {Raw("delta"): MANY, Raw("phi"): MANY, Raw("intensity"): MANY}
+    forms = {InputKey("delta"): MANY, InputKey("phi"): MANY, InputKey("intensity"): MANY}
     axes = {"delta value": frozenset({0}), "phi value": frozenset({1})}
     axes["intensity value"] = frozenset({1})
     whole = lights_formula(
-        plan.program, Plain, "float64", forms, plan.inputs.limits, polynomials=True, axes=axes
+        plan.program,
+        StokesCarrier,
+        "float64",
+        forms,
+        plan.inputs.limits,
+        polynomials=True,
+        axes=axes,
     )
     *_, last = parts = stages(whole, frozenset({0, 1}), 1)
     assert [part.axes for part in parts] == [{0}, {1}, {0, 1}]

@@ -9,7 +9,7 @@ import optipath as op
 from nearly_closed import PLATES, networks, ring
 from optipath.engines import is_installed
 from optipath.lab.accuracy.path_reference import exact_stokes
-from test_loops import slab
+from slabs import slab
 
 pytestmark = pytest.mark.filterwarnings("ignore::optipath.LoopWarning")
 

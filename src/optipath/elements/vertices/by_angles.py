@@ -10,7 +10,7 @@ import numpy as np
 from optipath.errors import PathError
 from optipath.kernels import NUMPY, PointsByAngles, cosine, sine
 from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import frozen, same
+from optipath.values.arrays.read_only import read_only, same
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.domains import ANGLE, INCIDENCE, in_unit_of
 
@@ -57,7 +57,7 @@ class VerticesByAngles:
     def __post_init__(self) -> None:
         for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
             several = entries_of(name, "angles", getattr(self, name), PathError)
-            each = tuple(in_unit_of(frozen(angle), domain) for angle in several)
+            each = tuple(in_unit_of(read_only(angle), domain) for angle in several)
             object.__setattr__(self, name, each)
         count, turns = len(self.incidences), len(self.turns)
         if not count:

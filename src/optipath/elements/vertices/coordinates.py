@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.kernels import Composed, PointsByAngles, composed
-from optipath.values.operands import View
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from optipath.kernels import KernelFamily, OfPlanes
@@ -19,13 +19,13 @@ class Coordinates(NamedTuple):
 
     Attributes
     ----------
-    arguments : tuple of View
+    arguments : tuple of Operand
         Coordinates, or cosines and sines of angles.
     points : PointsByAngles or None
         Makes coordinates of the arguments, where they are none.
     """
 
-    arguments: tuple[View, ...]
+    arguments: tuple[Operand, ...]
     points: PointsByAngles | None
 
     def factory(self, of_coordinates: Factory) -> Factory:
@@ -70,7 +70,7 @@ def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates
     """
     if isinstance(vertices, VerticesByAngles):
         angles = [angle for _, angle, _ in vertices.parts("")]
-        views = tuple(View(angle, part) for angle in angles for part in ("cos", "sin"))
-        return Coordinates(views, PointsByAngles(len(vertices.incidences), first, last))
+        operands = tuple(Operand(angle, part) for angle in angles for part in ("cos", "sin"))
+        return Coordinates(operands, PointsByAngles(len(vertices.incidences), first, last))
     places = range(3 * first, 3 * last + 3)
-    return Coordinates(tuple(View(vertices, place, (count, 3)) for place in places), None)
+    return Coordinates(tuple(Operand(vertices, place, (count, 3)) for place in places), None)

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.elements.vertices.coordinates import Coordinates
-    from optipath.values.operands import View
+    from optipath.values.operands import Operand
     from optipath.values.parameters import Resolved
 
 _THREE_AXES = 72
@@ -40,22 +40,22 @@ class VertexFrame:
         From the start of the chain to the point behind the vertex.
     leaves : bool
         Whether the frame is that of the reflected light.
-    turns : tuple of View
+    turns : tuple of Operand
         The angles by which the light's own frame is turned on about the direction of travel.
     """
 
     points: Coordinates
     leaves: bool
-    turns: tuple[View, ...] = ()
+    turns: tuple[Operand, ...] = ()
 
-    def turned(self, *turns: View) -> VertexFrame:
+    def turned(self, *turns: Operand) -> VertexFrame:
         """Return the frame turned by more angles."""
         return replace(self, turns=(*self.turns, *turns))
 
     @property
     def names(self) -> set[str]:
         """The open parameters that it depends on."""
-        values = (view.value for view in self._views)
+        values = (operand.value for operand in self._views)
         return {v.name for v in values if isinstance(v, Parameter) and not v.bound}
 
     def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
@@ -68,15 +68,15 @@ class VertexFrame:
         FrameError
             If JAX traces the values, or there is no memory for so many frames.
         """
-        if any(view.traced for view in self._views) or any(
+        if any(operand.traced for operand in self._views) or any(
             is_traced(given[name].value) for name in self.names
         ):
             raise FrameError(
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        points = [cut(_doubles(view, given)) for view in self.points.arguments]
-        turns = [cut(_doubles(view, given)) for view in self.turns]
+        points = [cut(_doubles(operand, given)) for operand in self.points.arguments]
+        turns = [cut(_doubles(operand, given)) for operand in self.turns]
         shape = joint_shape(*(number.shape for number in (*points, *turns)))
         with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
             axes = self.points.planes(REFLECTED if self.leaves else ARRIVING)(NUMPY)(*points)
@@ -89,12 +89,12 @@ class VertexFrame:
         return Frame.trusted(x, y, z)
 
     @property
-    def _views(self) -> tuple[View, ...]:
+    def _views(self) -> tuple[Operand, ...]:
         return *self.points.arguments, *self.turns
 
 
-def _doubles(view: View, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
-    return view.numbers(given).astype(np.float64, copy=False)
+def _doubles(operand: Operand, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:
+    return operand.numbers(given).astype(np.float64, copy=False)
 
 
 def _vectors(components: Any, shape: tuple[int, ...]) -> Any:

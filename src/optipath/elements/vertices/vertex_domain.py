@@ -13,7 +13,7 @@ from optipath.errors import ValueFault
 from optipath.kernels import LONGEST, SHORTEST
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import namespace
-from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.read_only import read_only
 from optipath.values.domains import Domain, Quantity
 
 if TYPE_CHECKING:
@@ -49,9 +49,9 @@ class VerticesDomain(Domain):
         >>> VERTICES.kept(np.eye(3, dtype=np.uint8)).dtype
         dtype('float64')
         """
-        kept = frozen(value)
+        kept = read_only(value)
         whole = isinstance(kept, np.ndarray) and kept.dtype.kind in "iu"
-        return frozen(kept.astype(np.float64)) if whole else kept
+        return read_only(kept.astype(np.float64)) if whole else kept
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         """Return the value as an array of numbers, or say which vertex is wrong.

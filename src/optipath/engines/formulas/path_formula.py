@@ -10,18 +10,25 @@ import numpy as np
 
 from optipath.engines.formulas.formula import Formula
 from optipath.engines.formulas.recorder import Recorder
-from optipath.engines.formulas.symbolic_inputs import Leaves, Limits
-from optipath.engines.program.execute import itself, walk, whole_matrices
-from optipath.kernels import Bounds, Linear, Plain, Powers, is_physical, largest_error
-from optipath.light.underflow import FAINT
+from optipath.engines.formulas.symbolic_inputs import Limits, SymbolicInputs
+from optipath.engines.program.execute import execute, itself, whole_matrices
+from optipath.kernels import (
+    BoundsCarrier,
+    IntensityCarrier,
+    MatrixCarrier,
+    StokesCarrier,
+    is_physical,
+    largest_error,
+)
+from optipath.light.underflow import UNDERFLOW
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.engines.program.loops import Meeting
+    from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
-    from optipath.kernels import Way
-    from optipath.values.operands import Raw
+    from optipath.kernels import Carrier
+    from optipath.values.operands import InputKey
 
 
 NO_AXES: Mapping[str, frozenset[int]] = MappingProxyType({})
@@ -33,71 +40,73 @@ _SPARE = 2.0**60
 
 def lights_formula(
     program: Program,
-    way: type[Way],
+    carrier: type[Carrier],
     dtype: str,
-    forms: Mapping[Raw, str],
+    forms: Mapping[InputKey, str],
     limits: Mapping[str, Limits],
     *,
     polynomials: bool,
     axes: Mapping[str, frozenset[int]] = NO_AXES,
-    as_it_stands: bool = False,
+    unreduced: bool = False,
 ) -> Formula:
     """Return the formula of the light at every end.
 
-    With `as_it_stands`, numbers that are known are taken like those that are given, and all
+    With `unreduced`, numbers that are known are taken like those that are given, and all
     four components are computed, read or not. The results are the four components of each
     reading in turn, else NaN where they are not read, and then the exponents. It holds for values
     within their limits whose light is finite and not too faint.
     """
     recorder = Recorder(np.dtype(dtype))
-    known = recorder.hidden if as_it_stands else None
-    leaves = Leaves(recorder, forms, limits, polynomials=polynomials, axes=axes, known=known)
-    xp, tiny = leaves.primitives, recorder.dtype.type(np.finfo(recorder.dtype).tiny)
-    carried: Way = way(xp)
-    if way is Plain and program.for_powers is not None:
-        program, carried = program.for_powers, Powers(xp, tiny * _SPARE)
-    meetings: list[Meeting] = []
-    symbols = leaves.of(program)
+    known = recorder.opaque if unreduced else None
+    operands = SymbolicInputs(
+        recorder, forms, limits, polynomials=polynomials, axes=axes, known=known
+    )
+    xp, tiny = operands.primitives, recorder.dtype.type(np.finfo(recorder.dtype).tiny)
+    carried: Carrier = carrier(xp)
+    if carrier is StokesCarrier and program.for_powers is not None:
+        program, carried = program.for_powers, IntensityCarrier(xp, tiny * _SPARE)
+    solvers: list[LoopSolver] = []
+    symbols = operands.of(program)
     with np.errstate(all="ignore"):
-        found = walk(program, symbols, carried, number=known or itself, meetings=meetings)
+        found = execute(program, symbols, carried, number=known or itself, solvers=solvers)
     outputs: list[Any] = []
     exponents: list[Any] = []
-    holds = [condition for meeting in meetings for condition in meeting.conditions]
+    holds = [condition for solver in solvers for condition in solver.conditions]
     for reading in program.readings.values():
         components, exponent = found[reading.light]
-        read = components[: 4 if as_it_stands else reading.components]
+        read = components[: 4 if unreduced else reading.components]
         outputs += [*read, *[np.nan] * (4 - len(read))]
         exponents.append(exponent)
         holds.append(_finite(read, recorder.dtype))
-        if way is Plain:
-            holds.append(components[0] >= tiny * FAINT)
+        if carrier is StokesCarrier:
+            holds.append(components[0] >= tiny * UNDERFLOW)
     return _formula(recorder, [*outputs, *exponents], holds)
 
 
 def bounds_formula(
     program: Program,
     dtype: str,
-    forms: Mapping[Raw, str],
+    forms: Mapping[InputKey, str],
     limits: Mapping[str, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     model: str | None = None,
 ) -> Formula:
-    """Return the formula of what `Bounds` reads at every end, four numbers in turn.
+    """Return the formula of what `BoundsCarrier` reads at every end, four numbers in turn.
 
     With the name of a model, that of the intensities without polarisation at every end, and
     of the largest error that the model has at any of them.
     """
     recorder = Recorder(np.dtype(dtype))
-    leaves = Leaves(recorder, forms, limits, polynomials=True, axes=axes)
-    xp = leaves.primitives
-    symbols, way = leaves.of(program), Bounds(xp, slack_of(program, dtype))
-    matrices = whole_matrices(program, symbols, way)
-    found = walk(program, symbols, way, shared=matrices)
+    operands = SymbolicInputs(recorder, forms, limits, polynomials=True, axes=axes)
+    xp = operands.primitives
+    symbols, carrier = operands.of(program), BoundsCarrier(xp, slack_of(program, dtype))
+    matrices = whole_matrices(program, symbols, carrier)
+    found = execute(program, symbols, carrier, shared=matrices)
     read = [found[reading.light][0] for reading in program.readings.values()]
     totals = [total for total, *_ in read]
     holds = [is_physical(xp, matrix, _spare(dtype)) for matrix in matrices.values()]
     holds += [_finite([n for numbers in read for n in numbers], recorder.dtype)]
-    holds += [total >= np.finfo(recorder.dtype).tiny * FAINT for total in totals]
+    holds += [total >= np.finfo(recorder.dtype).tiny * UNDERFLOW for total in totals]
     if model is None:
         return _formula(recorder, [n for numbers in read for n in numbers], holds)
     errors = [largest_error(xp, lower, upper, model) for _, lower, upper, _ in read]
@@ -120,28 +129,30 @@ def matrix_formula(
     source: str,
     reading: Reading,
     dtype: str,
-    forms: Mapping[Raw, str],
+    forms: Mapping[InputKey, str],
     limits: Mapping[str, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
 ) -> Formula:
     """Return the formula of the Mueller matrix from a source to a reading, row by row."""
     recorder = Recorder(np.dtype(dtype))
-    leaves = Leaves(recorder, forms, limits, polynomials=True, axes=axes)
-    symbols, way = leaves.of(program), Linear(leaves.primitives)
+    operands = SymbolicInputs(recorder, forms, limits, polynomials=True, axes=axes)
+    symbols, carrier = operands.of(program), MatrixCarrier(operands.primitives)
     none, one = recorder.dtype.type(0.0), recorder.dtype.type(1.0)
     columns = []
-    meetings: list[Meeting] = []
+    solvers: list[LoopSolver] = []
     for place in range(4):
         emitted = {step: (none,) * 4 for step, _ in program.sources.values()}
         begin, _ = program.sources[source]
         emitted[begin] = tuple(one if row == place else none for row in range(4))
         with np.errstate(all="ignore"):
-            components, _ = walk(program, symbols, way, emitted, meetings=meetings)[reading.light]
+            components, _ = execute(program, symbols, carrier, emitted, solvers=solvers)[
+                reading.light
+            ]
         columns.append(components)
     rows = range(reading.components)
     outputs = [column[row] for row in rows for column in columns]
     unread = [np.nan] * (16 - len(outputs))
-    holds = [condition for meeting in meetings[:1] for condition in meeting.conditions]
+    holds = [condition for solver in solvers[:1] for condition in solver.conditions]
     return _formula(recorder, [*outputs, *unread], [*holds, _finite(outputs, recorder.dtype)])
 
 

@@ -41,7 +41,7 @@ class Recorder:
         """The sines and cosines of angles that are given by them, by the index of the angle."""
         self._known: dict[Any, Symbol] = {}
 
-    def hidden(self, number: Any) -> Any:
+    def opaque(self, number: Any) -> Any:
         """Return a symbol for a number that is known, so that nothing comes of knowing it."""
         if isinstance(number, Symbol):
             return number

@@ -11,7 +11,7 @@ import numpy as np
 from optipath.engines.formulas.operations import OPERATIONS
 from optipath.engines.formulas.symbol import Symbol
 from optipath.kernels import Primitives
-from optipath.kernels.numbers.primitives import is_hidden
+from optipath.kernels.numbers.primitives import is_below_rounding
 from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 
 
@@ -51,9 +51,9 @@ def _circular(name: str, angle: Any) -> Any:
     return pair[name == "cos"] if pair else record(name, angle)
 
 
-def _hidden(larger: Any, number: Any) -> Any:
+def _below_rounding(larger: Any, number: Any) -> Any:
     # A sine that is given has digits of its own.
-    return np.False_ if _of_pair(larger) else is_hidden(larger, number)
+    return np.False_ if _of_pair(larger) else is_below_rounding(larger, number)
 
 
 SYMBOLIC = Primitives(
@@ -63,7 +63,7 @@ SYMBOLIC = Primitives(
     **_recording("fixed", "multiply_add", atan2="arctan2"),
     frexp=lambda number: (number, record("exponent", number)),
     two_product=lambda a, b: (record("multiply", a, b), record("product_rest", a, b)),
-    hidden=_hidden,
+    below_rounding=_below_rounding,
 )
 """Primitives that record what kernels do with them."""
 

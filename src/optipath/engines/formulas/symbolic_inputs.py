@@ -1,4 +1,4 @@
-"""The leaves of a program as symbols: what is given, and the sines and cosines of angles."""
+"""The operands of a program as symbols: what is given, and the sines and cosines of angles."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from optipath.engines.formulas.recorder import Recorder
     from optipath.engines.program.program import Program
     from optipath.kernels import Primitives
-    from optipath.values.operands import Raw, View
+    from optipath.values.operands import InputKey, Operand
 
 Limits = tuple[float, float]
 
@@ -29,14 +29,14 @@ _APART = 1e-6
 """How far the squares of a cosine and a sine may be from 1 together."""
 
 
-class Leaves:
-    """Makes the symbols of a program's leaves.
+class SymbolicInputs:
+    """Makes the symbols of a program's operands.
 
     Parameters
     ----------
     recorder : Recorder
         Where they are recorded.
-    forms : mapping of Raw to str
+    forms : mapping of InputKey to str
         What is given for each number.
     limits : mapping of str to tuple of float
         The range of each parameter; a value outside it is against a requirement.
@@ -52,7 +52,7 @@ class Leaves:
     def __init__(
         self,
         recorder: Recorder,
-        forms: Mapping[Raw, str],
+        forms: Mapping[InputKey, str],
         limits: Mapping[str, Limits],
         *,
         polynomials: bool,
@@ -72,47 +72,49 @@ class Leaves:
         return with_polynomials(self.recorder.dtype.name) if self.polynomials else SYMBOLIC
 
     def of(self, program: Program) -> list[Any]:
-        """Return a symbol, or a number that is known, for each leaf."""
-        found = [self._leaf(view, f".{place}") for place, view in enumerate(program.leaves)]
+        """Return a symbol, or a number that is known, for each operand."""
+        found = [
+            self._operand(operand, f".{place}") for place, operand in enumerate(program.operands)
+        ]
         if self.known is None:
             return found
-        return [leaf if isinstance(leaf, bool) else self.known(leaf) for leaf in found]
+        return [operand if isinstance(operand, bool) else self.known(operand) for operand in found]
 
-    def _leaf(self, view: View, name: str) -> Any:
-        if view.known:
-            if view.part == "present":
-                return self._input(name, MANY, "bool") if view.present().ndim else True
-            numbers = view.numbers({}, wide(self.recorder.dtype))
+    def _operand(self, operand: Operand, name: str) -> Any:
+        if operand.known:
+            if operand.part == "present":
+                return self._input(name, MANY, "bool") if operand.present().ndim else True
+            numbers = operand.numbers({}, wide(self.recorder.dtype))
             if numbers.ndim:
                 return self._input(name, MANY)
             with np.errstate(over="ignore", under="ignore"):
                 return self.recorder.dtype.type(numbers[()])
-        raw = view.raw
-        if raw not in self.forms:
-            return self._of_pair(view)
-        form = self.forms[raw]
-        if raw.part == "present":
-            return form == ONE if form in (ONE, ABSENT) else self._input(str(raw), form, "bool")
+        key = operand.input_key
+        if key not in self.forms:
+            return self._of_pair(operand)
+        form = self.forms[key]
+        if key.part == "present":
+            return form == ONE if form in (ONE, ABSENT) else self._input(str(key), form, "bool")
         if form == ZERO:
-            return self.recorder.dtype.type(view.part == "cos")
+            return self.recorder.dtype.type(operand.part == "cos")
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
-        given = self._given(raw, form)
-        if view.part in ("cos", "sin"):
-            return self._circular(view, form, given)
-        return -given if view.value.negative else given
+        given = self._given(key, form)
+        if operand.part in ("cos", "sin"):
+            return self._circular(operand, form, given)
+        return -given if operand.value.negative else given
 
     def _input(self, name: str, form: str, kind: str = "float", left: str = "") -> Any:
         axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
         return self.recorder.input(name, kind, axes=axes, left=left)
 
-    def _given(self, raw: Raw, form: str) -> Any:
-        low, high = self.limits[raw.name]
-        given = self._input(str(raw), form)
+    def _given(self, key: InputKey, form: str) -> Any:
+        low, high = self.limits[key.name]
+        given = self._input(str(key), form)
         if form == WIDE:
             # What is looked at is the number that is given, not what is left of it.
             most = float(np.finfo(np.float64).max)
-            self.recorder.wide[str(raw)] = float(max(low, -most)), float(min(high, most))
+            self.recorder.wide[str(key)] = float(max(low, -most)), float(min(high, most))
         elif form != ONE or not self.polynomials:
             most = float(np.finfo(self.recorder.dtype).max)
             kind = self.recorder.dtype.type
@@ -122,47 +124,51 @@ class Leaves:
         given.positive = low >= 0.0
         return given
 
-    def _of_pair(self, view: View) -> Any:
-        """Return what a view sees of an angle that is given by its cosine and sine."""
-        low, high = self.limits[view.raw.name]
+    def _of_pair(self, operand: Operand) -> Any:
+        """Return what an operand sees of an angle that is given by its cosine and sine."""
+        low, high = self.limits[operand.input_key.name]
         least = 0.0 if low >= 0.0 and high <= np.pi / 2 else -1.0
-        cos, sin = (self._part(view.raw._replace(part=part), least) for part in ("cos", "sin"))
+        cos, sin = (
+            self._part(operand.input_key._replace(part=part), least) for part in ("cos", "sin")
+        )
         self.recorder.require(abs(cos * cos + sin * sin - 1.0) <= _APART)
-        if view.part == "cos":
+        if operand.part == "cos":
             return cos
-        found = sin if view.part == "sin" else record("arctan2", sin, cos)
+        found = sin if operand.part == "sin" else record("arctan2", sin, cos)
         if found is not sin and isinstance(found, Symbol):
             self.recorder.pairs[found.index] = sin, cos
-        return -found if view.value.negative else found
+        return -found if operand.value.negative else found
 
-    def _part(self, raw: Raw, least: float) -> Any:
+    def _part(self, key: InputKey, least: float) -> Any:
         kind = self.recorder.dtype.type
-        if self.forms[raw] == ZERO:
+        if self.forms[key] == ZERO:
             return kind(0.0)
-        if self.forms[raw] == WIDE:
-            self.recorder.wide[str(raw)] = least, 1.0
-        given = self._input(str(raw), self.forms[raw])
+        if self.forms[key] == WIDE:
+            self.recorder.wide[str(key)] = least, 1.0
+        given = self._input(str(key), self.forms[key])
         self.recorder.require(kind(least) <= given)
         self.recorder.require(given <= kind(1.0))
         given.positive = least == 0.0
         return given
 
-    def _circular(self, view: View, form: str, angle: Any) -> Any:
-        kind, negative = self.recorder.dtype, view.value.negative
+    def _circular(self, operand: Operand, form: str, angle: Any) -> Any:
+        kind, negative = self.recorder.dtype, operand.value.negative
         if negative:
             angle = -angle
         if not self.polynomials:
-            return (cosine if view.part == "cos" else sine)(SYMBOLIC)(angle)
+            return (cosine if operand.part == "cos" else sine)(SYMBOLIC)(angle)
         digits = DIGITS[kind.name]
-        low, high = self.limits[view.value.name]
+        low, high = self.limits[operand.value.name]
         first = not negative and low >= 0.0 and high <= np.pi / 2
         left = None
         if form in (ONE, WIDE) and kind != wide(kind):
             # Next to a right angle it is all that there is, and has more digits than the angle.
-            left = self._input(str(view.raw), form, left=FROM_NEARER if first else FROM_ANY)
+            left = self._input(
+                str(operand.input_key), form, left=FROM_NEARER if first else FROM_ANY
+            )
             left = -left if negative else left
         if first:
-            return first_quadrant(SYMBOLIC, digits)(angle, left)[view.part == "cos"]
+            return first_quadrant(SYMBOLIC, digits)(angle, left)[operand.part == "cos"]
         self.recorder.require(abs(angle) <= digits.most)
-        value = any_quadrant(SYMBOLIC, digits)(angle, left)[view.part == "cos"]
+        value = any_quadrant(SYMBOLIC, digits)(angle, left)[operand.part == "cos"]
         return without_rounding(SYMBOLIC, lambda _: value)(angle) if left is None else value

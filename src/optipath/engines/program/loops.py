@@ -1,8 +1,8 @@
 """Loops: lights that depend on each other, found where they meet.
 
-Every way round a loop passes a knot, where lights add up. What light at one knot brings to
+Every way round a loop passes a junction, where lights add up. What light at one brings to
 others is found by sending unit lights along the steps between; a system of equations in the
-intensities along x and y, S2 and S3 of all knots then gives the light at each.
+intensities along x and y, S2 and S3 of all junctions then gives the light at each.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optipath.kernels import (
     SCALE,
     Elimination,
-    Plain,
+    StokesCarrier,
     energy,
     is_zero,
     not_above_rounding,
@@ -39,12 +39,12 @@ _ROUNDING = 1e-9
 
 
 class Column(NamedTuple):
-    """What becomes of one unit of light at a knot until it meets other light again.
+    """What becomes of one unit of light at a junction until it meets other light again.
 
     Attributes
     ----------
     back : dict of int to tuple
-        The parts of the light that it brings to knots.
+        The parts of the light that it brings to junctions.
     leaves : number
         How much intensity leaves the loop, or is absorbed in it.
     """
@@ -53,8 +53,8 @@ class Column(NamedTuple):
     leaves: Any
 
 
-class Meeting:
-    """The lights at the knots of a loop, for any light that arrives there.
+class LoopSolver:
+    """The lights at the junctions of a loop, for any light that arrives there.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class Meeting:
     Attributes
     ----------
     unknowns : list of tuple of int
-        The knot and the part that each unknown is.
+        The junction and the part that each unknown is.
     columns : list of Column
         What becomes of a unit of each.
     leaves : list
@@ -100,9 +100,11 @@ class Meeting:
         self.program = program
         self.loop = loop
         self.numbers = numbers
-        self.way = Plain(xp)
-        self.unknowns = [(knot, part) for knot in loop.knots for part in range(self.count(knot))]
-        self._knots = frozenset(loop.knots)
+        self.carrier = StokesCarrier(xp)
+        self.unknowns = [
+            (junction, part) for junction in loop.junctions for part in range(self.count(junction))
+        ]
+        self._junctions = frozenset(loop.junctions)
         self._place = {unknown: place for place, unknown in enumerate(self.unknowns)}
         self.columns = [self._column(*unknown) for unknown in self.unknowns]
         self.leaves = [self._settled(column.leaves) for column in self.columns]
@@ -116,18 +118,18 @@ class Meeting:
         self.pivots = self._system.pivots
         self.found: list[Any] = []
 
-    def count(self, knot: int) -> int:
-        """Return by how many components the light at a knot is carried."""
-        return self.program.count(knot)
+    def count(self, junction: int) -> int:
+        """Return by how many components the light at a junction is carried."""
+        return self.program.count(junction)
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
-        """Return the parts of the light at each knot, for those of what arrives at some."""
+        """Return the parts of the light at each junction, for those of what arrives at some."""
         given = self.scattered(arriving)
         found = self._system.solved([given.get(i, 0.0) for i in range(len(self.unknowns))])
         self.found = [found if is_zero(found) else self.rounded(found) for found in found]
-        lights: dict[int, Parts] = dict.fromkeys(self.loop.knots, ())
-        for (knot, _), number in zip(self.unknowns, self.found, strict=True):
-            lights[knot] = (*lights[knot], self.rounded(number))
+        lights: dict[int, Parts] = dict.fromkeys(self.loop.junctions, ())
+        for (junction, _), number in zip(self.unknowns, self.found, strict=True):
+            lights[junction] = (*lights[junction], self.rounded(number))
         return lights
 
     @property
@@ -142,9 +144,11 @@ class Meeting:
         Where light gains on each round, its rounds have no sum, and what solves the system is no
         light: a solution x = b + M x that is one is never less than b + M b + ... + M^n b.
         """
-        xp, holds = self.way.xp, True
-        for knot in self.loop.knots:
-            parts = [self.found[self._place[knot, part]] for part in range(self.count(knot))]
+        xp, holds = self.carrier.xp, True
+        for junction in self.loop.junctions:
+            parts = [
+                self.found[self._place[junction, part]] for part in range(self.count(junction))
+            ]
             total = sum(parts[:2])
             size = xp.where(total > 0.0, total, 1.0)
             x, *others = (part / size for part in parts)
@@ -155,14 +159,14 @@ class Meeting:
         return holds
 
     def fading(self, looked_at: Sequence[Any] = ()) -> list[Any]:
-        """Return whether no light at any knot, however it is polarised, gains on the way to others.
+        """Return whether no light at any junction, however polarised, gains on its way to others.
 
         Of light (x, y, S2, S3), l1 x + l2 y + l3 S2 + l4 S3 leaves; that is never negative
         where l3^2 + l4^2 <= l1 l2. Numbers that are looked at in any case are left out.
         """
         found = []
-        for knot in self.loop.knots:
-            places = [self._place[knot, part] for part in range(self.count(knot))]
+        for junction in self.loop.junctions:
+            places = [self._place[junction, part] for part in range(self.count(junction))]
             along, across = places[:2], [self.leaves[place] for place in places[2:]]
             found += [
                 self.leaves[place] > -_ROUNDING
@@ -176,20 +180,20 @@ class Meeting:
         return found
 
     def scattered(self, lights: Mapping[int, Parts]) -> dict[int, Any]:
-        """Return the parts of the lights at some knots by their place among the unknowns."""
+        """Return the parts of the lights at some junctions by their place among the unknowns."""
         return {
-            self._place[knot, part]: self._settled(number)
-            for knot, parts in lights.items()
+            self._place[junction, part]: self._settled(number)
+            for junction, parts in lights.items()
             for part, number in enumerate(parts)
         }
 
     def _settled(self, number: Any) -> Any:
         return 0.0 if is_zero(number) else self.number(number)
 
-    def _column(self, knot: int, part: int) -> Column:
-        """Follow a unit of light at a knot to the next ones."""
-        column, xp = Column({}, 0.0), self.way.xp
-        waiting = [(knot, unit_light(part, self.program.count(knot)))]
+    def _column(self, junction: int, part: int) -> Column:
+        """Follow a unit of light at a junction to the next ones."""
+        column, xp = Column({}, 0.0), self.carrier.xp
+        waiting = [(junction, unit_light(part, self.program.count(junction)))]
         while waiting:
             light, state = waiting.pop()
             there = energy(xp, state)
@@ -198,7 +202,7 @@ class Meeting:
             for user in self.program.used_by[light]:
                 after = self._behind(user, state)
                 passed.append(energy(xp, after))
-                if user in self._knots:
+                if user in self._junctions:
                     parts = parts_of(xp, after, self.count(user))
                     before = column.back.get(user, (0.0,) * len(parts))
                     sums = (one + other for one, other in zip(before, parts, strict=True))
@@ -231,4 +235,4 @@ class Meeting:
             return state
         structure = self.program.evaluations[step.evaluation].kernel.structure
         assert structure is not None  # noqa: S101 - sources take no light
-        return self.way.act(structure, self.numbers(step.evaluation), state, count)
+        return self.carrier.act(structure, self.numbers(step.evaluation), state, count)

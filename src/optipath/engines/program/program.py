@@ -1,7 +1,7 @@
 """Program: a path as an ordered list of steps, ready for an engine.
 
 Nothing here knows a graph or an element. Lights are numbered by the step that
-makes them, evaluations and leaves by their place in their lists.
+makes them, evaluations and operands by their place in their lists.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ if TYPE_CHECKING:
     from optipath.elements.vertices import VertexFrame
     from optipath.kernels import Kernel
     from optipath.light.frames import Frame
-    from optipath.values.operands import View
+    from optipath.values.operands import Operand
 
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """A kernel called on leaves.
+    """A kernel called on operands.
 
     Attributes
     ----------
     kernel : Kernel
         What is computed.
     arguments : tuple of int
-        The leaves it is given.
+        The operands it is given.
     presence : int or None
-        The leaf that says where the element is there at all; None where it always is.
+        The operand that says where the element is there at all; None where it always is.
     """
 
     kernel: Kernel
@@ -91,23 +91,23 @@ class Loop:
 
     Attributes
     ----------
-    knots : tuple of int
+    junctions : tuple of int
         The steps where lights meet, those that every way round passes, in the order in which
         they are to be eliminated; they stand before the other steps.
     stop : int
         The step behind the last one.
     layered : bool
-        Whether each knot, when it is eliminated, has no more than two neighbours left.
+        Whether each junction, when it is eliminated, has no more than two neighbours left.
     """
 
-    knots: tuple[int, ...]
+    junctions: tuple[int, ...]
     stop: int
     layered: bool = False
 
     @property
     def start(self) -> int:
         """The first step."""
-        return min(self.knots)
+        return min(self.junctions)
 
 
 @dataclass(frozen=True)
@@ -116,10 +116,10 @@ class Program:
 
     Attributes
     ----------
-    leaves : tuple of View
+    operands : tuple of Operand
         The numbers that kernels are given, constants and parameters alike.
     evaluations : tuple of Evaluation
-        What is computed from the leaves.
+        What is computed from the operands.
     steps : tuple of Step
         In the order of travel.
     sources : mapping of str to (int, frame)
@@ -130,13 +130,13 @@ class Program:
         How many of (S0, S1, S2, S3) each light is carried by, the first ones; all four where
         it is empty.
     loops : tuple of Loop
-        Where light goes round. A knot may add up lights of later steps of its loop; all other
+        Where light goes round. A junction may add up lights of later steps of its loop; all other
         steps have inputs before them.
     links : mapping of str to Reading
         Light on its way that is kept, and light that leaves the path, by link or out-port.
     """
 
-    leaves: tuple[View, ...]
+    operands: tuple[Operand, ...]
     evaluations: tuple[Evaluation, ...]
     steps: tuple[Step, ...]
     sources: Mapping[str, tuple[int, Frame | VertexFrame]]
@@ -150,11 +150,11 @@ class Program:
         """Return by how many components a light is carried."""
         return self.counts[light] if self.counts else 4
 
-    def parts(self, evaluation: int) -> tuple[Kernel, tuple[View, ...], View | None]:
+    def parts(self, evaluation: int) -> tuple[Kernel, tuple[Operand, ...], Operand | None]:
         """Return the kernel of an evaluation, what it is given, and where it is there at all."""
         found = self.evaluations[evaluation]
-        there = None if found.presence is None else self.leaves[found.presence]
-        return found.kernel, tuple(self.leaves[leaf] for leaf in found.arguments), there
+        there = None if found.presence is None else self.operands[found.presence]
+        return found.kernel, tuple(self.operands[operand] for operand in found.arguments), there
 
     @cached_property
     def for_powers(self) -> Program | None:

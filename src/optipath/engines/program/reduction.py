@@ -28,7 +28,7 @@ class Reduction:
         For each light of the program, the components that are alive.
     folded : tuple of str
         What was merged, left out, or made cheaper, a sentence each.
-    as_it_stands : bool
+    unreduced : bool
         Whether each step is done as the path has it, with every number that it has.
     """
 
@@ -37,7 +37,7 @@ class Reduction:
     reason: str
     live: tuple[tuple[int, ...], ...]
     folded: tuple[str, ...] = ()
-    as_it_stands: bool = False
+    unreduced: bool = False
 
     def by(self, model: str) -> Reduction:
         """Return the same carried by another model, exact or not."""

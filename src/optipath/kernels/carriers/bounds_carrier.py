@@ -120,8 +120,8 @@ class Bounded(NamedTuple):
     excess: Any = 0.0
 
 
-class Bounds:
-    """The way of intensities without polarisation, with bounds of what polarisation does.
+class BoundsCarrier:
+    """Carries intensities without polarisation, with bounds of what polarisation does.
 
     They hold for physical matrices, which `is_physical` tells.
 
@@ -135,9 +135,9 @@ class Bounds:
     Examples
     --------
     >>> from optipath.kernels import BLOCK, FLOAT
-    >>> way, half = Bounds(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)
-    >>> light = way.act(BLOCK, half, way.emit((1.0, 0.0, 0.0, 0.0)))
-    >>> way.read(way.act(BLOCK, half, light))
+    >>> carrier, half = BoundsCarrier(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)
+    >>> light = carrier.act(BLOCK, half, carrier.emit((1.0, 0.0, 0.0, 0.0)))
+    >>> carrier.read(carrier.act(BLOCK, half, light))
     ((0.25, 0.75, 1.25, 0.8), 0)
     """
 

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Primitives
 
 
-class Powers:
-    """The way of intensities over one denominator, which is divided by at the very end.
+class IntensityCarrier:
+    """Carries intensities over one denominator, which is divided by at the very end.
 
     Parameters
     ----------
@@ -25,9 +25,9 @@ class Powers:
     Examples
     --------
     >>> from optipath.kernels import BLOCK, FLOAT
-    >>> way = Powers(FLOAT)
-    >>> light = way.emit((1.0, 0.0, 0.0, 0.0), 1)
-    >>> way.read(way.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), light, 1), 1)
+    >>> carrier = IntensityCarrier(FLOAT)
+    >>> light = carrier.emit((1.0, 0.0, 0.0, 0.0), 1)
+    >>> carrier.read(carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), light, 1), 1)
     ((0.375, 0.0, 0.0, 0.0), 0)
     """
 

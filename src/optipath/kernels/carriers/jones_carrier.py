@@ -18,7 +18,7 @@ from optipath.kernels.carriers.carried import (
     stokes_of,
 )
 from optipath.kernels.carriers.jones_actions import Column, Columns
-from optipath.kernels.carriers.scaled_carrier import Scaled
+from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 
 if TYPE_CHECKING:
     from optipath.kernels.carriers.structures import Numbers, Structure
@@ -28,21 +28,22 @@ JonesState: TypeAlias = tuple[Columns, Any]
 """The fields are the first times two to the power of the second."""
 
 
-class Jones:
-    """The way of two Jones columns, with an integer exponent.
+class JonesCarrier:
+    """Carries light as two Jones columns, with an integer exponent.
 
     Examples
     --------
     >>> from optipath.kernels import FLOAT, SCALE
-    >>> way = Jones(FLOAT)
-    >>> stokes, exponent = way.read(way.act(SCALE, (0.25,), way.emit((1.0, 0.0, 0.0, 1.0))))
+    >>> carrier = JonesCarrier(FLOAT)
+    >>> light = carrier.act(SCALE, (0.25,), carrier.emit((1.0, 0.0, 0.0, 1.0)))
+    >>> stokes, exponent = carrier.read(light)
     >>> [round(x * 2.0**exponent, 12) for x in stokes]
     [0.25, 0.0, 0.0, 0.25]
     """
 
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
-        self._incoherent = Scaled(xp)
+        self._incoherent = ScaledCarrier(xp)
 
     def emit(self, stokes: Components, count: int = 4) -> JonesState:
         """Return the columns of a light: the Cholesky factor of its coherency matrix."""

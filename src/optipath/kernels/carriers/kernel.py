@@ -55,7 +55,7 @@ class Kernel:
         function: Callable[..., tuple[Any, ...]] = made(self.factory, primitives)
         return function
 
-    def leaving_out(
+    def specialised(
         self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
     ) -> tuple[Kernel, tuple[Any, ...]]:
         """Return the cheapest kernel for these arguments, and those that it takes."""

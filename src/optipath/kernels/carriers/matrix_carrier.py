@@ -10,19 +10,19 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.kernels.carriers.carried import Components
-    from optipath.kernels.carriers.parted import Meeting, Parts
+    from optipath.kernels.carriers.parted import Parts, SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.numbers.primitives import Primitives
 
 
-class Linear:
-    """The way for Mueller matrices: every element is its matrix, and nothing else.
+class MatrixCarrier:
+    """Carries columns of Mueller matrices: every element is its matrix, and nothing else.
 
     Examples
     --------
     >>> from optipath.kernels import BLOCK, FLOAT
-    >>> way = Linear(FLOAT)
-    >>> way.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), way.emit((0.0, 1.0, 0.0, 0.0)))
+    >>> carrier = MatrixCarrier(FLOAT)
+    >>> carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), carrier.emit((0.0, 1.0, 0.0, 0.0)))
     (0.125, 0.375, 0.0, 0.0)
     """
 
@@ -49,10 +49,10 @@ class Linear:
         s0, s1, s2, s3 = (one + other for one, other in zip(first, second, strict=True))
         return s0, s1, s2, s3
 
-    def meet(self, meeting: Meeting, arriving: Mapping[int, Components]) -> dict[int, Components]:
-        """Return the states at the knots of a loop, for those that arrive at some."""
-        parts = {knot: _parts(s, meeting.count(knot)) for knot, s in arriving.items()}
-        return {knot: _whole(found) for knot, found in meeting.lights(parts).items()}
+    def meet(self, solver: SolvedLoop, arriving: Mapping[int, Components]) -> dict[int, Components]:
+        """Return the states at the junctions of a loop, for those that arrive at some."""
+        parts = {junction: _parts(s, solver.count(junction)) for junction, s in arriving.items()}
+        return {junction: _whole(found) for junction, found in solver.lights(parts).items()}
 
     def read(self, state: Components, count: int = 4) -> tuple[Components, Any]:
         """Return the components, and the exponent of the power of two times them."""

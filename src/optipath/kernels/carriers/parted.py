@@ -27,14 +27,14 @@ Parts: TypeAlias = tuple[Any, ...]
 """(S0,), (x, y), (x, y, S2) or (x, y, S2, S3)."""
 
 
-class Meeting(Protocol):
+class SolvedLoop(Protocol):
     """Where the lights of a loop meet, as ways of carrying light see it."""
 
-    def count(self, knot: int) -> int:
-        """Return by how many components the light at a knot is carried."""
+    def count(self, junction: int) -> int:
+        """Return by how many components the light at a junction is carried."""
 
     def lights(self, arriving: Mapping[int, Parts]) -> dict[int, Parts]:
-        """Return the parts of the light at each knot, for those of what arrives at some."""
+        """Return the parts of the light at each junction, for those of what arrives at some."""
 
 
 _UNITS: tuple[Carried, ...] = (

@@ -19,7 +19,7 @@ from optipath.kernels.carriers.parted import light_of, parts_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.kernels.carriers.parted import Meeting
+    from optipath.kernels.carriers.parted import SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.numbers.primitives import Primitives
 
@@ -30,8 +30,8 @@ ScaledState: TypeAlias = tuple[Carried, Any]
 """The light is the first times two to the power of the second."""
 
 
-class Scaled:
-    """The way for long paths.
+class ScaledCarrier:
+    """Carries light along long paths.
 
     After every element the light is brought near 1 and its power of two is kept as an
     integer; and what rounding has polarised beyond 100 % is taken back, lest it
@@ -40,11 +40,11 @@ class Scaled:
     Examples
     --------
     >>> from optipath.kernels import FLOAT, SCALE
-    >>> way = Scaled(FLOAT)
-    >>> state = way.emit((1.0, 0.0, 0.0, 0.0))
+    >>> carrier = ScaledCarrier(FLOAT)
+    >>> state = carrier.emit((1.0, 0.0, 0.0, 0.0))
     >>> for _ in range(4):
-    ...     state = way.act(SCALE, (1e-300,), state)
-    >>> _, exponent = way.read(state)
+    ...     state = carrier.act(SCALE, (1e-300,), state)
+    >>> _, exponent = carrier.read(state)
     >>> exponent
     -3987
     """
@@ -74,16 +74,20 @@ class Scaled:
         other = _times_two_to(self.xp, other, of_other - most)
         return self._settled(add(self.xp, light, other), most)
 
-    def meet(self, meeting: Meeting, arriving: Mapping[int, ScaledState]) -> dict[int, ScaledState]:
-        """Return the states at the knots of a loop, for those that arrive at some."""
+    def meet(
+        self, solver: SolvedLoop, arriving: Mapping[int, ScaledState]
+    ) -> dict[int, ScaledState]:
+        """Return the states at the junctions of a loop, for those that arrive at some."""
         most = reduce(self.xp.maximum, (self._exponent(state) for state in arriving.values()))
         most = self.xp.where(most > _DARK, most, 0)
         parts = {}
-        for knot, (carried, exponent) in arriving.items():
+        for junction, (carried, exponent) in arriving.items():
             light = _times_two_to(self.xp, carried, exponent - most)
-            parts[knot] = parts_of(self.xp, light, meeting.count(knot))
-        lights = meeting.lights(parts).items()
-        return {knot: self._settled(light_of(self.xp, found), most) for knot, found in lights}
+            parts[junction] = parts_of(self.xp, light, solver.count(junction))
+        lights = solver.lights(parts).items()
+        return {
+            junction: self._settled(light_of(self.xp, found), most) for junction, found in lights
+        }
 
     def _exponent(self, state: ScaledState) -> Any:
         """Return the exponent of light, below all others where it is dark."""

@@ -18,13 +18,13 @@ from optipath.kernels.carriers.parted import light_of, parts_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.kernels.carriers.parted import Meeting
+    from optipath.kernels.carriers.parted import SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.numbers.primitives import Primitives
 
 
-class Plain:
-    """The way for short paths, whose light gathers few roundings and does not underflow."""
+class StokesCarrier:
+    """Carries light along short paths, whose light gathers few roundings and does not underflow."""
 
     def __init__(self, xp: Primitives) -> None:
         self.xp = xp
@@ -43,10 +43,12 @@ class Plain:
         """Return the state of two lights together, incoherently."""
         return add(self.xp, first, second)
 
-    def meet(self, meeting: Meeting, arriving: Mapping[int, Carried]) -> dict[int, Carried]:
-        """Return the states at the knots of a loop, for those that arrive at some."""
-        parts = {k: parts_of(self.xp, state, meeting.count(k)) for k, state in arriving.items()}
-        return {knot: light_of(self.xp, found) for knot, found in meeting.lights(parts).items()}
+    def meet(self, solver: SolvedLoop, arriving: Mapping[int, Carried]) -> dict[int, Carried]:
+        """Return the states at the junctions of a loop, for those that arrive at some."""
+        parts = {k: parts_of(self.xp, state, solver.count(k)) for k, state in arriving.items()}
+        return {
+            junction: light_of(self.xp, found) for junction, found in solver.lights(parts).items()
+        }
 
     def read(self, state: Carried, count: int = 4) -> tuple[Components, Any]:
         """Return the first components, and the exponent of the power of two times them."""

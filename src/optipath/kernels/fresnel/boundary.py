@@ -46,7 +46,7 @@ class Boundary(NamedTuple):
     k: Any
 
 
-def near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def brought_near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest.
 
     Examples
@@ -153,7 +153,7 @@ def absorbing_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 
     The indices come out divided; the angle is that in the medium n1.
     """
-    divided, wave, absolute = near_one(xp), _wave(xp), xp.absolute
+    divided, wave, absolute = brought_near_one(xp), _wave(xp), xp.absolute
     # Much nearer to its edge than the square of a cosine to its own: a medium without absorption
     # is one at grazing incidence, too.
     inside = from_within(xp, 6)
@@ -201,7 +201,7 @@ def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
 
 
 def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-    divided, wave = near_one(xp), _wave(xp)
+    divided, wave = brought_near_one(xp), _wave(xp)
 
     def lossless(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
         *n0, c, s = angle

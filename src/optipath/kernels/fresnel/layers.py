@@ -83,7 +83,7 @@ class Stack:
 
     def _boundary(self, xp: Primitives, *given: Any) -> tuple[Any, Any]:
         """Return the five numbers of the reflection, and those of the transmission."""
-        cheapest = (k.leaving_out(given, is_zero) for k in (self.reflection, self.transmission))
+        cheapest = (k.specialised(given, is_zero) for k in (self.reflection, self.transmission))
         reflected, transmitted = (xp.apart(kernel.made_for(xp))(*left) for kernel, left in cheapest)
         return reflected, transmitted
 

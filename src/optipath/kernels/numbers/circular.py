@@ -45,11 +45,11 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
 
 def without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
     """Make a sine or cosine that is 0 where the angle cannot tell it from 0."""
-    where, hidden, fixed = xp.where, xp.hidden, xp.fixed
+    where, below_rounding, fixed = xp.where, xp.below_rounding, xp.fixed
 
     def rounded(angle: Any) -> Any:
         value = function(angle)
         # The value is taken away from itself, not replaced, so that its slope stays.
-        return value - where(hidden(angle, value), fixed(value), 0.0)
+        return value - where(below_rounding(angle, value), fixed(value), 0.0)
 
     return rounded

@@ -26,7 +26,7 @@ class Primitives:
     ``where`` may evaluate both of its branches, so kernels keep both free of
     division by zero and of roots of negative numbers. ``fixed`` is a value without its
     slope, where an engine takes gradients, and the value itself elsewhere.
-    ``two_product`` gives a product and what its rounding has lost. ``hidden`` tells whether
+    ``two_product`` gives a product and what its rounding has lost. ``below_rounding`` tells whether
     a small number is no more than the rounding of a larger one, in double precision at most.
     ``multiply_add`` is a b + c, rounded once where that costs no more than twice. ``apart`` is a
     function as a piece of its own, where an engine would compile one large piece too slowly.
@@ -47,7 +47,7 @@ class Primitives:
     frexp: Callable[[Any], tuple[Any, Any]]
     ldexp: Callable[[Any, Any], Any]
     two_product: Callable[[Any, Any], tuple[Any, Any]]
-    hidden: Callable[[Any, Any], Any]
+    below_rounding: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
     apart: Callable[[Any], Any] = lambda function: function
@@ -64,7 +64,7 @@ def _itself(value: Any) -> Any:
     return value
 
 
-def is_hidden(larger: Any, number: Any) -> Any:
+def is_below_rounding(larger: Any, number: Any) -> Any:
     """Tell whether a number is no more than the rounding of a larger one, its square of 1.
 
     A sine that is taken as 0 so takes no energy from cos^2 + sin^2.
@@ -72,11 +72,11 @@ def is_hidden(larger: Any, number: Any) -> Any:
     return (larger + number == larger) & (1.0 + number * number == 1.0)
 
 
-def _hidden_in_arrays(larger: Any, number: Any) -> Any:
+def _below_rounding_in_arrays(larger: Any, number: Any) -> Any:
     if np.result_type(larger) == np.longdouble:
         # Angles come as doubles, whatever they are computed with.
-        return is_hidden(larger.astype(np.float64), number.astype(np.float64))
-    return is_hidden(larger, number)
+        return is_below_rounding(larger.astype(np.float64), number.astype(np.float64))
+    return is_below_rounding(larger, number)
 
 
 def product_rest(a: Any, b: Any) -> Any:
@@ -127,7 +127,7 @@ NUMPY = Primitives(
     frexp=np.frexp,
     ldexp=np.ldexp,
     two_product=product_and_rest,
-    hidden=_hidden_in_arrays,
+    below_rounding=_below_rounding_in_arrays,
     fixed=_itself,
 )
 
@@ -144,6 +144,6 @@ FLOAT = Primitives(
     frexp=math.frexp,
     ldexp=math.ldexp,
     two_product=_fused_two_product if hasattr(math, "fma") else product_and_rest,
-    hidden=is_hidden,
+    below_rounding=is_below_rounding,
     fixed=_itself,
 )

@@ -51,6 +51,8 @@ def twice(xp: Primitives) -> Primitives:
         frexp=lambda number: (number, xp.frexp(number.high)[1]),
         ldexp=ldexp,
         two_product=two_product,
-        hidden=lambda larger, number: xp.hidden(high_and_low(larger)[0], high_and_low(number)[0]),
+        below_rounding=lambda larger, number: xp.below_rounding(
+            high_and_low(larger)[0], high_and_low(number)[0]
+        ),
         fixed=lambda number: number,
     )

@@ -21,7 +21,7 @@ from optipath.lab.accuracy.machine import fastest, limits
 from optipath.lab.accuracy.many_paths import many_paths
 from optipath.lab.accuracy.path_errors import path_errors, trials, worst_and_median
 from optipath.lab.accuracy.regions import REGIONS
-from optipath.lab.accuracy.slow_operations import kernel_operations, operations
+from optipath.lab.accuracy.slow_operations import kernel_operations, slow_operations
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -95,8 +95,8 @@ def path_chart(
     _time(found, [partial(plan.run_all, **values) for plan in plans], effort, progress)
     program = Contender().composer.compose(graph).program
     given, _ = plans[0].inputs.resolve(values)
-    arrays = sum(view.numbers(given).size > 1 for view in program.leaves)
-    least = limits(arrays + 4 * len(program.readings), operations(program))
+    arrays = sum(operand.numbers(given).size > 1 for operand in program.operands)
+    least = limits(arrays + 4 * len(program.readings), slow_operations(program))
     words = {name: p.text(p.default) for name, p in path.parameters.items()}
     return {"parameters": words, **_chart(title, found, least)}
 

@@ -27,7 +27,7 @@ from optipath.kernels import INCIDENCE, REFLECTION
 from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, exact_angle, exactly, mpmath
 from optipath.values.materials import Material
-from optipath.values.operands import View, view_of
+from optipath.values.operands import Operand, operand_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -81,8 +81,8 @@ class Reader:
 
     def real(self, value: Any, part: str = "") -> Any:
         """Return a number."""
-        view = View(value, part) if part else view_of(value)
-        number = exactly(self.pick(view.numbers(self.given)))
+        operand = Operand(value, part) if part else operand_of(value)
+        number = exactly(self.pick(operand.numbers(self.given)))
         self.decades += abs(int(mpmath.log10(number))) if number > 0 else 0
         return number
 
@@ -98,7 +98,9 @@ class Reader:
 
     def angle(self, value: Any, turns: int = 1) -> Any:
         """Return an angle; its tangent, or that of `turns` times it, is what may be moved."""
-        return self.move(exact_angle(float(self.pick(view_of(value).numbers(self.given)))), turns)
+        return self.move(
+            exact_angle(float(self.pick(operand_of(value).numbers(self.given)))), turns
+        )
 
     def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
         """Return an angle that grows with a length, both given; else as `angle`."""
@@ -107,12 +109,12 @@ class Reader:
         # A multiple of 45 degrees is one, however its factors are rounded.
         return self.move(nearest if nearest != float(angle) else angle, turns)
 
-    def exact(self, view: View) -> Any:
+    def exact(self, operand: Operand) -> Any:
         """Return a number, or the cosine or sine of an angle in many digits."""
-        if view.part not in ("cos", "sin"):
-            return self.real(view)
-        angle = float(self.pick(View(view.value).numbers(self.given)))
-        return cos_sin(exact_angle(angle))[view.part == "sin"]
+        if operand.part not in ("cos", "sin"):
+            return self.real(operand)
+        angle = float(self.pick(Operand(operand.value).numbers(self.given)))
+        return cos_sin(exact_angle(angle))[operand.part == "sin"]
 
     def move(self, angle: Any, turns: int) -> Any:
         """Return an angle, moved if it is the one."""

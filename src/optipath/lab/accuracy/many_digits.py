@@ -80,7 +80,7 @@ MANY_DIGITS = Primitives(
     frexp=mpmath.frexp,
     ldexp=mpmath.ldexp,
     two_product=lambda a, b: (a * b, mpmath.mpf(0)),
-    hidden=lambda larger, number: float(larger) + float(number) == float(larger),
+    below_rounding=lambda larger, number: float(larger) + float(number) == float(larger),
     fixed=lambda value: value,
 )
 """For elements of one's own, whose formulas are the only ones there are."""

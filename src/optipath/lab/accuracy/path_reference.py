@@ -152,7 +152,7 @@ class _Walk:
     def stokes(self) -> dict[str, tuple[Any, ...]]:
         """Return the Stokes vector at every end that light reaches."""
         for stretch in self.wiring.stretches:
-            if stretch.knots:
+            if stretch.junctions:
                 self._go_round(stretch)
             else:
                 (port,) = stretch.ports
@@ -161,9 +161,9 @@ class _Walk:
 
     def _go_round(self, loop: Stretch) -> None:
         """Solve for the light where it meets, in all four components."""
-        arriving = [_sum(self._lights(knot)) for knot in loop.knots]
+        arriving = [_sum(self._lights(junction)) for junction in loop.junctions]
         given = mpmath.matrix([part for light in arriving for part in _all_of(light)])
-        size = 4 * len(loop.knots)
+        size = 4 * len(loop.junctions)
         system = mpmath.eye(size)
         for column in range(size):
             unit = [mpmath.mpf(row == column) for row in range(size)]
@@ -173,13 +173,13 @@ class _Walk:
         self._once_round(loop, _solved(system, list(given)))
 
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
-        """Return what the light at the knots brings back to them."""
-        for place, knot in enumerate(loop.knots):
-            self.at[knot] = _coherency(parts[4 * place : 4 * place + 4])
+        """Return what the light at the junctions brings back to them."""
+        for place, junction in enumerate(loop.junctions):
+            self.at[junction] = _coherency(parts[4 * place : 4 * place + 4])
         members = set(loop.ports)
-        for port in loop.ports[len(loop.knots) :]:
+        for port in loop.ports[len(loop.junctions) :]:
             self.at[port] = _sum(self._lights(port, members))
-        back = (_sum(self._lights(knot, members)) for knot in loop.knots)
+        back = (_sum(self._lights(junction, members)) for junction in loop.junctions)
         return [part for light in back for part in _all_of(light)]
 
     def _lights(self, port: Port, within: set[Port] | None = None) -> list[Jones]:

@@ -35,13 +35,13 @@ class _Counted:
     __hash__ = None  # type: ignore[assignment]
 
 
-def operations(program: Program) -> dict[str, int]:
+def slow_operations(program: Program) -> dict[str, int]:
     """Return the number of square roots ("sqrt") and divisions ("div") for one path.
 
     Examples
     --------
     >>> import optipath as op
-    >>> operations(op.load_preset("malus").compose().program)["sqrt"]
+    >>> slow_operations(op.load_preset("malus").compose().program)["sqrt"]
     2
     """
     counts: Counter[str] = Counter(sqrt=0, div=0)
@@ -76,6 +76,6 @@ def _counting(counts: Counter[str]) -> tuple[Primitives, _Counted]:
     one: Callable[..., Any] = lambda *_: number  # noqa: E731 - a def would need a name for each
     pair: Callable[..., Any] = lambda *_: (number, number)  # noqa: E731
     names = ("where", "absolute", "maximum", "minimum", "sin", "cos", "exp", "atan2")
-    others = ("ldexp", "hidden", "fixed")
+    others = ("ldexp", "below_rounding", "fixed")
     functions: dict[str, Any] = dict.fromkeys((*names, *others), one)
     return Primitives(sqrt=root, frexp=pair, two_product=pair, **functions), number

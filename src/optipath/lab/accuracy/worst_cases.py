@@ -30,7 +30,7 @@ _STEP = 2.0**-60
 """By how much of it a tangent is moved to find a condition."""
 
 
-class Worst(NamedTuple):
+class WorstCase(NamedTuple):
     """The worst case that was found.
 
     Attributes
@@ -57,7 +57,7 @@ def worst(
     *,
     generations: int = 100,
     seed: int = 0,
-) -> Worst:
+) -> WorstCase:
     """Return the worst case of a method in a region, as far as a search finds it.
 
     The numbers of which a region makes its samples are changed by steps of all sizes; the worst
@@ -158,7 +158,7 @@ def _doubled(family: KernelFamily, numbers: list[Floats], step: float) -> list[D
     return [0.5 * (Fs + Fp), B, C, S]
 
 
-def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype: str) -> Worst:
+def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype: str) -> WorstCase:
     found, place = matrix_numbers(kernel, sample), "ABCS".index(component[0])
     given = [part[0] for part in sample]
     with mpmath.workdps(WORKING_DIGITS):
@@ -172,4 +172,4 @@ def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype:
             off = float(errors(found, [exact], dtype).componentwise[0, place])
         if near != (component == "C near 0"):
             off = 0.0
-    return Worst(off, *map(float, given))
+    return WorstCase(off, *map(float, given))

@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.errors import ValueFault, shown
 from optipath.kernels import FROM_MUELLER, TO_MUELLER
-from optipath.light.mueller.near_one import precision, scaled, unscaled
+from optipath.light.mueller.normalised import rounding_of, scaled, unscaled
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import check_known
 
@@ -81,7 +81,7 @@ def lack(matrix: Array) -> Array:
 
 def tolerance_for(matrix: Array) -> float:
     """Return what a matrix may lack, having been rounded in the precision of its numbers."""
-    return max(_TOLERANCE, 100.0 * precision(matrix))
+    return max(_TOLERANCE, 100.0 * rounding_of(matrix))
 
 
 def nearest_physical(matrix: Array) -> Array:

@@ -14,7 +14,7 @@ from optipath.light.light import Light
 from optipath.light.mueller import cloude, figures
 from optipath.light.mueller.lu_chipman import LuChipman
 from optipath.light.mueller.polar_decomposition import polar_parts
-from optipath.light.underflow import folded, near_one
+from optipath.light.underflow import folded, normalise_exponent
 from optipath.values.arrays.jax_values import is_traced, known
 from optipath.values.arrays.read_only import same
 from optipath.values.arrays.shapes import check_broadcast, real_array
@@ -70,7 +70,7 @@ class Mueller:
             aligned = other.in_frame(self.frame_in)
             if is_traced(matrix) or is_traced(aligned.mantissa):
                 return Light((matrix @ aligned.stokes[..., np.newaxis])[..., 0], self.frame_out)
-            stokes, exponent = near_one(aligned.mantissa, aligned.exponent)
+            stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
             with np.errstate(over="ignore", invalid="ignore"):
                 product = (matrix @ stokes[..., np.newaxis])[..., 0]
             exponent = np.broadcast_to(exponent, product.shape[:-1])

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.light.mueller.near_one import precision, scaled, unscaled
+from optipath.light.mueller.normalised import rounding_of, scaled, unscaled
 from optipath.light.mueller.pure import jones_parts
 from optipath.light.mueller.turns import least_turn, outer, size_and_direction
 from optipath.light.underflow import times_two_to
@@ -78,7 +78,7 @@ def _rounding(matrix: Any, m00: Array, power: Array) -> Array:
 
     That of the parts, which let 1 through at most, is larger against an M00 that they block.
     """
-    least = max(_ROUNDING, 64.0 * precision(matrix))
+    least = max(_ROUNDING, 64.0 * rounding_of(matrix))
     blocked = times_two_to(1.0 / np.abs(m00), -power)
     return np.clip(least * blocked, least, max(least, _MOST))
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.engines.program.execute import evaluated
 from optipath.errors import ParameterError
-from optipath.kernels import NUMPY, Plain, energy
+from optipath.kernels import NUMPY, StokesCarrier, energy
 from optipath.light.light import Light
 from optipath.plan.light_paths.light_path import LightPath
 
@@ -51,13 +51,13 @@ class Search:
     ) -> None:
         self.framed = framed
         self.program = whole.program
-        self.way = Plain(NUMPY)
+        self.carrier = StokesCarrier(NUMPY)
         given = whole.sorter.sort(parameters)
         self.batch = given.batch
-        leaves = whole.stepwise.leaves(given)
+        operands = whole.interpreter.operands(given)
         with np.errstate(all="ignore"):
             self.numbers = [
-                evaluated(evaluation, leaves, self.way, whole.stepwise.number)
+                evaluated(evaluation, operands, self.carrier, whole.interpreter.number)
                 for evaluation in self.program.evaluations
             ]
         self._ends: dict[int, list[str]] = {}
@@ -80,7 +80,7 @@ class Search:
         """
         for light, _ in self.program.sources.values():
             s0, s1, s2, s3 = self.numbers[self.program.steps[light].evaluation or 0]
-            state = self.way.emit((s0, s1, s2, s3))
+            state = self.carrier.emit((s0, s1, s2, s3))
             self._least = max(self._least, _FAINTEST * self._brightness(state))
             self._add(light, state, (self.program.steps[light].label,), 0)
         followed = 0
@@ -110,7 +110,7 @@ class Search:
             structure = self.program.evaluations[step.evaluation].kernel.structure
             assert structure is not None  # noqa: S101 - sources take no light
             with np.errstate(all="ignore"):
-                state = self.way.act(structure, self.numbers[step.evaluation], state)
+                state = self.carrier.act(structure, self.numbers[step.evaluation], state)
             same_element = self.program.steps[branch.light].label == step.label
             if step.port and not same_element:
                 route = (*route, step.label)
@@ -179,7 +179,7 @@ class Search:
     def _arrived(self, branch: _Branch) -> LightPath:
         reading = self.program.readings[branch.end]
         with np.errstate(all="ignore"):
-            components, _ = self.way.read(branch.state)
+            components, _ = self.carrier.read(branch.state)
         parts = [np.broadcast_to(part, self.batch) for part in components]
         stokes = np.stack(parts, axis=-1)
         stokes[..., reading.components :] = np.nan

@@ -54,7 +54,7 @@ def light_paths(
     found: list[LightPath] = []
     with whole.enough_for(batch, 2 * len(whole.program.readings) + 8, twice=True):
         # Refuses light that never fades.
-        whole.stepwise.lights(whole.sorter.sort(parameters))
+        whole.interpreter.lights(whole.sorter.sort(parameters))
         for path in Search(whole, parameters, framed).paths(bounces):
             if len(found) == limit:
                 break

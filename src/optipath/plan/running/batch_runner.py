@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from optipath.engines.program.program import Program
     from optipath.plan.running.batch import Layout
     from optipath.plan.running.pieces import Piece
-    from optipath.plan.running.reading import Given
+    from optipath.plan.running.reading import ResolvedInputs
 
     Array = np.ndarray[Any, Any]
 
@@ -61,7 +61,7 @@ class _Stage(NamedTuple):
     path: ArrayPath
 
 
-class Many:
+class BatchRunner:
     """Does a formula to batches of any shape whose arrays differ along the same axes.
 
     Parameters
@@ -112,17 +112,17 @@ class Many:
 
     def results(
         self,
-        given: Given,
+        given: ResolvedInputs,
         layout: Layout,
         known: Mapping[str, Array],
         refused: Callable[[], object],
-        careful: Callable[[Given], Array],
+        fallback: Callable[[ResolvedInputs], Array],
     ) -> tuple[Results, bool]:
         """Return the results, an array over paths or a number each, and whether care was needed.
 
         Parameters
         ----------
-        given : Given
+        given : ResolvedInputs
             The numbers.
         layout : Layout
             The axes of its batch.
@@ -131,10 +131,10 @@ class Many:
         refused : callable
             Called once where the formula does not hold; it raises if that is because of
             what is given.
-        careful : callable
+        fallback : callable
             Gives the results for a part of what is given, where the formula does not hold.
         """
-        numbers = {str(raw): number for raw, number in given.numbers.items()}
+        numbers = {str(key): number for key, number in given.numbers.items()}
         numbers |= {**self.formula.constants, **known}
         found, failed = self._found(self._stages, numbers, layout)
         if failed and len(self._stages) > 1:
@@ -145,7 +145,7 @@ class Many:
             for row, result in zip(out, found.each, strict=True):
                 row[...] = result
             for piece in failed:
-                out[:, piece.start : piece.stop] = careful(given.part(piece.where))
+                out[:, piece.start : piece.stop] = fallback(given.part(piece.where))
             found = Results([*out], out, [*range(len(out))])
         return found, bool(failed)
 
@@ -218,9 +218,9 @@ def _is_read_number(result: Any) -> bool:
 def known_arrays(program: Program, dtype: np.dtype[Any]) -> dict[str, Array]:
     """Return the numbers of a program that are known, as formulas name them."""
     return {
-        f".{place}": view.present()
-        if view.part == "present"
-        else view.numbers({}, wide(dtype)).astype(dtype, copy=False)
-        for place, view in enumerate(program.leaves)
-        if view.known and view.numbers({}).ndim
+        f".{place}": operand.present()
+        if operand.part == "present"
+        else operand.numbers({}, wide(dtype)).astype(dtype, copy=False)
+        for place, operand in enumerate(program.operands)
+        if operand.known and operand.numbers({}).ndim
     }

@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.program.execute import evaluated
-from optipath.engines.program.loops import Meeting
-from optipath.kernels import NUMPY, ROTATION, DoubleDouble, Plain, cosine, sine, twice
+from optipath.engines.program.loops import LoopSolver
+from optipath.kernels import NUMPY, ROTATION, DoubleDouble, StokesCarrier, cosine, sine, twice
 
 if TYPE_CHECKING:
     from optipath.engines.program.program import Loop
     from optipath.kernels.carriers.structures import Numbers
-    from optipath.plan.running.interpreter import Stepwise
-    from optipath.plan.running.reading import Given
-    from optipath.values.operands import View
+    from optipath.plan.running.interpreter import Interpreter
+    from optipath.plan.running.reading import ResolvedInputs
+    from optipath.values.operands import Operand
 
 _TWICE = twice(NUMPY)
 _COS, _SIN = cosine(_TWICE), sine(_TWICE)
@@ -32,23 +32,23 @@ class CloserLook:
 
     Parameters
     ----------
-    stepwise : Stepwise
+    interpreter : Interpreter
         What runs the program.
-    given : Given
+    given : ResolvedInputs
         The numbers.
     """
 
-    def __init__(self, stepwise: Stepwise, given: Given) -> None:
-        self.stepwise = stepwise
+    def __init__(self, interpreter: Interpreter, given: ResolvedInputs) -> None:
+        self.interpreter = interpreter
         self.given = given
-        self.program = stepwise.program
-        self.plain = stepwise.leaves(given)
-        self._leaves: dict[int, Any] = {}
+        self.program = interpreter.program
+        self.plain = interpreter.operands(given)
+        self._operands: dict[int, Any] = {}
         self._numbers: dict[int, Numbers] = {}
 
-    def meet(self, loop: Loop) -> Meeting:
-        """Return the lights at the knots of a loop."""
-        return Meeting(self.program, loop, self.numbers, _TWICE, _longer, self._rounded)
+    def meet(self, loop: Loop) -> LoopSolver:
+        """Return the lights at the junctions of a loop."""
+        return LoopSolver(self.program, loop, self.numbers, _TWICE, _longer, self._rounded)
 
     def numbers(self, index: int) -> Numbers:
         """Return what an evaluation comes to."""
@@ -58,36 +58,36 @@ class CloserLook:
 
     def _evaluated(self, index: int) -> Numbers:
         evaluation = self.program.evaluations[index]
-        leaves = list(self.plain)
+        operands = list(self.plain)
         for place in evaluation.arguments:
-            leaves[place] = self._leaf(place)
+            operands[place] = self._operand(place)
         try:
-            numbers = evaluated(evaluation, leaves, Plain(_TWICE), _longer)
+            numbers = evaluated(evaluation, operands, StokesCarrier(_TWICE), _longer)
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            numbers = evaluated(evaluation, self.plain, Plain(NUMPY), _longer)
+            numbers = evaluated(evaluation, self.plain, StokesCarrier(NUMPY), _longer)
         if evaluation.kernel.structure is ROTATION:
             # A cosine and a sine that are rounded belong to no angle; their ratio does.
             numbers = _of_an_angle(*numbers)
         return numbers
 
-    def _leaf(self, place: int) -> Any:
-        if place not in self._leaves:
-            self._leaves[place] = self._number(self.program.leaves[place])
-        return self._leaves[place]
+    def _operand(self, place: int) -> Any:
+        if place not in self._operands:
+            self._operands[place] = self._number(self.program.operands[place])
+        return self._operands[place]
 
-    def _number(self, view: View) -> Any:
-        whole = view if view.part not in ("cos", "sin") else replace(view, part="value")
-        number = self.stepwise.wide_number(whole, self.given)
+    def _number(self, operand: Operand) -> Any:
+        whole = operand if operand.part not in ("cos", "sin") else replace(operand, part="value")
+        number = self.interpreter.wide_number(whole, self.given)
         if isinstance(number, tuple):
             c, s = _of_an_angle(*map(_longer, number))
-            return {"cos": c, "sin": s}.get(str(view.part), _TWICE.atan2(s, c))
-        if whole is view:
+            return {"cos": c, "sin": s}.get(str(operand.part), _TWICE.atan2(s, c))
+        if whole is operand:
             return _longer(number)
-        return (_COS if view.part == "cos" else _SIN)(_longer(number))
+        return (_COS if operand.part == "cos" else _SIN)(_longer(number))
 
     def _rounded(self, number: Any) -> Any:
         high = number.high if isinstance(number, DoubleDouble) else number
-        return self.stepwise.number(high)
+        return self.interpreter.number(high)
 
 
 def _longer(number: Any) -> DoubleDouble:

@@ -13,12 +13,12 @@ from optipath.values.operands import MANY
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.kernels import Way
+    from optipath.kernels import Carrier
     from optipath.plan.running.runner import Runner
 
 
 def operations(
-    runner: Runner, *, as_it_stands: bool, way: type[Way] | None = None
+    runner: Runner, *, unreduced: bool, carrier: type[Carrier] | None = None
 ) -> dict[str, int] | None:
     """Return how many operations a path takes in all, and of the dear sorts.
 
@@ -28,9 +28,11 @@ def operations(
     """
     if not runner.compilable:
         return None
-    options: dict[str, Any] = {"polynomials": False, "as_it_stands": as_it_stands}
+    options: dict[str, Any] = {"polynomials": False, "unreduced": unreduced}
     try:
-        return runner.lights_formula(runner.all_given_as(MANY), way=way, **options).operations
+        return runner.lights_formula(
+            runner.all_given_as(MANY), carrier=carrier, **options
+        ).operations
     except Exception:  # noqa: BLE001 - an element of one's own may ask what its numbers are
         return None
 
@@ -50,15 +52,18 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     for step in program.steps:
         if step.evaluation is None:
             continue
-        shapes: list[tuple[int, ...]] = [given.batch] if runner.as_it_stands else []
-        for leaf in program.evaluations[step.evaluation].arguments:
-            view = program.leaves[leaf]
-            if view.known:
-                array = runner.known_arrays.get(f".{leaf}")
+        shapes: list[tuple[int, ...]] = [given.batch] if runner.unreduced else []
+        for place in program.evaluations[step.evaluation].arguments:
+            operand = program.operands[place]
+            if operand.known:
+                array = runner.known_arrays.get(f".{place}")
                 shapes.append(() if array is None else array.shape)
             else:
-                raws = (view.raw, *(view.raw._replace(part=part) for part in ("cos", "sin")))
-                shapes += [np.shape(given.numbers[raw]) for raw in raws if raw in given.numbers]
+                keys = (
+                    operand.input_key,
+                    *(operand.input_key._replace(part=part) for part in ("cos", "sin")),
+                )
+                shapes += [np.shape(given.numbers[key]) for key in keys if key in given.numbers]
         count = prod(joint_shape(*shapes))
         # What one element does in several steps goes by one name.
         found[step.label] = max(count, found.get(step.label, 0))

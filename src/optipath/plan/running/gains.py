@@ -14,7 +14,7 @@ from optipath.kernels import DoubleDouble
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from optipath.engines.program.loops import Meeting
+    from optipath.engines.program.loops import LoopSolver
 
     Array = np.ndarray[Any, Any]
 
@@ -30,7 +30,7 @@ _FEW_DIGITS, _NEAR = 1e-9, 1e-3
 _ROUNDING = 1e-15
 
 
-class Worst(NamedTuple):
+class LargestGain(NamedTuple):
     """That path of a batch of which most stays in a loop.
 
     Attributes
@@ -48,12 +48,12 @@ class Worst(NamedTuple):
     condition: float
 
 
-def check_gains(meetings: Sequence[Meeting]) -> None:
+def check_gains(solvers: Sequence[LoopSolver]) -> None:
     """Refuse light that gains going round; warn where nearly all of it comes back.
 
     Where no element amplifies, all of some light stays where a pivot is 0. Else the spectral
     radius of the whole round trip tells; next to 1, whether unpolarised light that is given to
-    every knot adds up to light that can be, which it does where the radius is below 1, and
+    every junction adds up to light that can be, which it does where the radius is below 1, and
     only there (Krein & Rutman, Uspekhi Mat. Nauk 3, 1948).
 
     Raises
@@ -67,11 +67,11 @@ def check_gains(meetings: Sequence[Meeting]) -> None:
         With the gain and the condition number of the system.
     """
     faults = []
-    for meeting in meetings:
-        if np.all(reduce(np.logical_and, meeting.conditions, np.True_)):
+    for solver in solvers:
+        if np.all(reduce(np.logical_and, solver.conditions, np.True_)):
             continue
-        place = meeting.program.steps[meeting.loop.start].label
-        worst = _Judged(meeting).worst()
+        place = solver.program.steps[solver.loop.start].label
+        worst = _Judged(solver).worst()
         if worst is None:
             faults.append(
                 f"what comes back of the light that goes round at '{place}' is no finite number: "
@@ -98,29 +98,29 @@ def check_gains(meetings: Sequence[Meeting]) -> None:
 class _Judged:
     """The doubtful paths of a batch, by what the unknowns of a loop are to each other."""
 
-    def __init__(self, meeting: Meeting) -> None:
-        self.meeting = meeting
-        self.columns = [meeting.scattered(column.back) for column in meeting.columns]
-        numbers = [*meeting.pivots, *(n for column in self.columns for n in column.values())]
+    def __init__(self, solver: LoopSolver) -> None:
+        self.solver = solver
+        self.columns = [solver.scattered(column.back) for column in solver.columns]
+        numbers = [*solver.pivots, *(n for column in self.columns for n in column.values())]
         self.shape = np.broadcast_shapes((1,), *(np.shape(_plain(number)) for number in numbers))
-        holds = reduce(np.logical_and, meeting.conditions, np.True_)
+        holds = reduce(np.logical_and, solver.conditions, np.True_)
         self.where = tuple(np.argwhere(~np.broadcast_to(holds, self.shape)).T)
         # What no light ever gets to may keep all of it.
-        self.lit = self._stacked(_lit(number, self.shape) for number in meeting.found) > 0.0
-        self.pivots = np.where(self.lit, self._stacked(meeting.pivots), 1.0)
-        self.fades = self._picked(reduce(np.logical_and, meeting.fading(), np.True_)) > 0.0
+        self.lit = self._stacked(_lit(number, self.shape) for number in solver.found) > 0.0
+        self.pivots = np.where(self.lit, self._stacked(solver.pivots), 1.0)
+        self.fades = self._picked(reduce(np.logical_and, solver.fading(), np.True_)) > 0.0
 
-    def worst(self) -> Worst | None:
+    def worst(self) -> LargestGain | None:
         """Return the worst of them; None where one is no finite number."""
         if not np.all(np.isfinite(self.pivots)):
             return None
         least = self.pivots.min(axis=-1)
         closed = self.fades & (least <= 0.0)
         first = self._doubtful(least)
-        if len(self.meeting.unknowns) ** 2 > _MOST:
+        if len(self.solver.unknowns) ** 2 > _MOST:
             closed = np.where(self.fades, closed, ~self._adds_up())
             left = float(least.min(initial=1.0))
-            return Worst(bool(closed.any()), left, 2.0 / max(left, np.finfo(float).tiny))
+            return LargestGain(bool(closed.any()), left, 2.0 / max(left, np.finfo(float).tiny))
         if not first.size:
             return _HARMLESS
         matrices = self._matrices(first)
@@ -134,18 +134,18 @@ class _Judged:
         closed = closed[first] | gains
         leaves = np.where(gains, np.minimum(leaves, 0.0), leaves)
         worst = np.lexsort((leaves, ~closed))[0]
-        return Worst(bool(closed[worst]), float(leaves[worst]), _condition(matrices[worst]))
+        return LargestGain(bool(closed[worst]), float(leaves[worst]), _condition(matrices[worst]))
 
     def _doubtful(self, least: Array) -> Array:
         """Return the paths that must be looked at: all that may gain, and the most closed."""
         order = np.argsort(least)
         order = order[self.fades[order] & (least[order] < _WARNED)]
-        most = max(1, _MOST // len(self.meeting.unknowns) ** 2)
+        most = max(1, _MOST // len(self.solver.unknowns) ** 2)
         return np.concatenate([np.flatnonzero(~self.fades), order[:most]])
 
     def _matrices(self, paths: Array) -> Array:
         """Return what of each unknown comes back as which, for some paths."""
-        count = len(self.meeting.unknowns)
+        count = len(self.solver.unknowns)
         matrices = np.zeros((len(paths), count, count))
         for place, column in enumerate(self.columns):
             for row, number in column.items():
@@ -154,15 +154,15 @@ class _Judged:
         return np.where(lit[:, :, np.newaxis] & lit[:, np.newaxis, :], matrices, 0.0)
 
     def _adds_up(self) -> Array:
-        """Return where unpolarised light at every knot adds up to light that can be."""
+        """Return where unpolarised light at every junction adds up to light that can be."""
         unpolarised = {
-            knot: ((1.0,), (0.5, 0.5), (0.5, 0.5, 0.0), (0.5, 0.5, 0.0, 0.0))[count - 1]
-            for knot in self.meeting.loop.knots
-            if (count := self.meeting.count(knot))
+            junction: ((1.0,), (0.5, 0.5), (0.5, 0.5, 0.0), (0.5, 0.5, 0.0, 0.0))[count - 1]
+            for junction in self.solver.loop.junctions
+            if (count := self.solver.count(junction))
         }
         with np.errstate(all="ignore"):
-            self.meeting.lights(unpolarised)
-            return self._picked(self.meeting.adds_up(_ROUNDING)) > 0.0
+            self.solver.lights(unpolarised)
+            return self._picked(self.solver.adds_up(_ROUNDING)) > 0.0
 
     def _picked(self, number: Any) -> Array:
         return np.broadcast_to(np.asarray(_plain(number), float), self.shape)[self.where]
@@ -171,7 +171,7 @@ class _Judged:
         return np.stack([self._picked(number) for number in numbers], axis=-1)
 
 
-_HARMLESS = Worst(closed=False, leaves=1.0, condition=1.0)
+_HARMLESS = LargestGain(closed=False, leaves=1.0, condition=1.0)
 
 
 def _radius(matrices: Array) -> Array:

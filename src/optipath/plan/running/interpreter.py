@@ -10,9 +10,17 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from optipath.engines.formulas import slack_of
-from optipath.engines.program.execute import evaluated, walk, whole_matrices
-from optipath.kernels import FLOAT, NUMPY, Bounds, Jones, Linear, Plain, Scaled
-from optipath.light.underflow import FAINT, folded, is_faint
+from optipath.engines.program.execute import evaluated, execute, whole_matrices
+from optipath.kernels import (
+    FLOAT,
+    NUMPY,
+    BoundsCarrier,
+    JonesCarrier,
+    MatrixCarrier,
+    ScaledCarrier,
+    StokesCarrier,
+)
+from optipath.light.underflow import UNDERFLOW, folded, underflows
 from optipath.plan.running.closer import CloserLook
 from optipath.plan.running.gains import check_gains
 from optipath.plan.running.physical import what_matrices_lack
@@ -22,136 +30,141 @@ from optipath.values.precision import wide
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from optipath.engines.program.loops import Meeting
+    from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
-    from optipath.kernels import Components, Way
-    from optipath.plan.running.reading import Given
-    from optipath.values.operands import Raw, View
+    from optipath.kernels import Carrier, Components
+    from optipath.plan.running.reading import ResolvedInputs
+    from optipath.values.operands import InputKey, Operand
 
 Shared: TypeAlias = Mapping[int, tuple[np.ndarray[Any, Any], ...]]
 
 _LONG = 16
-_TINY = np.finfo(np.float64).tiny * FAINT
+_TINY = np.finfo(np.float64).tiny * UNDERFLOW
 
 
-def way_of(program: Program, composing: str) -> type[Way]:
+def carrier_of(program: Program, composing: str) -> type[Carrier]:
     """Return how light is carried along a program."""
     if composing == "jones":
-        return Jones
-    return Scaled if len(program.steps) > _LONG else Plain
+        return JonesCarrier
+    return ScaledCarrier if len(program.steps) > _LONG else StokesCarrier
 
 
-class Stepwise:
+class Interpreter:
     """Runs a program without compiling anything.
 
     Parameters
     ----------
     program : Program
         The steps.
-    way : type
+    carrier : type
         How light is carried.
     dtype : dtype
         The precision.
     """
 
-    def __init__(self, program: Program, way: type[Way], dtype: np.dtype[Any]) -> None:
+    def __init__(self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any]) -> None:
         self.program = program
-        self.way = way
+        self.carrier = carrier
         self.dtype = dtype
-        self._float_way = way(FLOAT)
-        self._ways = {kind: kind(NUMPY) for kind in (way, Scaled, Linear)}
+        self._float_carrier = carrier(FLOAT)
+        self._carriers = {kind: kind(NUMPY) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
         self._known: list[Any] | None = None
         self._known_floats: list[float] | None = None
 
-    def single(self, numbers: Mapping[Raw, Any]) -> list[tuple[Any, ...]] | None:
+    def single(self, numbers: Mapping[InputKey, Any]) -> list[tuple[Any, ...]] | None:
         """Return (S0, S1, S2, S3, exponent) at every end, all numbers being floats.
 
         None where that takes more care than floats allow.
         """
         if self._known_floats is None:
             self._known_floats = [
-                self._of_known(view).item() if view.known else 0.0 for view in self.program.leaves
+                self._of_known(operand).item() if operand.known else 0.0
+                for operand in self.program.operands
             ]
-        leaves = list(self._known_floats)
-        for place, view in enumerate(self.program.leaves):
-            if not view.known:
-                number = numbers[view.raw]
-                leaves[place] = number if view.part == "present" else view.of_float(number)
-        meetings: list[Meeting] = []
+        operands = list(self._known_floats)
+        for place, operand in enumerate(self.program.operands):
+            if not operand.known:
+                number = numbers[operand.input_key]
+                operands[place] = number if operand.part == "present" else operand.of_float(number)
+        solvers: list[LoopSolver] = []
         try:
-            found = walk(self.program, leaves, self._float_way, meetings=meetings)
+            found = execute(self.program, operands, self._float_carrier, solvers=solvers)
         except (ArithmeticError, ValueError):
             return None
-        if not all(all(meeting.conditions) for meeting in meetings):
+        if not all(all(solver.conditions) for solver in solvers):
             return None
         lights = []
         for reading in self.program.readings.values():
             components, exponent = found[reading.light]
             read = tuple(components[: reading.components])
             finite = abs(sum(map(abs, read))) < np.inf
-            if not finite or (self.way is Plain and not components[0] >= _TINY):
+            if not finite or (self.carrier is StokesCarrier and not components[0] >= _TINY):
                 return None
             lights.append((*read, *[np.nan] * (4 - len(read)), exponent))
         return lights
 
     def lights(
-        self, given: Given, shared: Shared | None = None
+        self, given: ResolvedInputs, shared: Shared | None = None
     ) -> list[tuple[np.ndarray[Any, Any], Any]]:
         """Return Stokes vectors (..., 4) and exponents at every end.
 
         What several parts of a batch have in common may be given, see `shared`.
         """
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
-        found = self._stacked(given, self._ways[self.way], own)
-        if self.way is Plain and any(np.any(is_faint(s[..., 0])) for s, _ in found):
-            found = self._stacked(given, self._ways[Scaled], own)
+        found = self._stacked(given, self._carriers[self.carrier], own)
+        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in found):
+            found = self._stacked(given, self._carriers[ScaledCarrier], own)
         return [folded(*light) for light in found]
 
-    def shared(self, given: Given) -> Shared:
+    def shared(self, given: ResolvedInputs) -> Shared:
         """Return the numbers of evaluations that differ along a few axes of a batch only.
 
         Together they are no more than the light that the batch gives.
         """
-        leaves, way = self.leaves(given), self._ways[self.way]
+        operands, carrier = self.operands(given), self._carriers[self.carrier]
         left, found = 4 * given.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
-                shapes = [leaves[leaf].shape for leaf in evaluation.arguments]
-                shapes += [] if evaluation.presence is None else [leaves[evaluation.presence].shape]
+                shapes = [operands[operand].shape for operand in evaluation.arguments]
+                shapes += (
+                    [] if evaluation.presence is None else [operands[evaluation.presence].shape]
+                )
                 size = 16 * prod(joint_shape(*shapes))
                 if size <= min(left, given.paths):
-                    found[index] = evaluated(evaluation, leaves, way, self.number)
+                    found[index] = evaluated(evaluation, operands, carrier, self.number)
                     left -= size
         return found
 
-    def matrix(self, given: Given, source: str, reading: Reading) -> np.ndarray[Any, Any]:
+    def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         """Return Mueller matrices (..., 4, 4) from a source to a reading."""
         none = self.dtype.type(0.0)
         begin, _ = self.program.sources[source]
 
-        def emitted(part: Given) -> dict[int, Components]:
+        def emitted(part: ResolvedInputs) -> dict[int, Components]:
             columns = np.eye(4, dtype=self.dtype).reshape(4, 4, *[1] * len(part.batch))
             dark = {step: (none,) * 4 for step, _ in self.program.sources.values()}
             return {**dark, begin: tuple(columns[:, row] for row in range(4))}
 
-        lights = self._walk(given, self._ways[Linear], emitted)
+        lights = self._execute(given, self._carriers[MatrixCarrier], emitted)
         stokes = _stack(lights[reading.light][0], (4, *given.batch), reading, self.dtype)
         return np.ascontiguousarray(np.moveaxis(stokes, 0, -1))
 
-    def bounds(self, given: Given) -> list[np.ndarray[Any, Any]]:
-        """Return what `Bounds` reads at every end, shape (4, ...).
+    def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+        """Return what `BoundsCarrier` reads at every end, shape (4, ...).
 
         Raises
         ------
         ParameterError
             If a Mueller matrix is unphysical.
         """
-        leaves = self.leaves(given)
+        operands = self.operands(given)
         with np.errstate(all="ignore"):
-            matrices = whole_matrices(self.program, leaves, self._ways[Linear], self.number)
+            matrices = whole_matrices(
+                self.program, operands, self._carriers[MatrixCarrier], self.number
+            )
         lacking = what_matrices_lack(self.program, matrices)
-        way = Bounds(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
-        found = self._walk(given, way, shared=matrices)
+        carrier = BoundsCarrier(NUMPY, slack_of(self.program, self.dtype.name) + lacking)
+        found = self._execute(given, carrier, shared=matrices)
         read = []
         for reading in self.program.readings.values():
             parts = np.empty((4, *given.batch), self.dtype)
@@ -164,8 +177,8 @@ class Stepwise:
             read.append(parts)
         return read
 
-    def _stacked(self, given: Given, way: Way, shared: Shared) -> list[Any]:
-        lights = self._walk(given, way, None, shared)
+    def _stacked(self, given: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Any]:
+        lights = self._execute(given, carrier, None, shared)
         return [
             (
                 _stack(lights[reading.light][0], given.batch, reading, self.dtype),
@@ -174,22 +187,28 @@ class Stepwise:
             for reading in self.program.readings.values()
         ]
 
-    def _walk(
-        self, given: Given, way: Way, emitted: Any = None, shared: Shared | None = None
+    def _execute(
+        self,
+        given: ResolvedInputs,
+        carrier: Carrier,
+        emitted: Any = None,
+        shared: Shared | None = None,
     ) -> dict[int, Any]:
-        meetings: list[Meeting] = []
+        solvers: list[LoopSolver] = []
         begin = emitted and emitted(given)
         with np.errstate(all="ignore"):
-            leaves = self.leaves(given)
-            found = walk(self.program, leaves, way, begin, self.number, shared, meetings)
-            doubtful = _doubtful(meetings, given.batch)
+            operands = self.operands(given)
+            found = execute(self.program, operands, carrier, begin, self.number, shared, solvers)
+            doubtful = _doubtful(solvers, given.batch)
             if not np.any(doubtful):
                 return found
             part = given if np.all(doubtful) else given.part((doubtful,))
-            leaves, meetings = self.leaves(part), []
+            operands, solvers = self.operands(part), []
             begin, closer = emitted and emitted(part), CloserLook(self, part)
-            again = walk(self.program, leaves, way, begin, self.number, None, meetings, closer.meet)
-            check_gains(meetings)
+            again = execute(
+                self.program, operands, carrier, begin, self.number, None, solvers, closer.meet
+            )
+            check_gains(solvers)
         return again if part is given else _instead(found, again, doubtful)
 
     def number(self, number: Any) -> np.ndarray[Any, Any]:
@@ -197,40 +216,42 @@ class Stepwise:
         # Plain numbers among what kernels give have no precision of their own.
         return np.asarray(number, self.dtype)
 
-    def leaves(self, given: Given) -> list[np.ndarray[Any, Any]]:
-        """Return the numbers behind the leaves of the program."""
+    def operands(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+        """Return the numbers behind the operands of the program."""
         if self._known is None:
             self._known = [
-                self._cast(self._of_known(view)) if view.known else None
-                for view in self.program.leaves
+                self._cast(self._of_known(operand)) if operand.known else None
+                for operand in self.program.operands
             ]
         kind, numbers = wide(self.dtype), given.numbers
         return [
-            self._cast(_given(view, numbers, kind))
-            if leaf is None and view.part != "present"
-            else np.asarray(numbers[view.raw])
-            if leaf is None
-            else given.cut(leaf)
-            for leaf, view in zip(self._known, self.program.leaves, strict=True)
+            self._cast(_given(operand, numbers, kind))
+            if fixed is None and operand.part != "present"
+            else np.asarray(numbers[operand.input_key])
+            if fixed is None
+            else given.cut(fixed)
+            for fixed, operand in zip(self._known, self.program.operands, strict=True)
         ]
 
-    def wide_number(self, view: View, given: Given) -> Any:
-        """Return the number behind a view with all digits that are given.
+    def wide_number(self, operand: Operand, given: ResolvedInputs) -> Any:
+        """Return the number behind an operand with all digits that are given.
 
         For an angle that is given by its cosine and sine, these two.
         """
         kind, numbers = wide(self.dtype), given.numbers
-        if view.known:
-            return given.cut(np.asarray(view.numbers({}), kind))
-        if view.raw in numbers:
-            return view.of(np.asarray(numbers[view.raw], kind), kind)
-        sign = -1.0 if view.value.negative else 1.0
-        return numbers[view.raw._replace(part="cos")], sign * numbers[view.raw._replace(part="sin")]
+        if operand.known:
+            return given.cut(np.asarray(operand.numbers({}), kind))
+        if operand.input_key in numbers:
+            return operand.of(np.asarray(numbers[operand.input_key], kind), kind)
+        sign = -1.0 if operand.value.negative else 1.0
+        return numbers[operand.input_key._replace(part="cos")], sign * numbers[
+            operand.input_key._replace(part="sin")
+        ]
 
-    def _of_known(self, view: Any) -> Any:
-        if view.part == "present":
-            return view.present()[()]
-        return view.numbers({}, wide(self.dtype))[()]
+    def _of_known(self, operand: Any) -> Any:
+        if operand.part == "present":
+            return operand.present()[()]
+        return operand.numbers({}, wide(self.dtype))[()]
 
     def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
         array = np.asarray(numbers)
@@ -238,20 +259,22 @@ class Stepwise:
             return array if array.dtype == bool else array.astype(self.dtype, copy=False)
 
 
-def _given(view: View, numbers: Mapping[Raw, Any], kind: np.dtype[Any]) -> Any:
-    """Return what a view sees of what is given: a number, or an angle's cosine and sine."""
-    if view.raw in numbers:
-        return view.of(np.asarray(numbers[view.raw]), kind)
-    sign = -1.0 if view.value.negative else 1.0
-    cos, sin = (np.asarray(numbers[view.raw._replace(part=part)]) for part in ("cos", "sin"))
-    if view.part == "cos":
+def _given(operand: Operand, numbers: Mapping[InputKey, Any], kind: np.dtype[Any]) -> Any:
+    """Return what an operand sees of what is given: a number, or an angle's cosine and sine."""
+    if operand.input_key in numbers:
+        return operand.of(np.asarray(numbers[operand.input_key]), kind)
+    sign = -1.0 if operand.value.negative else 1.0
+    cos, sin = (
+        np.asarray(numbers[operand.input_key._replace(part=part)]) for part in ("cos", "sin")
+    )
+    if operand.part == "cos":
         return cos
-    return sign * (sin if view.part == "sin" else np.arctan2(sin, cos))
+    return sign * (sin if operand.part == "sin" else np.arctan2(sin, cos))
 
 
-def _doubtful(meetings: Sequence[Meeting], batch: tuple[int, ...]) -> np.ndarray[Any, Any]:
+def _doubtful(solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> np.ndarray[Any, Any]:
     """Return for which paths of a batch a loop takes a closer look."""
-    holds = [condition for meeting in meetings for condition in meeting.conditions]
+    holds = [condition for solver in solvers for condition in solver.conditions]
     return np.broadcast_to(np.logical_not(reduce(np.logical_and, holds, np.True_)), batch)
 
 

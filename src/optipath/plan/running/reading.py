@@ -10,7 +10,7 @@ from optipath.errors import OptipathError, ParameterError, shown
 from optipath.plan.running.batch import sliced
 from optipath.values.angles import CosSin
 from optipath.values.arrays.shapes import joint_shape
-from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, Raw, part_of
+from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, InputKey, part_of
 from optipath.values.roundings import is_beyond
 
 if TYPE_CHECKING:
@@ -23,24 +23,24 @@ if TYPE_CHECKING:
 _PAIR = ("cos", "sin")
 
 
-class Given(NamedTuple):
+class ResolvedInputs(NamedTuple):
     """Numbers for a program.
 
     Attributes
     ----------
-    numbers : mapping of Raw to float or ndarray
+    numbers : mapping of InputKey to float or ndarray
         What is given; a bool or an array of them for whether an element is there.
     batch : tuple of int
         The shape that all arrays broadcast to, those known beforehand included.
-    before : Given, optional
+    before : ResolvedInputs, optional
         What this is a part of.
     where : tuple, optional
         The index of the part in it.
     """
 
-    numbers: Mapping[Raw, Any]
+    numbers: Mapping[InputKey, Any]
     batch: tuple[int, ...]
-    before: Given | None = None
+    before: ResolvedInputs | None = None
     where: tuple[Any, ...] = ()
 
     @property
@@ -54,34 +54,34 @@ class Given(NamedTuple):
             return array
         return sliced(self.before.cut(array), self.before.batch, self.where)
 
-    def part(self, where: tuple[Any, ...]) -> Given:
+    def part(self, where: tuple[Any, ...]) -> ResolvedInputs:
         """Return a part of what is given: an index for each axis, or a mask of the paths."""
         numbers = {
-            raw: _one_number(sliced(n, self.batch, where)) if isinstance(n, np.ndarray) else n
-            for raw, n in self.numbers.items()
+            key: _one_number(sliced(n, self.batch, where)) if isinstance(n, np.ndarray) else n
+            for key, n in self.numbers.items()
         }
-        return Given(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
+        return ResolvedInputs(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
 
     def within(self, limits: Mapping[str, tuple[float, float]]) -> bool:
         """Tell whether each single number is within the range of its parameter."""
         return all(
             isinstance(n, (np.ndarray, bool))
-            or raw.part in _PAIR
-            or (limits[raw.name][0] <= n <= limits[raw.name][1] and abs(n) < np.inf)
-            for raw, n in self.numbers.items()
+            or key.part in _PAIR
+            or (limits[key.name][0] <= n <= limits[key.name][1] and abs(n) < np.inf)
+            for key, n in self.numbers.items()
         )
 
     @property
     def is_single(self) -> bool:
         """Whether everything is one plain number."""
         return all(
-            (type(number) is float or number is True or number is False) and raw.part not in _PAIR
-            for raw, number in self.numbers.items()
+            (type(number) is float or number is True or number is False) and key.part not in _PAIR
+            for key, number in self.numbers.items()
         )
 
-    def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[Raw, str], ...]:
+    def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[InputKey, str], ...]:
         """Return in which form each number is given."""
-        return tuple((raw, _form(raw, number, dtype)) for raw, number in self.numbers.items())
+        return tuple((key, _form(key, number, dtype)) for key, number in self.numbers.items())
 
 
 class Sorter:
@@ -100,21 +100,23 @@ class Sorter:
     def __init__(self, program: Program, inputs: Inputs, dtype: np.dtype[Any]) -> None:
         self.inputs = inputs
         self._widest = np.result_type(dtype, np.float64)
-        found = dict.fromkeys(view.raw for view in program.leaves if not view.known)
-        self.raws = {name: [r for r in found if r.name == name] for name in inputs.open}
+        found = dict.fromkeys(
+            operand.input_key for operand in program.operands if not operand.known
+        )
+        self.keys = {name: [r for r in found if r.name == name] for name in inputs.open}
         # A formula checks the range of a number that it reads, and of no other.
         self._plain = {
             name
-            for name, raws in self.raws.items()
-            if not inputs.tails[name] and any(raw.part in ("value", "real") for raw in raws)
+            for name, keys in self.keys.items()
+            if not inputs.tails[name] and any(key.part in ("value", "real") for key in keys)
         }
         shows = {use.value.name: use.domain.shows_in_light for use in inputs.uses}
-        self._plain |= {name for name, raws in self.raws.items() if raws and shows[name]}
+        self._plain |= {name for name, keys in self.keys.items() if keys and shows[name]}
         self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
         self._angles -= {name for name, p in inputs.open.items() if p.optional}
         self._known = joint_shape(*inputs.shapes.values())
 
-    def sort(self, parameters: Mapping[str, Any]) -> Given:
+    def sort(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
         """Return the numbers that are given.
 
         Ranges of plain floats and arrays of floats are left to be checked by who uses them.
@@ -125,7 +127,7 @@ class Sorter:
             With every fault of what is given.
         """
         opened = self.inputs.open
-        numbers: dict[Raw, Any] = {}
+        numbers: dict[InputKey, Any] = {}
         shapes = [self._known]
         if parameters.keys() <= opened.keys():
             try:
@@ -137,7 +139,8 @@ class Sorter:
                     if type(value) is CosSin and name in self._angles:
                         shapes.append(value.shape)
                         numbers |= {
-                            Raw(name, part): self._number(getattr(value, part)) for part in _PAIR
+                            InputKey(name, part): self._number(getattr(value, part))
+                            for part in _PAIR
                         }
                         continue
                     if name in self._plain and self._is_plain(name, value):
@@ -147,21 +150,21 @@ class Sorter:
                     if type(real) is not float:
                         shape = np.shape(real)
                         shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
-                    for raw in self.raws[name]:
-                        numbers[raw] = self._number(self._part(raw, real, present))
-                return Given(numbers, joint_shape(*shapes))
+                    for key in self.keys[name]:
+                        numbers[key] = self._number(self._part(key, real, present))
+                return ResolvedInputs(numbers, joint_shape(*shapes))
             except (OptipathError, ArithmeticError, ValueError, TypeError) as fault:
                 self.inputs.resolve(parameters)  # Tells all faults.
                 raise ParameterError(*getattr(fault, "faults", [shown(fault)])) from None
         self.inputs.resolve(parameters)
         raise AssertionError("parameters that are unknown are refused")
 
-    def _part(self, raw: Raw, value: Any, present: Any) -> Any:
-        if raw.part == "present":
+    def _part(self, key: InputKey, value: Any, present: Any) -> Any:
+        if key.part == "present":
             return True if np.all(present) else present
         if type(value) is float:
-            return 0.0 if raw.part == "imag" else value
-        return part_of(value, raw.part, self.inputs.tails[raw.name])
+            return 0.0 if key.part == "imag" else value
+        return part_of(value, key.part, self.inputs.tails[key.name])
 
     def _number(self, value: Any) -> Any:
         """Return one number as a float or a bool, and arrays in a precision engines know."""
@@ -198,9 +201,9 @@ def _one_number(array: np.ndarray[Any, Any]) -> Any:
     return array if array.size != 1 or array.dtype.char == "g" else array.item()
 
 
-def _form(raw: Raw, number: Any, dtype: np.dtype[Any]) -> str:
+def _form(key: InputKey, number: Any, dtype: np.dtype[Any]) -> str:
     if isinstance(number, np.ndarray):
         return WIDE if number.dtype.itemsize > dtype.itemsize else MANY
-    if raw.part == "present":
+    if key.part == "present":
         return ONE if number else ABSENT
     return ZERO if number == 0.0 else ONE

@@ -11,10 +11,10 @@ from optipath.engines import compile_array_path, engine_for, jax_path
 from optipath.engines.formulas import lights_formula
 from optipath.errors import ParameterError
 from optipath.plan.running.batch import Layout
-from optipath.plan.running.batch_runner import Many, known_arrays
-from optipath.plan.running.interpreter import Stepwise, way_of
+from optipath.plan.running.batch_runner import BatchRunner, known_arrays
+from optipath.plan.running.interpreter import Interpreter, carrier_of
 from optipath.plan.running.pieces import pieces
-from optipath.plan.running.reading import Given, Sorter
+from optipath.plan.running.reading import ResolvedInputs, Sorter
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced, namespace
 from optipath.values.arrays.memory import CURE, enough_for
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
-    from optipath.kernels import Way
+    from optipath.kernels import Carrier
     from optipath.plan.running.batch_runner import Results
     from optipath.values.inputs import Inputs
-    from optipath.values.operands import Raw
+    from optipath.values.operands import InputKey
     from optipath.values.parameters import Resolved
 
     Array = np.ndarray[Any, Any]
@@ -42,7 +42,7 @@ MOST_LAYOUTS = 64
 """For how many kinds of batches a program is kept compiled; the oldest goes first."""
 
 
-class Manner(NamedTuple):
+class RunOptions(NamedTuple):
     """How programs are run, as `Composer` takes it."""
 
     method: str
@@ -61,9 +61,9 @@ class Runner:
         The steps.
     inputs : Inputs
         What may be given.
-    manner : Manner
+    options : RunOptions
         How they are run.
-    as_it_stands : bool
+    unreduced : bool
         Whether everything is done for each path.
 
     Attributes
@@ -75,17 +75,17 @@ class Runner:
     longest = 200
 
     def __init__(
-        self, program: Program, inputs: Inputs, manner: Manner, *, as_it_stands: bool = False
+        self, program: Program, inputs: Inputs, options: RunOptions, *, unreduced: bool = False
     ) -> None:
         self.program = program
         self.inputs = inputs
-        self.manner = manner
-        self.as_it_stands = as_it_stands
-        self.dtype = np.dtype(manner.dtype)
-        self.way = way_of(program, manner.composing)
+        self.options = options
+        self.unreduced = unreduced
+        self.dtype = np.dtype(options.dtype)
+        self.carrier = carrier_of(program, options.composing)
         self.sorter = Sorter(program, inputs, self.dtype)
-        self.stepwise = Stepwise(program, self.way, self.dtype)
-        self._many: dict[Any, Many] = {}
+        self.interpreter = Interpreter(program, self.carrier, self.dtype)
+        self._many: dict[Any, BatchRunner] = {}
 
     @cached_property
     def compilable(self) -> bool:
@@ -99,32 +99,32 @@ class Runner:
     def _length(self) -> int | None:
         """How many operations the formula of light has; None where it cannot be made."""
         try:
-            made = self.lights_formula(self.all_given_as(ONE), as_it_stands=self.as_it_stands)
+            made = self.lights_formula(self.all_given_as(ONE), unreduced=self.unreduced)
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
             return None
         return len(made.steps)
 
-    def all_given_as(self, form: str) -> dict[Raw, str]:
+    def all_given_as(self, form: str) -> dict[InputKey, str]:
         """Return one form for every number that is not known."""
-        return dict.fromkeys((v.raw for v in self.program.leaves if not v.known), form)
+        return dict.fromkeys((v.input_key for v in self.program.operands if not v.known), form)
 
     def lights_formula(
-        self, forms: Mapping[Raw, str], *, way: type[Way] | None = None, **options: Any
+        self, forms: Mapping[InputKey, str], *, carrier: type[Carrier] | None = None, **options: Any
     ) -> Formula:
         """Return the formula of the light at every end, as the function of that name does."""
         kind, limits = self.dtype.name, self.inputs.limits
         options = {"polynomials": True, **options}
-        return lights_formula(self.program, way or self.way, kind, forms, limits, **options)
+        return lights_formula(self.program, carrier or self.carrier, kind, forms, limits, **options)
 
     def engine_for(self, count: int) -> str:
         """Return the engine for a batch of so many paths."""
-        found = engine_for(self.manner.engine, count, compilable=self.compilable)
+        found = engine_for(self.options.engine, count, compilable=self.compilable)
         return "numpy" if found == "numba" and self.is_too_long else found
 
     @property
     def most_operations(self) -> int:
         """How many operations Numba is given in one piece; by name, as many as it can take."""
-        return 3000 if self.manner.engine == "numba" else 1500
+        return 3000 if self.options.engine == "numba" else 1500
 
     @property
     def is_too_long(self) -> bool:
@@ -134,12 +134,12 @@ class Runner:
     def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
         """Tell whether a run is asked of JAX: by name, or by what is given."""
         traced = self.has_traced or any(map(_is_of_jax, parameters.values()))
-        if traced and self.manner.engine not in ("auto", "jax"):
+        if traced and self.options.engine not in ("auto", "jax"):
             raise ParameterError(
                 f"values of JAX were given, but the plan was composed for engine "
-                f"'{self.manner.engine}'; compose with engine='jax' or 'auto'"
+                f"'{self.options.engine}'; compose with engine='jax' or 'auto'"
             )
-        return traced or self.manner.engine == "jax"
+        return traced or self.options.engine == "jax"
 
     def traces(self, resolved: Mapping[str, Resolved]) -> bool:
         """Tell whether JAX traces a value of the path, or one that is given."""
@@ -170,15 +170,15 @@ class Runner:
         engine: str,
         what: Any,
         formula: Callable[[Any, Any], Formula],
-        given: Given,
+        given: ResolvedInputs,
         parameters: Mapping[str, Any],
-        careful: Callable[[Given], Array],
+        fallback: Callable[[ResolvedInputs], Array],
         read: int,
     ) -> tuple[Results, bool]:
         """Return the results of a formula, and whether their exponents say anything."""
         forms = given.forms(self.dtype)
         known = {name: given.cut(array) for name, array in self.known_arrays.items()}
-        arrays = {str(raw): n for raw, n in given.numbers.items() if isinstance(n, np.ndarray)}
+        arrays = {str(key): n for key, n in given.numbers.items() if isinstance(n, np.ndarray)}
         layout = Layout(given.batch, arrays | known)
         key = engine, what, forms, layout.key
         many = self._many.get(key)
@@ -187,13 +187,13 @@ class Runner:
             if len(made.steps) > self.most_operations:
                 engine = "numpy"
             compiled = partial(compile_array_path, engine)
-            many = Many(
+            many = BatchRunner(
                 made,
                 compiled,
                 layout,
-                threads=self.manner.threads,
+                threads=self.options.threads,
                 read=read,
-                staged=not self.as_it_stands,
+                staged=not self.unreduced,
             )
             for oldest in list(self._many)[: max(0, len(self._many) - MOST_LAYOUTS + 1)]:
                 self._many.pop(oldest, None)
@@ -201,7 +201,7 @@ class Runner:
         if many.formula.unread or not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)
         found, failed = many.results(
-            given, layout, known, lambda: self.inputs.resolve(parameters), careful
+            given, layout, known, lambda: self.inputs.resolve(parameters), fallback
         )
         return found, failed or many.has_exponents
 
@@ -218,7 +218,7 @@ class Runner:
         each = self.dtype.itemsize * numbers * (2 if twice else 1)
         return enough_for(batch, each, cure, ParameterError)
 
-    def parts(self, given: Given) -> Iterator[Given]:
+    def parts(self, given: ResolvedInputs) -> Iterator[ResolvedInputs]:
         """Return what is given in parts that stay in the cache, step after step."""
         if given.paths <= CACHED:
             return iter([given])
@@ -242,7 +242,7 @@ class Runner:
         ParameterError
             Telling the cure.
         """
-        method = self.manner.method
+        method = self.options.method
         if not is_traced(numbers) and not np.all(np.isfinite(numbers)):
             raise ParameterError(
                 f"the light is not finite in {self.dtype} by method '{method}': a value is "
@@ -258,7 +258,7 @@ class Runner:
     @cached_property
     def jax(self) -> Any:
         """The program for JAX."""
-        return jax_path(self.program, self.way, self.dtype)
+        return jax_path(self.program, self.carrier, self.dtype)
 
     def refuse_traced(self, parameters: Mapping[str, Any], what: str) -> None:
         """Refuse values that are not known yet.
@@ -279,7 +279,7 @@ class Runner:
     @cached_property
     def has_traced(self) -> bool:
         """Whether a value of the path is one that JAX traces."""
-        return any(view.traced for view in self.program.leaves)
+        return any(operand.traced for operand in self.program.operands)
 
 
 def _is_of_jax(value: Any) -> bool:

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from optipath.engines.program.program import Program
-    from optipath.plan.running.interpreter import Stepwise
-    from optipath.plan.running.reading import Given
+    from optipath.plan.running.interpreter import Interpreter
+    from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
 
 Lights: TypeAlias = list[tuple[Any, ...]]
@@ -25,7 +25,7 @@ _SEVERAL, _SHORT = 3, 64
 """After how many runs a function is worth its while, and up to how many steps."""
 
 
-class Single:
+class ScalarRunner:
     """Runs a program on plain floats.
 
     Parameters
@@ -34,7 +34,7 @@ class Single:
         The steps.
     inputs : Inputs
         What may be given.
-    stepwise : Stepwise
+    interpreter : Interpreter
         Runs it until a function is made.
     compilable : callable
         Tells whether a function may be made.
@@ -44,18 +44,18 @@ class Single:
         self,
         program: Program,
         inputs: Inputs,
-        stepwise: Stepwise,
+        interpreter: Interpreter,
         compilable: Callable[[], bool],
     ) -> None:
         self.program = program
         self.inputs = inputs
-        self.stepwise = stepwise
+        self.interpreter = interpreter
         self.compilable = compilable
         self._paths: dict[Any, tuple[Any, list[int]]] = {}
         self._runs = 0
         self._usual: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
-    def usual(self, parameters: Mapping[str, Any]) -> Lights | None:
+    def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
         """Return what `lights` gives for plain floats beside defaults, without sorting them.
 
         None where no function has been made, or where it takes more care.
@@ -69,7 +69,7 @@ class Single:
         get = parameters.get
         return _called(path, [get(name, default) for name, default in order])
 
-    def lights(self, given: Given) -> Lights | None:
+    def lights(self, given: ResolvedInputs) -> Lights | None:
         """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
         numbers = list(given.numbers.values())
         # Which optional elements are there.
@@ -87,39 +87,39 @@ class Single:
         path, places = self._paths[key]
         return _called(path, [numbers[place] for place in places])
 
-    def _stepped(self, given: Given) -> Lights | None:
+    def _stepped(self, given: ResolvedInputs) -> Lights | None:
         if not given.within(self.inputs.limits):
             return None
-        return self.stepwise.single(given.numbers)
+        return self.interpreter.single(given.numbers)
 
-    def _made(self, given: Given) -> tuple[Any, list[int]]:
+    def _made(self, given: ResolvedInputs) -> tuple[Any, list[int]]:
         """Return the function, and the places of what it takes among what is given."""
-        absent = {raw.name for raw, number in given.numbers.items() if number is False}
-        forms = {raw: ABSENT if raw.name in absent else ONE for raw in given.numbers}
+        absent = {key.name for key, number in given.numbers.items() if number is False}
+        forms = {key: ABSENT if key.name in absent else ONE for key in given.numbers}
         limits = self.inputs.limits
         formula = lights_formula(
-            self.program, self.stepwise.way, "float64", forms, limits, polynomials=False
+            self.program, self.interpreter.carrier, "float64", forms, limits, polynomials=False
         )
-        places = {str(raw): place for place, raw in enumerate(given.numbers)}
+        places = {str(key): place for place, key in enumerate(given.numbers)}
         return compiled(formula), [places[s.operands[0]] for s in formula.inputs]
 
-    def _is_usual(self, given: Given) -> bool:
+    def _is_usual(self, given: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""
-        there = {raw.name: n for raw, n in given.numbers.items() if raw.part == "present"}
+        there = {key.name: n for key, n in given.numbers.items() if key.part == "present"}
         opened = self.inputs.open
         return all(n is (opened[name].default != WORD) for name, n in there.items())
 
-    def _unsorted(self, given: Given, path: Any, places: list[int]) -> Any:
-        raws = list(given.numbers)
-        optional = {raw.name for raw in raws if raw.part == "present"}
-        parts = Counter(raw.name for raw in raws if raw.part != "present")
+    def _unsorted(self, given: ResolvedInputs, path: Any, places: list[int]) -> Any:
+        keys = list(given.numbers)
+        optional = {key.name for key in keys if key.part == "present"}
+        parts = Counter(key.name for key in keys if key.part != "present")
         order = []
         for place in places:
-            default = self.inputs.open[raws[place].name].default
+            default = self.inputs.open[keys[place].name].default
             # One number may be given to several kernels, an index as its two parts.
-            if raws[place].part != "value" or type(default) not in (float, int, NoneType):
+            if keys[place].part != "value" or type(default) not in (float, int, NoneType):
                 return None
-            order.append((raws[place].name, default))
+            order.append((keys[place].name, default))
         asked = {name for name, _ in order}
         if any(p.default is None for name, p in self.inputs.open.items() if name not in asked):
             return None  # What nothing needs must be given all the same.

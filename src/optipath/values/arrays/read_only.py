@@ -16,7 +16,7 @@ from optipath.values.roundings import ENDLESS, doubles, within
 _SCALARS = (str, bytes, int, float, complex, NoneType)
 
 
-def frozen(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
+def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
     """Return a value that nobody can change: whatever is an array becomes a read-only copy.
 
     What is a read-only array of its own already stays what it is, and what is no array of

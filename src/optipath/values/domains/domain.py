@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.read_only import read_only
 from optipath.values.parameters import Parameter
 from optipath.values.roundings import as_doubles, doubles, rounding_of
 from optipath.values.units import USUAL_UNITS, format_quantity
@@ -120,7 +120,7 @@ class Domain:
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
-        return frozen(value, (self.minimum, self.maximum))
+        return read_only(value, (self.minimum, self.maximum))
 
     @property
     def interval(self) -> tuple[float, float]:

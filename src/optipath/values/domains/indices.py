@@ -11,7 +11,7 @@ import numpy.typing as npt
 from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.jax_values import namespace
-from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.domain import Domain
 from optipath.values.materials import Material
 
@@ -134,7 +134,7 @@ class IndicesDomain(Domain):
             entries = entries_of("", "indices", value)
         except ValueFault:
             return value  # For validation to name.
-        return tuple(_plain_index(frozen(index)) for index in entries)
+        return tuple(_plain_index(read_only(index)) for index in entries)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         """Return the numbers of each index, with what it may be."""

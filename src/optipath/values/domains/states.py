@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from optipath.errors import ValueFault
 from optipath.values.arrays.jax_values import namespace
-from optipath.values.arrays.read_only import frozen
+from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.domain import Domain
 from optipath.values.roundings import rounding_of
 
@@ -59,7 +59,7 @@ class StokesDomain(Domain):
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change, in the precision by which it is judged."""
-        return frozen(value, widened=False)
+        return read_only(value, widened=False)
 
     def allows(self, numbers: Any) -> Any:
         """Return which vectors of an array are allowed."""

@@ -81,14 +81,14 @@ ELEMENTS = {
 }
 
 
-class Raw(str):
+class InputKey(str):
     """What stands in a file as it is."""
 
     __slots__ = ()
 
 
 def written(value):
-    if isinstance(value, Raw):
+    if isinstance(value, InputKey):
         return value
     if isinstance(value, dict):
         return "{" + ",".join(f"{json.dumps(k)}={written(v)}" for k, v in value.items()) + "}"
@@ -107,7 +107,7 @@ def put(document, place, value):
     inside = changed
     for key in place[:-1]:
         inside = inside[key]
-    inside[place[-1]] = Raw(value)
+    inside[place[-1]] = InputKey(value)
     return changed
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.light.underflow import near_one, times_two_to
+from optipath.light.underflow import normalise_exponent, times_two_to
 from optipath.values.arrays.jax_values import check_known
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
     check_known("what a Mueller matrix is made of (by its coherency, or Lu and Chipman)", matrix)
     with np.errstate(over="ignore"):
         flat = np.asarray(matrix, np.float64).reshape(*matrix.shape[:-2], 16)
-    parts, power = near_one(np.where(_known(flat), flat, 0.0), 0)
+    parts, power = normalise_exponent(np.where(_known(flat), flat, 0.0), 0)
     return parts.reshape(matrix.shape), power
 
 
@@ -45,7 +45,7 @@ def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
     return np.where(_known(flat), found, np.nan).reshape(parts.shape)
 
 
-def precision(matrix: Any) -> float:
+def rounding_of(matrix: Any) -> float:
     """Return the spacing of a matrix's numbers at 1, or that of double precision if it is less.
 
     Examples
