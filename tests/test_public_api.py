@@ -30,7 +30,7 @@ def modules():
 
 
 def imports_of(file):
-    for node in ast.execute(ast.parse(file.read_text("utf-8"))):
+    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
         if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath."):
             yield node.module.split(".")[1]
 

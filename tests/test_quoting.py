@@ -90,9 +90,9 @@ def test_no_message_writes_a_value_by_repr():
     # What is written into code has to be exact; what is shown to people, short.
     code = {"numba_engine.py", "block_writer.py", "float_engine.py", "recorder.py", "units.py"}
     for file in Path(op.__file__).parent.rglob("*.py"):
-        parts = list(ast.execute(ast.parse(file.read_text("utf-8"))))
+        parts = list(ast.walk(ast.parse(file.read_text("utf-8"))))
         own = [f for f in parts if isinstance(f, ast.FunctionDef) and f.name == "__repr__"]
-        apart = {part for function in own for part in ast.execute(function)}
+        apart = {part for function in own for part in ast.walk(function)}
         for part in parts:
             if isinstance(part, ast.FormattedValue) and part.conversion == ord("r"):
                 known = isinstance(part.value, ast.Call) and not part.value.args
