@@ -31,7 +31,7 @@ def normalise_exponent(
 
     Examples
     --------
-    >>> near_one(np.array([6.0, 0.0, 0.0, 3.0]), 0)
+    >>> normalise_exponent(np.array([6.0, 0.0, 0.0, 3.0]), 0)
     (array([0.75 , 0.   , 0.   , 0.375]), array(3))
     """
     largest = np.max(np.where(np.isnan(parts), 0.0, np.abs(parts)), axis=-1)
@@ -59,7 +59,7 @@ def underflows(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.b
 
     Examples
     --------
-    >>> is_faint(np.array([1e-300, 1.0]))
+    >>> underflows(np.array([1e-300, 1.0]))
     array([ True, False])
     """
     return np.asarray(intensity < np.finfo(intensity.dtype).tiny * UNDERFLOW)

@@ -52,7 +52,7 @@ def brought_near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     Examples
     --------
     >>> from optipath.kernels import FLOAT
-    >>> near_one(FLOAT)(1.0, 6.0)
+    >>> brought_near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
     """
     frexp, ldexp, maximum, inside = xp.frexp, xp.ldexp, xp.maximum, from_within(xp)

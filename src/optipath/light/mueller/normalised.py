@@ -50,7 +50,7 @@ def rounding_of(matrix: Any) -> float:
 
     Examples
     --------
-    >>> precision(np.eye(4, dtype=np.float32)) == 2.0**-23
+    >>> rounding_of(np.eye(4, dtype=np.float32)) == 2.0**-23
     True
     """
     dtype = matrix.dtype if matrix.dtype.kind == "f" else np.dtype(np.float64)

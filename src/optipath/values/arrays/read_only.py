@@ -25,7 +25,7 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
 
     Examples
     --------
-    >>> frozen([1.0, 2.0]).flags.writeable
+    >>> read_only([1.0, 2.0]).flags.writeable
     False
     """
     if type(value) in _SCALARS or is_traced(value):
