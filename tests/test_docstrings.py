@@ -11,7 +11,6 @@ import optipath as op
 
 SOURCE = Path(op.__file__).parent
 LATER = {
-    "kernels",
     "values",
     "light",
     "elements",

@@ -43,6 +43,20 @@ class Boosts(NamedTuple):
 def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
     """Return the boosts with one more.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    boosts : Boosts
+        Those before.
+    t : float or array_like
+        The tangent hyperbolic of one more, within 0 .. 1.
+
+    Returns
+    -------
+    Boosts
+        All together.
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -55,6 +69,18 @@ def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
 
 def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
     """Return the least and the largest ratio of the true intensity to that of no polarisation.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    boosts : Boosts
+        What the light has been through, its source among them.
+
+    Returns
+    -------
+    least, largest : float or array_like
+        Bounds of the true intensity over the intensity without polarisation.
 
     Examples
     --------
@@ -87,6 +113,20 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
 
     As a share of the true intensity, or of that of the model, whichever is larger. What any
     model gives that drops components lies between the bounds, too.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    lower, upper : float or array_like
+        Bounds of the true intensity over that of the scalar model.
+    model : str
+        ``"scalar"``, or one that drops fewer components.
+
+    Returns
+    -------
+    float or array_like
+        The error as a share; infinite where the lower bound is 0.
 
     Examples
     --------

@@ -52,7 +52,7 @@ def brought_near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     Examples
     --------
     >>> from optipath.kernels import FLOAT
-    >>> near_one(FLOAT)(1.0, 6.0)
+    >>> brought_near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
     """
     frexp, ldexp, maximum, inside = xp.frexp, xp.ldexp, xp.maximum, from_within(xp)
@@ -67,8 +67,19 @@ def brought_near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
 def from_within(xp: Primitives, power: int = 1) -> Callable[[Any], Any]:
     """Make ``number -> number`` for one that is not negative; for slopes, one just above 0 for 0.
 
-    At grazing incidence, and without absorption, branches for exactly that have no slopes. How far
-    above is a power of ``xp.within``.
+    At grazing incidence, and without absorption, branches for exactly that have no slopes.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    power : int
+        How far above 0: ``xp.within`` to this power.
+
+    Returns
+    -------
+    callable
+        Of one number.
     """
     where, within = xp.where, xp.within**power
     if not within:
