@@ -12,7 +12,6 @@ import optipath as op
 SOURCE = Path(op.__file__).parent
 LATER = {
     "values",
-    "light",
     "elements",
     "engines",
     "plan",
@@ -93,7 +92,7 @@ def lacking(node, owner):
     if unsaid := [name for name in given if name not in said]:
         yield f"says nothing under Parameters of {', '.join(unsaid)}"
     returns = getattr(node, "returns", None)
-    gives = returns and ast.unparse(returns) not in {"None", "NoReturn", "Never"}
+    gives = returns and ast.unparse(returns) not in {"None", "NoReturn", "Iterator[None]"}
     if gives and not re.search(r"^(Returns|Yields)\n-+\n", docstring, re.M):
         yield "has no section Returns"
 
