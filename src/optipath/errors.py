@@ -176,6 +176,20 @@ def few_suggestions(most: int = 20) -> Iterator[None]:
 def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
     """Return the sentence for a word that is none of those there are; none for one that is.
 
+    Parameters
+    ----------
+    what : str
+        The kind of thing that the word names.
+    word : object
+        What was written.
+    known : collection of str
+        The words that there are.
+
+    Returns
+    -------
+    list of str
+        The sentence with its cure, or nothing.
+
     Examples
     --------
     >>> unknown("engine", "nunpy", ("numpy", "jax")), unknown("engine", "jax", ("numpy", "jax"))
@@ -188,6 +202,20 @@ def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
 
 def whole_number(what: str, number: object, least: int = 1) -> list[str]:
     """Return the sentence for what is no whole number, or too small; none for one that serves.
+
+    Parameters
+    ----------
+    what : str
+        What the number counts.
+    number : object
+        What was given; any integer type serves, but no bool.
+    least : int
+        The smallest that serves.
+
+    Returns
+    -------
+    list of str
+        The sentence, or nothing.
 
     Examples
     --------

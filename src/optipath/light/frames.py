@@ -82,7 +82,18 @@ class Frame:
         y: npt.NDArray[np.float64],
         z: npt.NDArray[np.float64],
     ) -> Frame:
-        """Return the frame of axes of one shape that are known to be right, unchecked."""
+        """Return the frame of axes of one shape that are known to be right, unchecked.
+
+        Parameters
+        ----------
+        x, y, z : ndarray, shape (..., 3)
+            The axes, which become read-only.
+
+        Returns
+        -------
+        Frame
+            Of these very arrays.
+        """
         frame = cls.__new__(cls)
         for name, axis in zip("xyz", (x, y, z), strict=True):
             axis.flags.writeable = False
@@ -98,6 +109,11 @@ class Frame:
         z, x : array_like, shape (..., 3)
             The direction of travel, of any length, and any vector not along it;
             x is made perpendicular to z.
+
+        Returns
+        -------
+        Frame
+            Of the shape that both broadcast to.
 
         Raises
         ------
@@ -205,6 +221,18 @@ class Frame:
 
 def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return vectors of three finite components.
+
+    Parameters
+    ----------
+    what : str
+        What a sentence calls them.
+    value : array_like, shape (..., 3)
+        The vectors.
+
+    Returns
+    -------
+    ndarray of float64
+        The same.
 
     Raises
     ------

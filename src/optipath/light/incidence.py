@@ -59,6 +59,11 @@ def plane_of_incidence(
         The frame that the light has: where light arrives along the normal, every plane is
         one of incidence, and its x is kept.
 
+    Returns
+    -------
+    PlaneOfIncidence
+        The frames there, and the cosine and sine of the angle of incidence.
+
     Raises
     ------
     FrameError

@@ -98,8 +98,19 @@ class Light:
     def of(cls, stokes: Any, frame: Frame | Callable[[], Frame], exponent: Any = 0) -> Light:
         """Return light out of what a plan has computed, which needs no check.
 
-        A tuple of four, floats or arrays, becomes one array when somebody asks for it, and a
-        function that returns the frame is called then.
+        Parameters
+        ----------
+        stokes : tuple or array_like
+            S0, S1, S2 and S3 each by itself, or an array of shape (..., 4).
+        frame : Frame or callable
+            The frame, or what returns it when somebody asks for it.
+        exponent : int or array_like, optional
+            Of the power of two times the Stokes vectors.
+
+        Returns
+        -------
+        Light
+            A tuple becomes one array when somebody asks for it.
         """
         if not isinstance(exponent, int) or exponent:
             light = cls(_stacked(stokes) if type(stokes) is tuple else stokes, None, exponent)

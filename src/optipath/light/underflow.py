@@ -12,7 +12,19 @@ UNDERFLOW = 2.0**60
 
 @np.errstate(under="ignore", over="ignore")
 def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any]:
-    """Return vectors, shape (..., n), times two to a power, shape (...).
+    """Return vectors times two to a power.
+
+    Parameters
+    ----------
+    parts : ndarray, shape (..., n)
+        The vectors.
+    power : int or ndarray, shape (...)
+        The exponent of each.
+
+    Returns
+    -------
+    ndarray, shape (..., n)
+        The products.
 
     Examples
     --------
@@ -25,9 +37,23 @@ def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any
 def normalise_exponent(
     parts: np.ndarray[Any, Any], exponent: Any
 ) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """Return vectors over a power of two, their largest parts near 1, and its exponent.
+    """Return the same vectors with their largest parts near 1, and the exponent for it.
 
     Nothing is rounded; NaN is not looked at.
+
+    Parameters
+    ----------
+    parts : ndarray, shape (..., n)
+        The vectors.
+    exponent : int or ndarray, shape (...)
+        Of the power of two times them.
+
+    Returns
+    -------
+    parts : ndarray, shape (..., n)
+        The largest part of each within 0.5 .. 1, or 0.
+    exponent : ndarray of int, shape (...)
+        Of the power of two times these.
 
     Examples
     --------
@@ -43,6 +69,20 @@ def folded(
     stokes: np.ndarray[Any, Any], exponent: Any
 ) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
     """Return the same light without an exponent wherever floats can hold it.
+
+    Parameters
+    ----------
+    stokes : ndarray, shape (..., 4)
+        Stokes vectors.
+    exponent : int or ndarray, shape (...)
+        Of the power of two times them.
+
+    Returns
+    -------
+    stokes : ndarray, shape (..., 4)
+        The vectors.
+    exponent : ndarray of int, shape (...)
+        0 but for light that would underflow.
 
     Examples
     --------

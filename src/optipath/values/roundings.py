@@ -22,6 +22,18 @@ def doubles(array: Array, limits: tuple[float, float] = ENDLESS) -> Array:
     What is beyond a limit by its rounding becomes the limit, as `within` has it; so does what is
     beyond a right angle, which limits angles of incidence.
 
+    Parameters
+    ----------
+    array : ndarray
+        Of any dtype.
+    limits : tuple of float, optional
+        The least and the largest number.
+
+    Returns
+    -------
+    ndarray
+        Of float64 or complex128, of more precision, or of what are no numbers.
+
     Examples
     --------
     >>> float(doubles(np.array(np.float32(np.pi / 2.0)))) == np.pi / 2.0
@@ -53,6 +65,18 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
 
     Where there are such, they are doubles at least.
 
+    Parameters
+    ----------
+    array : ndarray
+        Of any dtype.
+    limits : tuple of float
+        The least and the largest number.
+
+    Returns
+    -------
+    ndarray
+        The array itself where nothing is beyond.
+
     Examples
     --------
     >>> float(within(np.array(np.float32(0.1)), (0.0, 0.1)))
@@ -70,6 +94,18 @@ def within(array: Array, limits: tuple[float, float]) -> Array:
 def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
     """Tell whether numbers of less precision than double are beyond a limit, rounded to that.
 
+    Parameters
+    ----------
+    array : ndarray
+        Of any dtype.
+    limits : tuple of float
+        The least and the largest number.
+
+    Returns
+    -------
+    bool
+        Whether any of them is; False for doubles.
+
     Examples
     --------
     >>> is_beyond(np.float32([0.5, np.pi / 2.0]), (0.0, np.pi / 2.0))
@@ -86,6 +122,18 @@ def is_beyond(array: Array, limits: tuple[float, float]) -> bool:
 
 def traced_within(numbers: Any, limits: tuple[float, float]) -> Any:
     """Return numbers that JAX traces as `within` does, with their slopes.
+
+    Parameters
+    ----------
+    numbers : jax.Array
+        The numbers.
+    limits : tuple of float
+        The least and the largest number.
+
+    Returns
+    -------
+    jax.Array
+        Of doubles where a limit has been rounded.
 
     Examples
     --------
@@ -124,6 +172,20 @@ def _rounded(kind: Any, limits: tuple[float, float]) -> tuple[float, float]:
 
 def with_limits(array: Array, kind: Any, limits: tuple[float, float]) -> Array:
     """Return doubles; those beyond a limit by its rounding to a precision, as the limit.
+
+    Parameters
+    ----------
+    array : ndarray of float64
+        The numbers.
+    kind : type
+        The precision in which they were given.
+    limits : tuple of float
+        The least and the largest number.
+
+    Returns
+    -------
+    ndarray of float64
+        The array itself where no limit is rounded outwards.
 
     Examples
     --------

@@ -16,6 +16,13 @@ def write_file(file: Path, content: bytes) -> None:
     A new file has the permissions that the umask leaves, one that is replaced keeps its own. A
     link is followed; what is no ordinary file, such as ``/dev/stdout``, is written to directly.
 
+    Parameters
+    ----------
+    file : Path
+        Where it is to be.
+    content : bytes
+        All that is in it.
+
     Raises
     ------
     OSError

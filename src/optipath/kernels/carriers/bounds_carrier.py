@@ -14,6 +14,8 @@ import math
 from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.kernels.carriers.carrier import Carrier
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -41,6 +43,20 @@ class Boosts(NamedTuple):
 def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
     """Return the boosts with one more.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    boosts : Boosts
+        Those before.
+    t : float or array_like
+        The tangent hyperbolic of one more, within 0 .. 1.
+
+    Returns
+    -------
+    Boosts
+        All together.
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -53,6 +69,18 @@ def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
 
 def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
     """Return the least and the largest ratio of the true intensity to that of no polarisation.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    boosts : Boosts
+        What the light has been through, its source among them.
+
+    Returns
+    -------
+    least, largest : float or array_like
+        Bounds of the true intensity over the intensity without polarisation.
 
     Examples
     --------
@@ -85,6 +113,20 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
 
     As a share of the true intensity, or of that of the model, whichever is larger. What any
     model gives that drops components lies between the bounds, too.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    lower, upper : float or array_like
+        Bounds of the true intensity over that of the scalar model.
+    model : str
+        ``"scalar"``, or one that drops fewer components.
+
+    Returns
+    -------
+    float or array_like
+        The error as a share; infinite where the lower bound is 0.
 
     Examples
     --------
@@ -120,10 +162,12 @@ class Bounded(NamedTuple):
     excess: Any = 0.0
 
 
-class BoundsCarrier:
+class BoundsCarrier(Carrier):
     """Carries intensities without polarisation, with bounds of what polarisation does.
 
-    They hold for physical matrices, which `is_physical` tells.
+    What is read is the intensity without polarisation, the least and the largest ratio of the true
+    one to it, and the largest degree of polarisation. The bounds hold for
+    physical matrices, which `is_physical` tells.
 
     Parameters
     ----------
@@ -142,11 +186,10 @@ class BoundsCarrier:
     """
 
     def __init__(self, xp: Primitives, slack: Any = 2.0**-44) -> None:
-        self.xp = xp
+        super().__init__(xp)
         self.slack = slack
 
     def emit(self, stokes: Components, count: int = 1) -> Bounded:
-        """Return the state of emitted light."""
         del count
         s0, *rest = stokes
         dop = self._ratio(rest, s0)
@@ -156,7 +199,6 @@ class BoundsCarrier:
     def act(
         self, structure: Structure, numbers: Numbers, state: Bounded, count: int = 1
     ) -> Bounded:
-        """Return the state behind an element."""
         del count
         rows = structure.rows(self.xp, numbers)
         mean, *first = rows[0]
@@ -177,7 +219,7 @@ class BoundsCarrier:
         return Bounded(mean * total, lower * least, upper * most, Boosts(dop), excess)
 
     def add(self, first: Bounded, second: Bounded) -> Bounded:
-        """Return the state of two lights together, of which the more polarised is counted."""
+        # Of the degrees of polarisation the larger one is counted.
         xp, sums, dop = self.xp, [0.0, 0.0, 0.0], []
         for light in (first, second):
             least, most = ratio_bounds(xp, light.boosts)
@@ -191,7 +233,6 @@ class BoundsCarrier:
         return Bounded(total, lower, upper, Boosts(xp.maximum(*dop)), excess)
 
     def read(self, state: Bounded, count: int = 1) -> tuple[Components, Any]:
-        """Return the intensity without polarisation, the bounds, and that of the DoP."""
         del count
         least, most = ratio_bounds(self.xp, state.boosts)
         # Light (1, d, 0, 0) is d times (1, 1, 0, 0) less d - 1 of unpolarised light.

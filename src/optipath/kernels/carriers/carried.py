@@ -29,6 +29,20 @@ _SEVERAL, _MANY = 64.0, 1024.0
 def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
     """Return Stokes components as they are carried, or the first `count` of them.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    stokes : tuple
+        (S0, S1, S2, S3).
+    count : int
+        How many components are carried, 1 to 4.
+
+    Returns
+    -------
+    tuple
+        The first components of (weak, S1, S2, S3); of one, half of S0.
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -56,6 +70,20 @@ def all_four(carried: Carried) -> tuple[Any, Any, Any, Any]:
 
 def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
     """Return the first `count` components of carried light.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    carried : tuple
+        The first components of (weak, S1, S2, S3).
+    count : int
+        How many are kept, 1 to 4.
+
+    Returns
+    -------
+    tuple
+        No more than there were.
 
     Examples
     --------
@@ -89,6 +117,20 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 
     Matrices of one's own may make light that cannot be; its negative intensities stay.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    weak : float or array_like
+        The intensity.
+    size : float or array_like
+        What it may have been rounded with, not negative.
+
+    Returns
+    -------
+    float or array_like
+        The intensity, or 0.
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -100,6 +142,20 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 
 def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
     """Return a number, 0 where it is no more than the roundings of a size.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    number : float or array_like
+        The number, of any sign.
+    size : float or array_like
+        What it may have been rounded with, not negative.
+
+    Returns
+    -------
+    float or array_like
+        The number, or 0.
 
     Examples
     --------
@@ -126,6 +182,18 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 
     Matrices of one's own may make light that cannot be; it stays as it is.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    carried : tuple
+        The first components of (weak, S1, S2, S3).
+
+    Returns
+    -------
+    tuple
+        As many components.
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -149,6 +217,18 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 def stokes_of(xp: Primitives, carried: Carried) -> Components:
     """Return the Stokes components of carried light; those that are left out are 0.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    carried : tuple
+        The first components of (weak, S1, S2, S3).
+
+    Returns
+    -------
+    tuple
+        (S0, S1, S2, S3).
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -160,7 +240,20 @@ def stokes_of(xp: Primitives, carried: Carried) -> Components:
 
 
 def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
-    """Return the intensities along x and along y."""
+    """Return the intensities along x and along y.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    carried : tuple
+        The first components of (weak, S1, S2, S3).
+
+    Returns
+    -------
+    x, y : float or array_like
+        The intensities; half of S0 each where nothing else is carried.
+    """
     if len(carried) == 1:
         return carried[0], carried[0]
     weak, s1 = carried[:2]
@@ -169,6 +262,18 @@ def along_axes(xp: Primitives, carried: Carried) -> tuple[Any, Any]:
 
 def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
     """Return two lights together, incoherently.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    first, second : tuple
+        Carried lights, of as many components or not.
+
+    Returns
+    -------
+    tuple
+        As many components as the longer one has.
 
     Examples
     --------

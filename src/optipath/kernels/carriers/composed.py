@@ -53,6 +53,20 @@ def composed(family: KernelFamily, inner: Factory, takes: int) -> KernelFamily:
 
     The cheaper kernels of each come along; the arguments that they are about keep their
     places, since they stand before those.
+
+    Parameters
+    ----------
+    family : KernelFamily
+        The kernels.
+    inner : callable
+        The factory that makes their last arguments.
+    takes : int
+        How many arguments `inner` takes, which come last.
+
+    Returns
+    -------
+    KernelFamily
+        The same methods.
     """
     methods = {name: _composed(kernel, inner, takes) for name, kernel in family.methods.items()}
     return KernelFamily(family.name, methods)

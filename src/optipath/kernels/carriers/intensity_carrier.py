@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.powers_actions import Intensities, along_x_and_y, in_all
 
 if TYPE_CHECKING:
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Primitives
 
 
-class IntensityCarrier:
+class IntensityCarrier(Carrier):
     """Carries intensities over one denominator, which is divided by at the very end.
 
     Parameters
@@ -32,11 +33,10 @@ class IntensityCarrier:
     """
 
     def __init__(self, xp: Primitives, least: float = 0.0) -> None:
-        self.xp = xp
+        super().__init__(xp)
         self.least = least
 
     def emit(self, stokes: Components, count: int = 2) -> Intensities:
-        """Return the state of emitted light: in all, or along x and y."""
         s0, s1 = stokes[:2]
         if count == 1:
             return s0, 1.0
@@ -45,11 +45,9 @@ class IntensityCarrier:
     def act(
         self, structure: Structure, numbers: Numbers, state: Intensities, count: int = 2
     ) -> Intensities:
-        """Return the state behind an element."""
         return structure.powers_for(self.xp)(numbers, state, count)
 
     def add(self, first: Intensities, second: Intensities) -> Intensities:
-        """Return the state of two lights together, over the product of what they stand over."""
         if len(first) == len(second) == 2:
             return first[0] * second[1] + second[0] * first[1], first[1] * second[1]
         x1, y1, over1 = along_x_and_y(first)
@@ -57,7 +55,6 @@ class IntensityCarrier:
         return x1 * over2 + x2 * over1, y1 * over2 + y2 * over1, over1 * over2
 
     def read(self, state: Intensities, count: int = 1) -> tuple[Components, Any]:
-        """Return the intensity, and the exponent of the power of two times it."""
         del count
         total, over = in_all(state)
         kept = (total >= self.least) & (over >= self.least)

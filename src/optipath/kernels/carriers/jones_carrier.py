@@ -17,6 +17,7 @@ from optipath.kernels.carriers.carried import (
     carry,
     stokes_of,
 )
+from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.jones_actions import Column, Columns
 from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 
@@ -28,7 +29,7 @@ JonesState: TypeAlias = tuple[Columns, Any]
 """The fields are the first times two to the power of the second."""
 
 
-class JonesCarrier:
+class JonesCarrier(Carrier):
     """Carries light as two Jones columns, with an integer exponent.
 
     Examples
@@ -42,24 +43,21 @@ class JonesCarrier:
     """
 
     def __init__(self, xp: Primitives) -> None:
-        self.xp = xp
+        super().__init__(xp)
         self._incoherent = ScaledCarrier(xp)
 
     def emit(self, stokes: Components, count: int = 4) -> JonesState:
-        """Return the columns of a light: the Cholesky factor of its coherency matrix."""
         del count  # A column is carried whole.
         return self._settled(_columns(self.xp, carry(self.xp, stokes)), 0)
 
     def act(
         self, structure: Structure, numbers: Numbers, state: JonesState, count: int = 4
     ) -> JonesState:
-        """Return the state behind an element."""
         del count
         columns, exponent = state
         return self._settled(structure.jones_for(self.xp)(numbers, columns), exponent)
 
     def add(self, first: JonesState, second: JonesState) -> JonesState:
-        """Return the state of two lights together, incoherently."""
         carried, exponent = self._incoherent.add(self._carried(first), self._carried(second))
         # Fields have half the exponent of intensities, which is made even.
         odd = exponent % 2
@@ -67,7 +65,6 @@ class JonesCarrier:
         return self._settled(_columns(self.xp, carried), (exponent - odd) // 2)
 
     def read(self, state: JonesState, count: int = 4) -> tuple[Components, Any]:
-        """Return the Stokes components, and the exponent of the power of two times them."""
         del count
         carried, exponent = self._carried(state)
         return stokes_of(self.xp, carried), exponent
@@ -93,6 +90,7 @@ def _pure(column: Column) -> tuple[Any, ...]:
 
 
 def _columns(xp: Primitives, carried: Carried) -> Columns:
+    """Return the columns of a light: the Cholesky factor of its coherency matrix."""
     sqrt, where = xp.sqrt, xp.where
     x, y = along_axes(xp, carried)
     _, _, s2, s3 = carried

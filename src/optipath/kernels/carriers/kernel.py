@@ -58,7 +58,22 @@ class Kernel:
     def specialised(
         self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]
     ) -> tuple[Kernel, tuple[Any, ...]]:
-        """Return the cheapest kernel for these arguments, and those that it takes."""
+        """Return the cheapest kernel for these arguments, and those that it takes.
+
+        Parameters
+        ----------
+        arguments : sequence
+            What the kernel would be given.
+        vanishes : callable
+            Tells of an argument whether it is 0 for every path.
+
+        Returns
+        -------
+        kernel : Kernel
+            This one, or a cheaper one.
+        arguments : tuple
+            Those that it takes.
+        """
         if self.without is None or not vanishes(arguments[self.without[0]]):
             return self, tuple(arguments)
         position, cheaper = self.without
@@ -67,7 +82,20 @@ class Kernel:
     def never_less(
         self, arguments: Sequence[Any], ranges: Callable[[Any], tuple[float, float]]
     ) -> Kernel:
-        """Return the cheapest kernel for the ranges that the arguments are known to be in."""
+        """Return the cheapest kernel for the ranges that the arguments are known to be in.
+
+        Parameters
+        ----------
+        arguments : sequence
+            What the kernel would be given.
+        ranges : callable
+            Gives the least and the largest value that an argument may have.
+
+        Returns
+        -------
+        Kernel
+            This one, or a cheaper one of the same arguments.
+        """
         if self.denser is None:
             return self
         larger, smaller, cheaper = self.denser

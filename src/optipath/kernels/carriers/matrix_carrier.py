@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.carriers.carried import products
+from optipath.kernels.carriers.carrier import Carrier
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -12,10 +13,9 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.parted import Parts, SolvedLoop
     from optipath.kernels.carriers.structures import Numbers, Structure
-    from optipath.kernels.numbers.primitives import Primitives
 
 
-class MatrixCarrier:
+class MatrixCarrier(Carrier):
     """Carries columns of Mueller matrices: every element is its matrix, and nothing else.
 
     Examples
@@ -26,18 +26,13 @@ class MatrixCarrier:
     (0.125, 0.375, 0.0, 0.0)
     """
 
-    def __init__(self, xp: Primitives) -> None:
-        self.xp = xp
-
     def emit(self, stokes: Components, count: int = 4) -> Components:
-        """Return the state of what is emitted; all four components, whatever is asked for."""
-        del count
+        del count  # All four, whatever is asked for.
         return stokes
 
     def act(
         self, structure: Structure, numbers: Numbers, state: Components, count: int = 4
     ) -> Components:
-        """Return the state behind an element."""
         del count
         rows = structure.rows(self.xp, numbers)
         # Entries that a shape of matrix never has are plain zeros.
@@ -45,17 +40,14 @@ class MatrixCarrier:
         return first, second, third, fourth
 
     def add(self, first: Components, second: Components) -> Components:
-        """Return the state of two together."""
         s0, s1, s2, s3 = (one + other for one, other in zip(first, second, strict=True))
         return s0, s1, s2, s3
 
     def meet(self, solver: SolvedLoop, arriving: Mapping[int, Components]) -> dict[int, Components]:
-        """Return the states at the junctions of a loop, for those that arrive at some."""
         parts = {junction: _parts(s, solver.count(junction)) for junction, s in arriving.items()}
         return {junction: _whole(found) for junction, found in solver.lights(parts).items()}
 
     def read(self, state: Components, count: int = 4) -> tuple[Components, Any]:
-        """Return the components, and the exponent of the power of two times them."""
         del count
         return state, 0
 

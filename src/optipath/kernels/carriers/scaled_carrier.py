@@ -14,6 +14,7 @@ from optipath.kernels.carriers.carried import (
     leaving,
     stokes_of,
 )
+from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.parted import light_of, parts_of
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ ScaledState: TypeAlias = tuple[Carried, Any]
 """The light is the first times two to the power of the second."""
 
 
-class ScaledCarrier:
+class ScaledCarrier(Carrier):
     """Carries light along long paths.
 
     After every element the light is brought near 1 and its power of two is kept as an
@@ -49,22 +50,16 @@ class ScaledCarrier:
     -3987
     """
 
-    def __init__(self, xp: Primitives) -> None:
-        self.xp = xp
-
     def emit(self, stokes: Components, count: int = 4) -> ScaledState:
-        """Return the state of emitted light, the first components alone."""
         return self._settled(carry(self.xp, stokes, count), 0)
 
     def act(
         self, structure: Structure, numbers: Numbers, state: ScaledState, count: int = 4
     ) -> ScaledState:
-        """Return the state behind an element, the first components alone."""
         carried, exponent = state
         return self._settled(structure.made_for(self.xp)(numbers, carried, count), exponent)
 
     def add(self, first: ScaledState, second: ScaledState) -> ScaledState:
-        """Return the state of two lights together, incoherently."""
         (light, exponent), (other, of_other) = first, second
         # Dark light has no exponent of its own.
         exponent = self.xp.where(_size(self.xp, light) > 0.0, exponent, of_other)
@@ -77,7 +72,6 @@ class ScaledCarrier:
     def meet(
         self, solver: SolvedLoop, arriving: Mapping[int, ScaledState]
     ) -> dict[int, ScaledState]:
-        """Return the states at the junctions of a loop, for those that arrive at some."""
         most = reduce(self.xp.maximum, (self._exponent(state) for state in arriving.values()))
         most = self.xp.where(most > _DARK, most, 0)
         parts = {}
@@ -85,9 +79,7 @@ class ScaledCarrier:
             light = _times_two_to(self.xp, carried, exponent - most)
             parts[junction] = parts_of(self.xp, light, solver.count(junction))
         lights = solver.lights(parts).items()
-        return {
-            junction: self._settled(light_of(self.xp, found), most) for junction, found in lights
-        }
+        return {k: self._settled(light_of(self.xp, found), most) for k, found in lights}
 
     def _exponent(self, state: ScaledState) -> Any:
         """Return the exponent of light, below all others where it is dark."""
@@ -95,7 +87,6 @@ class ScaledCarrier:
         return self.xp.where(_size(self.xp, carried) > 0.0, exponent, _DARK)
 
     def read(self, state: ScaledState, count: int = 4) -> tuple[Components, Any]:
-        """Return the first components, and the exponent of the power of two times them."""
         carried, exponent = state
         return stokes_of(self.xp, leaving(self.xp, carried, count)), exponent
 

@@ -97,7 +97,20 @@ class Structure:
 
 
 def turn_linear(numbers: Numbers, s1: Any, s2: Any) -> tuple[Any, Any]:
-    """Return (S1, S2) in a frame turned by a, from (cos 2a, sin 2a)."""
+    """Return (S1, S2) in a frame turned by a, from (cos 2a, sin 2a).
+
+    Parameters
+    ----------
+    numbers : sequence
+        (cos 2a, sin 2a).
+    s1, s2 : float or array_like
+        S1 and S2 in the frame before.
+
+    Returns
+    -------
+    tuple
+        S1 and S2 in the turned frame.
+    """
     c, s = numbers
     return c * s1 + s * s2, c * s2 - s * s1
 

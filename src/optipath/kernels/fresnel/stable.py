@@ -122,7 +122,16 @@ def front(at: Boundary) -> Any:
 class Slant(NamedTuple):
     """How r_p differs from r_s: by z and p g, all of it divided by n1.
 
-    `z2` and `g2` are the squares of z = n1 sin^2 and of c|g|, and `q` is |z + p g|^2.
+    Attributes
+    ----------
+    z : float
+        n1 sin^2.
+    ca, cb : float
+        The parts of c g, g being the wave behind the boundary.
+    z2, g2 : float
+        The squares of z and of c|g|.
+    q : float
+        |z + c g|^2.
     """
 
     z: Any
@@ -134,7 +143,7 @@ class Slant(NamedTuple):
 
     @property
     def less(self) -> Any:
-        """|z - p g|^2, the square of which r_p / r_s has the root over q."""
+        """|z - c g|^2, which over q is |r_p / r_s|^2."""
         return (self.z - self.ca) * (self.z - self.ca) + self.cb * self.cb
 
 

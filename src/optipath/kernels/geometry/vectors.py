@@ -13,22 +13,67 @@ Vector: TypeAlias = tuple[Any, Any, Any]
 
 
 def plus(a: Vector, b: Vector) -> Vector:
-    """Return a + b."""
+    """Return a + b.
+
+    Parameters
+    ----------
+    a, b : tuple
+        Three components each.
+
+    Returns
+    -------
+    tuple
+        Three components.
+    """
     return a[0] + b[0], a[1] + b[1], a[2] + b[2]
 
 
 def minus(a: Vector, b: Vector) -> Vector:
-    """Return a - b."""
+    """Return a - b.
+
+    Parameters
+    ----------
+    a, b : tuple
+        Three components each.
+
+    Returns
+    -------
+    tuple
+        Three components.
+    """
     return a[0] - b[0], a[1] - b[1], a[2] - b[2]
 
 
 def times(number: Any, a: Vector) -> Vector:
-    """Return a number times a vector."""
+    """Return a number times a vector.
+
+    Parameters
+    ----------
+    number : float or array_like
+        The factor.
+    a : tuple
+        Three components.
+
+    Returns
+    -------
+    tuple
+        Three components.
+    """
     return number * a[0], number * a[1], number * a[2]
 
 
 def dot(a: Vector, b: Vector) -> Any:
     """Return a . b.
+
+    Parameters
+    ----------
+    a, b : tuple
+        Three components each.
+
+    Returns
+    -------
+    float or array_like
+        The scalar product.
 
     Examples
     --------
@@ -40,6 +85,16 @@ def dot(a: Vector, b: Vector) -> Any:
 
 def cross(a: Vector, b: Vector) -> Vector:
     """Return a cross b.
+
+    Parameters
+    ----------
+    a, b : tuple
+        Three components each.
+
+    Returns
+    -------
+    tuple
+        Three components.
 
     Examples
     --------

@@ -44,7 +44,20 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
 
 
 def without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Make a sine or cosine that is 0 where the angle cannot tell it from 0."""
+    """Make a sine or cosine that is 0 where the angle cannot tell it from 0.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    function : callable
+        ``xp.sin`` or ``xp.cos``, or what makes one of the two 0.
+
+    Returns
+    -------
+    callable
+        ``angle -> value``, for angles in radians.
+    """
     where, below_rounding, fixed = xp.where, xp.below_rounding, xp.fixed
 
     def rounded(angle: Any) -> Any:

@@ -26,6 +26,15 @@ class DoubleDouble:
     It takes the place of a float in a kernel. Two that are the same to all digits that they
     have are equal.
 
+    Attributes
+    ----------
+    xp : Primitives
+        What it is computed with.
+    high : float or array_like
+        The number, rounded.
+    low : float or array_like
+        What is left of it.
+
     Examples
     --------
     >>> from optipath.kernels import FLOAT
@@ -43,7 +52,20 @@ class DoubleDouble:
 
     @classmethod
     def nearest(cls, xp: Primitives, number: Fraction) -> DoubleDouble:
-        """Return the number nearest to a fraction."""
+        """Return the number nearest to a fraction.
+
+        Parameters
+        ----------
+        xp : Primitives
+            What it is computed with.
+        number : Fraction
+            What is rounded.
+
+        Returns
+        -------
+        DoubleDouble
+            To twice the digits of a double.
+        """
         high = float(number)
         return cls(xp, high, float(number - type(number)(high)))
 

@@ -96,7 +96,18 @@ def exponential(number: DoubleDouble) -> DoubleDouble:
 
 
 def angle(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble:
-    """Return the angle of a point, by one step from where floats have it."""
+    """Return the angle of a point, by one step from where floats have it.
+
+    Parameters
+    ----------
+    y, x : DoubleDouble
+        The point; not both 0.
+
+    Returns
+    -------
+    DoubleDouble
+        The angle from x to y in radians, in -pi .. pi.
+    """
     near = DoubleDouble(y.xp, np.arctan2(y.high, x.high))
     s, c = sine(near), cosine(near)
     along = x * c + y * s

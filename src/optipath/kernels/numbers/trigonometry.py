@@ -89,6 +89,18 @@ def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
 
     It is 0 where the angle cannot tell itself from a multiple of a right one.
 
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    digits : Digits
+        What sines of the precision are made of.
+
+    Returns
+    -------
+    callable
+        Of one angle, at most `digits.most` in size.
+
     Examples
     --------
     >>> import math
@@ -104,6 +116,18 @@ def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
     """Make ``angle -> left`` for angles within 0 .. pi/2: the angle, or what pi/2 is more than it.
 
     It is 0 where the angle cannot tell itself from a right one.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    digits : Digits
+        What sines of the precision are made of.
+
+    Returns
+    -------
+    callable
+        Of one angle.
 
     Examples
     --------
@@ -127,6 +151,18 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     """Make ``(angle, [left]) -> (sin, cos)`` of an angle of at most `digits.most` in size.
 
     Of an angle that has been given in more digits, `from_axes` in its own gives what is left.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    digits : Digits
+        What sines of the precision are made of.
+
+    Returns
+    -------
+    callable
+        Of an angle, and what is left of it.
 
     Examples
     --------
@@ -155,6 +191,18 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 
     The cosine is 0 where the angle cannot tell itself from a right one. Of an angle that has
     been given in more digits, `from_nearer_axis` in its own gives what is left.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    digits : Digits
+        What sines of the precision are made of.
+
+    Returns
+    -------
+    callable
+        Of an angle, and what is left of it.
 
     Examples
     --------

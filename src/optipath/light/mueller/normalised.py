@@ -38,7 +38,22 @@ def scaled(matrix: Any) -> tuple[Array, Array]:
 
 
 def unscaled(matrix: Any, parts: Array, power: Any) -> Array:
-    """Return what was found for scaled matrices, shape (..., 4, n), in their own scale; or NaN."""
+    """Return what was found for scaled matrices in the matrices' own scale.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., 4, 4)
+        What was given to `scaled`.
+    parts : ndarray, shape (..., 4, n)
+        What was found for the scaled matrices.
+    power : ndarray of int, shape (...)
+        The exponent that `scaled` returned.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, n)
+        NaN where an entry of the matrix is not known.
+    """
     *batch, rows, columns = parts.shape
     found = times_two_to(parts.reshape(*batch, rows * columns), power)
     flat = np.asarray(matrix).reshape(*matrix.shape[:-2], 16)

@@ -22,8 +22,23 @@ if TYPE_CHECKING:
 def jones_parts(unit: Array, tolerance: Array) -> tuple[Array, Array, Array]:
     """Return which matrices over their M00 are pure, their sqrt(1 - D^2), and their rotations.
 
-    Of shapes (..., 1), (..., 1) and (..., 3, 3). What is pure within the tolerance, shape
-    (..., 1), has but one eigenvalue in its coherency.
+    What is pure has but one eigenvalue in its coherency.
+
+    Parameters
+    ----------
+    unit : ndarray, shape (..., 4, 4)
+        Mueller matrices over their M00.
+    tolerance : ndarray, shape (..., 1)
+        How far entries of the coherency may be from those of one eigenvalue.
+
+    Returns
+    -------
+    pure : ndarray of bool, shape (..., 1)
+        Which they are.
+    root : ndarray, shape (..., 1)
+        sqrt(1 - D^2) of each, D its diattenuation.
+    rotation : ndarray, shape (..., 3, 3)
+        How each turns (S1, S2, S3).
 
     Examples
     --------

@@ -43,6 +43,11 @@ def array_of(
     limits : tuple of float, optional
         The least and the largest number allowed.
 
+    Returns
+    -------
+    ndarray
+        Of float64, or more precision, or of what are no numbers.
+
     Raises
     ------
     OptipathError
@@ -67,6 +72,11 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
         A number, an array, a list of either, or whatever else NumPy makes an array of.
     error : type, optional
         What is raised.
+
+    Returns
+    -------
+    ndarray
+        Of any dtype; words among others are objects.
 
     Raises
     ------
@@ -112,6 +122,11 @@ def entries_of(
         As `as_given` takes them.
     each : str
         What the entries are.
+
+    Returns
+    -------
+    tuple
+        The entries, as they are.
 
     Raises
     ------

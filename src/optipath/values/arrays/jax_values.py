@@ -49,10 +49,17 @@ def known(value: Any) -> Any:
 def check_known(what: str, value: Any) -> None:
     """Raise where a value is one that JAX does not know yet.
 
+    Parameters
+    ----------
+    what : str
+        What is made of it.
+    value : Any
+        The value.
+
     Raises
     ------
     ParameterError
-        Naming what is made of it.
+        If it is one.
 
     Examples
     --------

@@ -20,8 +20,21 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
     """Return a value that nobody can change: whatever is an array becomes a read-only copy.
 
     What is a read-only array of its own already stays what it is, and what is no array of
-    numbers or words is kept as given, for validation to name. Numbers become doubles at least,
-    as `doubles` has it, unless arrays are not to be widened.
+    numbers or words is kept as given, for validation to name.
+
+    Parameters
+    ----------
+    value : Any
+        The value.
+    limits : tuple of float, optional
+        The least and the largest number; what is beyond one by its rounding becomes that one.
+    widened : bool, optional
+        Whether arrays become doubles at least.
+
+    Returns
+    -------
+    Any
+        A read-only array, a plain number, a tuple for a list of other things, or the value itself.
 
     Examples
     --------
@@ -50,6 +63,16 @@ def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: boo
 def same(first: Any, second: Any) -> bool:
     """Tell whether two values are equal, arrays by shape and elements.
 
+    Parameters
+    ----------
+    first, second : Any
+        Tuples and mappings are compared entry by entry.
+
+    Returns
+    -------
+    bool
+        False also for what cannot be compared.
+
     Examples
     --------
     >>> same(np.array([1.0, 2.0]), np.array([1.0, 2.0]))
@@ -71,6 +94,16 @@ def same(first: Any, second: Any) -> bool:
 
 def same_fields(first: Any, second: Any) -> Any:
     """Tell whether two values of one dataclass have the same fields; for its ``__eq__``.
+
+    Parameters
+    ----------
+    first, second : Any
+        A dataclass, and anything.
+
+    Returns
+    -------
+    bool
+        ``NotImplemented`` where the second is of another class.
 
     Examples
     --------

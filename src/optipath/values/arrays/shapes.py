@@ -99,6 +99,20 @@ def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
 def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]:
     """Return an array of real numbers whose last axes are given; what is JAX's stays so.
 
+    Parameters
+    ----------
+    what : str
+        What a sentence calls it.
+    value : Any
+        Whatever NumPy makes an array of.
+    tail : tuple of int
+        The shape behind the batch.
+
+    Returns
+    -------
+    ndarray
+        Of real numbers, in the precision in which they are given.
+
     Raises
     ------
     ShapeError

@@ -19,24 +19,10 @@ class Choice(Domain):
     words: tuple[str, ...] = ()
 
     def check(self, owner: str, value: Any) -> Any:
-        """Return the word, or say which ones there are.
-
-        Raises
-        ------
-        ValueFault
-            If the value is none of the words.
-        """
         if isinstance(value, str) and value in self.words:
             return value
         raise ValueFault(f"{owner} is {shown(value)}{did_you_mean(value, self.words)}")
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        """Refuse it.
-
-        Raises
-        ------
-        ValueFault
-            Always.
-        """
         del parameter
         raise ValueFault(f"{owner} cannot be a parameter; choose one word when building")

@@ -55,6 +55,18 @@ class Domain:
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         """Return the value as an array of numbers, or say what is wrong with it.
 
+        Parameters
+        ----------
+        owner : str
+            What has the value, as sentences name it.
+        value : Any
+            What is given.
+
+        Returns
+        -------
+        ndarray
+            Of numbers, shape (..., *tail); what JAX traces stays its own.
+
         Raises
         ------
         ValueFault
@@ -99,6 +111,13 @@ class Domain:
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
         """Say what is wrong with a parameter standing here, whatever its value; mostly nothing.
 
+        Parameters
+        ----------
+        owner : str
+            What has the parameter, as sentences name it.
+        parameter : Parameter
+            What stands for the value.
+
         Raises
         ------
         ValueFault
@@ -128,7 +147,20 @@ class Domain:
         return self.minimum, self.maximum
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return the numbers that make up a value: their names, values and domains."""
+        """Return the numbers that make up a value: their names, values and domains.
+
+        Parameters
+        ----------
+        name : str
+            The name of the value's place.
+        value : Any
+            The value.
+
+        Returns
+        -------
+        list of tuple
+            A name, value and domain for each; none where a value may be left out.
+        """
         return [(name, value, self)]
 
     def described(self) -> str:
@@ -159,6 +191,18 @@ class Domain:
 
 def in_unit_of(value: Any, domain: Domain) -> Any:
     """Return a value; a parameter without a unit gets the usual one of a domain.
+
+    Parameters
+    ----------
+    value : Any
+        Anything.
+    domain : Domain
+        That of the place where it stands.
+
+    Returns
+    -------
+    Any
+        The value, or a parameter like it with a unit.
 
     Examples
     --------

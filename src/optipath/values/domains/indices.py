@@ -37,21 +37,17 @@ class IndexDomain(Domain):
         return 0.0, math.inf
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return n and k of a material, or the value itself."""
         if not isinstance(value, Material):
             return super().parts(name, value)
         return [(f"{name}.n", value.n, _N), (f"{name}.k", value.k, _K)]
 
     def quickly_allows(self, value: Any) -> bool:
-        """Tell, for plain floats, whether all is well."""
         return type(value) is float and 0.0 <= value < math.inf
 
     def described(self) -> str:
-        """Say in words which values are allowed."""
         return "an index of refraction n + ik with n and k not negative"
 
     def allows(self, numbers: Any) -> Any:
-        """Return which numbers of an array are allowed."""
         there = namespace(numbers).isfinite(numbers)
         return there & (numbers.real >= 0.0) & (numbers.imag >= 0.0)
 
@@ -68,11 +64,9 @@ class OutsideDomain(Domain):
     """Positive real numbers: the medium that light comes from does not absorb."""
 
     def described(self) -> str:
-        """Say in words which values are allowed."""
         return "a real index of refraction above 0, since light comes from there"
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return n and k of a material, or the value itself."""
         if not isinstance(value, Material):
             return super().parts(name, value)
         return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K)]
@@ -82,7 +76,6 @@ class OptionalOutside(OutsideDomain):
     """The same, or none."""
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return n and k of a material, or the value itself, if there is one."""
         return [] if value is None else super().parts(name, value)
 
 
@@ -90,24 +83,21 @@ class LitBehind(OutsideDomain):
     """Indices of a medium behind a boundary from which light comes as well."""
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return n and k of a material, or the value itself."""
         if not isinstance(value, Material):
             return [(name, value, self)]
         return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K_BEHIND)]
 
     def described(self) -> str:
-        """Say in words which values are allowed."""
         return (
             "a real index of refraction above 0, since light comes from there too (by port "
             "'back'), and let a Medium absorb between"
         )
 
     def allows(self, numbers: Any) -> Any:
-        """Return which numbers of an array are allowed; a complex one without an imaginary part."""
+        # A complex number without an imaginary part will do.
         return super().allows(numbers.real) & (numbers.imag == 0.0)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
-        # A complex number without an imaginary part will do.
         real = array.real if array.dtype.kind == "c" and not np.any(array.imag) else array
         super()._check_numbers(owner, real, rounding)
 
@@ -116,7 +106,6 @@ class InnerDomain(OutsideDomain):
     """Indices of the layers of a stack, between which light goes to and fro."""
 
     def described(self) -> str:
-        """Say in words which values are allowed."""
         return (
             f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; what a layer "
             f"absorbs depends on how thick it is: link Interfaces with a Medium between"
@@ -137,7 +126,6 @@ class IndicesDomain(Domain):
         return tuple(_plain_index(read_only(index)) for index in entries)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return the numbers of each index, with what it may be."""
         if not isinstance(value, tuple) or len(value) < 2:
             return [(name, value, self)]
         domains = [OUTSIDE, *[INNER] * (len(value) - 2), INDEX]
@@ -148,13 +136,7 @@ class IndicesDomain(Domain):
         ]
 
     def check(self, owner: str, value: Any) -> Any:
-        """Refuse what is no list of two or more.
-
-        Raises
-        ------
-        ValueFault
-            Always, since good lists are checked by their parts.
-        """
+        # Good lists are checked by their parts.
         entries_of(owner, "two indices or more", value)
         raise ValueFault(
             f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
@@ -162,13 +144,6 @@ class IndicesDomain(Domain):
         )
 
     def check_parameter(self, owner: str, parameter: Any) -> None:
-        """Refuse one for the whole list.
-
-        Raises
-        ------
-        ValueFault
-            Always.
-        """
         name = parameter.name
         raise ValueFault(
             f"{owner} cannot be the parameter '{name}'; give a list, of parameters too"

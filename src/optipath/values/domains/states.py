@@ -29,15 +29,12 @@ class AmplitudeDomain(Domain):
         return -1.0 - _SINGLE_ROUNDING, 1.0 + _SINGLE_ROUNDING
 
     def quickly_allows(self, value: Any) -> bool:
-        """Tell, for plain floats, whether all is well."""
         return type(value) is float and -1.0 <= value <= 1.0
 
     def described(self) -> str:
-        """Say in words which values are allowed."""
         return f"a real or complex {self.name} of a size of 1 or less"
 
     def allows(self, numbers: Any) -> Any:
-        """Return which numbers of an array are allowed."""
         xp = namespace(numbers)
         # Cut off, so that squares of what is far too much do not overflow.
         parts = (xp.minimum(abs(part), 2.0) for part in (numbers.real, numbers.imag))
@@ -54,7 +51,6 @@ class StokesDomain(Domain):
     """Stokes vectors that light can have; none at all is unpolarised light."""
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return the vector, if there is one."""
         return [] if value is None else super().parts(name, value)
 
     def kept(self, value: Any) -> Any:
@@ -62,7 +58,6 @@ class StokesDomain(Domain):
         return read_only(value, widened=False)
 
     def allows(self, numbers: Any) -> Any:
-        """Return which vectors of an array are allowed."""
         finite = super().allows(numbers).all(axis=-1)
         return finite & (numbers[..., 0] >= 0.0) & _can_be(numbers, rounding_of(numbers))
 
