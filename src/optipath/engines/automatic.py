@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import MissingExtraError
+from optipath.engines.jax_engine import CarriedProgram
+from optipath.engines.known_engines import REGISTRY
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
     from optipath.engines.formulas import Formula
+    from optipath.errors import MissingExtraError
 
-ENGINES = ("auto", "numpy", "numba", "jax")
+ENGINES = ("auto", *REGISTRY)
 
 COMPILED = ("numpy", "numba")
 """What formulas are compiled by."""
@@ -58,7 +58,7 @@ def batches(engine: str) -> str:
 
 def is_installed(engine: str) -> bool:
     """Tell whether what an engine needs is installed, without importing it."""
-    return engine in ("auto", "numpy") or find_spec(engine) is not None
+    return engine == "auto" or REGISTRY[engine].is_installed
 
 
 def jax_path(*program: Any) -> Any:
@@ -69,18 +69,15 @@ def jax_path(*program: Any) -> Any:
     MissingExtraError
         If JAX is not installed.
     """
-    if not is_installed("jax"):
-        raise missing("jax")
-    return import_module("optipath.engines.jax_engine").JaxPath(*program)
+    return REGISTRY["jax"].compiled(CarriedProgram(*program))
 
 
 def missing(engine: str) -> MissingExtraError:
     """Return the error that an engine is not installed."""
-    extra = {"numba": "fast", "jax": "jax"}[engine]
-    return MissingExtraError(f"plans of engine '{engine}'", engine, extra)
+    return REGISTRY[engine].missing
 
 
 def compile_array_path(engine: str, formula: Formula) -> ArrayPath:
     """Return a formula compiled by an engine."""
-    path: ArrayPath = import_module(f"optipath.engines.{engine}_engine").compiled(formula)
+    path: ArrayPath = REGISTRY[engine].compiled(formula)
     return path

@@ -145,12 +145,28 @@ class CodeCache:
         self.keep(text, code)
         return MachineCode(code)
 
+    def has(self, text: str) -> bool:
+        """Tell whether the function of a text is kept, in memory or on disk.
+
+        What is on disk is not read. Versions and the processor, which take LLVM to be loaded,
+        are looked at only where there is something of this text.
+        """
+        if text in self._functions:
+            return True
+        try:
+            folder = self._own_folder()
+            if not any(folder.glob(f"{_name(text)}-*{_SUFFIX}")):
+                return False
+            return self._file(folder, text, _key(text)).exists()
+        except _TROUBLE:
+            return False
+
     def load(self, text: str) -> bytes | None:
         """Return what is kept on disk for a text, or None."""
         try:
             folder = self._own_folder()
             key = _key(text)
-            file = folder / (key.hex() + _SUFFIX)
+            file = self._file(folder, text, key)
             stored = _read(file)
             if stored[:_CHECKSUM] == _checksum(key, stored[_CHECKSUM:]):
                 self._used(file)
@@ -174,7 +190,7 @@ class CodeCache:
             try:
                 with os.fdopen(handle, "wb") as stream:
                     stream.write(_checksum(key, code) + code)
-                Path(draft).replace(folder / (key.hex() + _SUFFIX))
+                Path(draft).replace(self._file(folder, text, key))
             except BaseException:
                 Path(draft).unlink(missing_ok=True)
                 raise
@@ -255,6 +271,10 @@ class CodeCache:
                 draft.file.unlink(missing_ok=True)
             self._tidied.add(folder)
         return folder
+
+    @staticmethod
+    def _file(folder: Path, text: str, key: bytes) -> Path:
+        return folder / f"{_name(text)}-{key.hex()}{_SUFFIX}"
 
     @staticmethod
     def _files(folder: Path, suffix: str) -> list[Entry]:
@@ -352,6 +372,11 @@ def _read(file: Path) -> bytes:
 
 def _checksum(key: bytes, code: bytes) -> bytes:
     return hashlib.sha256(key + code).digest()
+
+
+def _name(text: str) -> str:
+    """Return what the names of all entries of a text begin with."""
+    return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def _key(text: str) -> bytes:

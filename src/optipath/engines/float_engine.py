@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.engines.engine import Engine
 from optipath.engines.expressions import EXPRESSIONS
 from optipath.engines.formulas import Symbol
 from optipath.kernels import FLOAT
@@ -35,16 +36,25 @@ _SPACE = {
 }
 
 
-def compiled(formula: Formula) -> Callable[..., tuple[Any, ...] | None]:
-    """Return a function of floats, in the order of the formula's inputs.
+class FloatEngine(Engine["Formula", "Callable[..., tuple[Any, ...] | None]"]):
+    """Runs one path; nobody asks for it by name, since it is the fastest for one."""
 
-    Its result is None where the formula does not hold; it may raise an ArithmeticError or a
-    ValueError there, too.
-    """
-    space: dict[str, Any] = dict(_SPACE)
-    exec(compile(source(formula), "<formula>", "exec"), space)  # noqa: S102 - our own text
-    path: Callable[..., tuple[Any, ...] | None] = space["path"]
-    return path
+    name = "floats"
+    precisions = ("float64",)
+
+    def compiled(self, formula: Formula) -> Callable[..., tuple[Any, ...] | None]:
+        """Return a function of floats, in the order of the formula's inputs.
+
+        Its result is None where the formula does not hold; it may raise an ArithmeticError or
+        a ValueError there, too.
+        """
+        space: dict[str, Any] = dict(_SPACE)
+        exec(compile(source(formula), "<formula>", "exec"), space)  # noqa: S102 - our own text
+        path: Callable[..., tuple[Any, ...] | None] = space["path"]
+        return path
+
+
+FLOATS = FloatEngine()
 
 
 def source(formula: Formula) -> str:

@@ -7,15 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines import numpy_engine
-from optipath.engines.code_cache import CODE
+from optipath.engines.engine import Engine
 from optipath.engines.expressions import assignments
 from optipath.engines.formulas import Symbol, left_formula
-from optipath.engines.machine_code import address
-from optipath.engines.machine_code import compiled as compiled_text
+from optipath.engines.numpy_engine import NumpyEngine
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
+    from optipath.engines.code_cache import CodeCache
     from optipath.engines.formulas import Formula
 
 _BLOCK = 512
@@ -32,15 +31,39 @@ T = np.{dtype}
 """
 
 
-def compiled(formula: Formula) -> ArrayPath:
-    """Return a function that does what a formula says, to arrays.
+class NumbaEngine(Engine["Formula", "ArrayPath"]):
+    """Compiles a formula into machine code, which is kept for the next process."""
 
-    Where the user has forbidden Numba to compile (``NUMBA_DISABLE_JIT``), it is NumPy's.
-    """
-    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
-        CODE.tell("NUMBA_DISABLE_JIT is set, so that NumPy runs what Numba would compile")
-        return numpy_engine.compiled(formula)
-    function = CODE.function(source(formula), compiled_text)
+    name, extra = "numba", "fast"
+    longest = 3000
+
+    def compiled(self, formula: Formula) -> ArrayPath:
+        """Return a function that does what a formula says, to arrays.
+
+        Where the user has forbidden Numba to compile (``NUMBA_DISABLE_JIT``), it is NumPy's.
+        """
+        from optipath.engines.code_cache import CODE  # noqa: PLC0415 - not to load it for NumPy
+
+        if _is_forbidden():
+            CODE.tell("NUMBA_DISABLE_JIT is set, so that NumPy runs what Numba would compile")
+            return NumpyEngine().compiled(formula)
+        return _compiled(formula, CODE)
+
+    def is_ready(self, formula: Formula) -> bool:
+        """Tell whether the machine code of a formula is kept, in memory or on disk."""
+        from optipath.engines.code_cache import CODE  # noqa: PLC0415 - not to load it for NumPy
+
+        return _is_forbidden() or CODE.has(source(formula))
+
+
+def _is_forbidden() -> bool:
+    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
+
+
+def _compiled(formula: Formula, cache: CodeCache) -> ArrayPath:
+    from optipath.engines.machine_code import address, compiled  # noqa: PLC0415 - an extra
+
+    function = cache.function(source(formula), compiled)
     arrays = [place for place, s in enumerate(formula.inputs) if formula.place_of(s) != "one"]
     shape, kind = (len(_splits(formula)[0]), _BLOCK), formula.dtype
 

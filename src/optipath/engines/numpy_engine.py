@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.block_writer import BlockWriter
+from optipath.engines.engine import Engine
 from optipath.engines.formulas import DOUBLE, LEFT, Symbol
 from optipath.engines.formulas.operations import OPERATIONS
 from optipath.kernels import NUMPY
@@ -20,8 +21,17 @@ _BLOCK = 12288
 _LEFT = {operation: factory(NUMPY, DOUBLE) for operation, factory in LEFT.items()}
 
 
-def compiled(formula: Formula) -> ArrayPath:
-    """Return a function that does what a formula says, to arrays."""
+class NumpyEngine(Engine["Formula", "ArrayPath"]):
+    """Does operation after operation to blocks of paths."""
+
+    name = "numpy"
+
+    def compiled(self, formula: Formula) -> ArrayPath:
+        """Return a function that does what a formula says, to arrays."""
+        return _compiled(formula)
+
+
+def _compiled(formula: Formula) -> ArrayPath:
     writer = BlockWriter(formula)
     space: dict[str, Any] = {name: about.ufunc for name, about in OPERATIONS.items()}
     space |= {"bitwise_and": np.bitwise_and, "bitwise_xor": np.bitwise_xor, "left": _LEFT}

@@ -5,18 +5,18 @@ from collections import Counter
 import pytest
 
 import optipath as op
-from optipath.engines import numpy_engine
+from optipath.engines.numpy_engine import NumpyEngine
 from optipath.lab.bench import bench, report
 
 
 def test_no_formula_is_compiled_twice(monkeypatch):
-    compiled, texts = numpy_engine.compiled, Counter()
+    compiled, texts = NumpyEngine.compiled, Counter()
 
-    def counted(formula):
+    def counted(engine, formula):
         texts[tuple(map(repr, formula.steps)), formula.dtype.name] += 1
-        return compiled(formula)
+        return compiled(engine, formula)
 
-    monkeypatch.setattr(numpy_engine, "compiled", counted)
+    monkeypatch.setattr(NumpyEngine, "compiled", counted)
     monkeypatch.setattr(report, "race", lambda contenders, **_: run_once(contenders))
     bench(op.load_preset("npgr026"), lambda: None, largest=10_000, engines=["numpy"])
     assert len(texts) > 2

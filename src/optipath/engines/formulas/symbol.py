@@ -2,10 +2,32 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from optipath.engines.formulas.recorder import Recorder
+    from collections.abc import Callable
+
+
+class Record(Protocol):
+    """What symbols ask of whoever keeps what is done to them."""
+
+    pairs: dict[int, tuple[Any, Any]]
+
+    def record(self, operation: str, *operands: Any) -> Any:
+        """Return what an operation comes to: a symbol, or a number where that is known."""
+
+    def require(self, condition: Any) -> None:
+        """Note what must be true for the formula to hold."""
+
+
+def _operator(operation: str, *, reflected: bool = False) -> Callable[..., Any]:
+    """Return the method of an operator; reflected, of one whose second operand is the symbol."""
+
+    def method(self: Symbol, *others: Any) -> Any:
+        operands = (*others, self) if reflected else (self, *others)
+        return self.recorder.record(operation, *operands)
+
+    return method
 
 
 class Symbol:
@@ -36,7 +58,7 @@ class Symbol:
 
     def __init__(
         self,
-        recorder: Recorder,
+        recorder: Record,
         operation: str,
         operands: tuple[Any, ...],
         kind: str,
@@ -64,80 +86,24 @@ class Symbol:
     def __repr__(self) -> str:
         return f"<Symbol {self.index}: {self.operation}>"
 
-    def __add__(self, other: Any) -> Any:
-        return self.recorder.record("add", self, other)
-
-    def __radd__(self, other: Any) -> Any:
-        return self.recorder.record("add", other, self)
-
-    def __sub__(self, other: Any) -> Any:
-        return self.recorder.record("subtract", self, other)
-
-    def __rsub__(self, other: Any) -> Any:
-        return self.recorder.record("subtract", other, self)
-
-    def __mul__(self, other: Any) -> Any:
-        return self.recorder.record("multiply", self, other)
-
-    def __rmul__(self, other: Any) -> Any:
-        return self.recorder.record("multiply", other, self)
-
-    def __truediv__(self, other: Any) -> Any:
-        return self.recorder.record("divide", self, other)
-
-    def __rtruediv__(self, other: Any) -> Any:
-        return self.recorder.record("divide", other, self)
-
-    def __floordiv__(self, other: Any) -> Any:
-        return self.recorder.record("floor_divide", self, other)
-
-    def __mod__(self, other: Any) -> Any:
-        return self.recorder.record("remainder", self, other)
-
-    def __pow__(self, other: Any) -> Any:
-        return self.recorder.record("power", self, other)
-
-    def __rpow__(self, other: Any) -> Any:
-        return self.recorder.record("power", other, self)
-
-    def __neg__(self) -> Any:
-        return self.recorder.record("negative", self)
-
     def __pos__(self) -> Any:
         return self
 
-    def __abs__(self) -> Any:
-        return self.recorder.record("absolute", self)
-
-    def __lt__(self, other: Any) -> Any:
-        return self.recorder.record("less", self, other)
-
-    def __le__(self, other: Any) -> Any:
-        return self.recorder.record("less_equal", self, other)
-
-    def __gt__(self, other: Any) -> Any:
-        return self.recorder.record("greater", self, other)
-
-    def __ge__(self, other: Any) -> Any:
-        return self.recorder.record("greater_equal", self, other)
-
-    def __eq__(self, other: object) -> Any:
-        return self.recorder.record("equal", self, other)
-
-    def __ne__(self, other: object) -> Any:
-        return self.recorder.record("not_equal", self, other)
-
-    def __and__(self, other: Any) -> Any:
-        return self.recorder.record("logical_and", self, other)
-
-    def __rand__(self, other: Any) -> Any:
-        return self.recorder.record("logical_and", other, self)
-
-    def __or__(self, other: Any) -> Any:
-        return self.recorder.record("logical_or", self, other)
-
-    def __ror__(self, other: Any) -> Any:
-        return self.recorder.record("logical_or", other, self)
-
-    def __invert__(self) -> Any:
-        return self.recorder.record("logical_not", self)
+    __add__, __radd__ = _operator("add"), _operator("add", reflected=True)
+    __sub__, __rsub__ = _operator("subtract"), _operator("subtract", reflected=True)
+    __mul__, __rmul__ = _operator("multiply"), _operator("multiply", reflected=True)
+    __truediv__, __rtruediv__ = _operator("divide"), _operator("divide", reflected=True)
+    __floordiv__ = _operator("floor_divide")
+    __mod__ = _operator("remainder")
+    __pow__, __rpow__ = _operator("power"), _operator("power", reflected=True)
+    __and__, __rand__ = _operator("logical_and"), _operator("logical_and", reflected=True)
+    __or__, __ror__ = _operator("logical_or"), _operator("logical_or", reflected=True)
+    __neg__ = _operator("negative")
+    __abs__ = _operator("absolute")
+    __invert__ = _operator("logical_not")
+    __lt__ = _operator("less")
+    __le__ = _operator("less_equal")
+    __gt__ = _operator("greater")
+    __ge__ = _operator("greater_equal")
+    __eq__ = _operator("equal")
+    __ne__ = _operator("not_equal")

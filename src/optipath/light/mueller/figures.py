@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.light.mueller import cloude
 from optipath.light.polarization_state import direction, length, ratio
+from optipath.values.arrays.jax_values import known
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,32 +25,110 @@ if TYPE_CHECKING:
 _BCS = (0, 1), (2, 2), (2, 3)
 
 
-def diattenuation_vector(matrix: Array) -> Array:
-    """Return (M01, M02, M03) / M00."""
-    return _over_m00(matrix, matrix[..., 0, 1:])
+class MatrixFigures:
+    """What can be read off a Mueller matrix, whatever its frames are."""
 
+    matrix: Any
 
-def polarizance_vector(matrix: Array) -> Array:
-    """Return (M10, M20, M30) / M00."""
-    return _over_m00(matrix, matrix[..., 1:, 0])
+    @property
+    def diattenuation(self) -> npt.NDArray[Any]:
+        """The length of the diattenuation vector, of shape (...).
 
+        (max - min) / (max + min) of what is let through, over all states that come in: 0 for a
+        retarder, 1 for an ideal polariser, 0 where M00 is 0.
 
-def depolarization_index(matrix: Array) -> Array:
-    """Return the length of all entries but M00, over sqrt(3) M00."""
-    flat = matrix.reshape(*matrix.shape[:-2], 16)
-    return norm(_over_m00(matrix, flat[..., 1:])) / sqrt(3.0)
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller([[4, 2, 0, 0], [2, 4, 0, 0], [0, 0, 3, 0], [0, 0, 0, 3]]).diattenuation)
+        0.5
+        """
+        return norm(self.diattenuation_vector)
 
+    @property
+    def diattenuation_vector(self) -> npt.NDArray[Any]:
+        """(M01, M02, M03) / M00, of shape (..., 3), in the frame of the light that comes in."""
+        return _over_m00(known(self.matrix), known(self.matrix)[..., 0, 1:])
 
-def sample_psi(matrix: Array) -> Array:
-    """Return psi of an isotropic sample, from B = M01, C = M22 and S = M23."""
-    B, C, S = _bcs(matrix)
-    return 0.5 * direction(length(C, S), B)  # type: ignore[no-any-return]
+    @property
+    def polarizance(self) -> npt.NDArray[Any]:
+        """The degree of polarisation that unpolarised light leaves with, of shape (...)."""
+        return norm(self.polarizance_vector)
 
+    @property
+    def polarizance_vector(self) -> npt.NDArray[Any]:
+        """(M10, M20, M30) / M00, of shape (..., 3), in the frame of the light that goes out."""
+        return _over_m00(known(self.matrix), known(self.matrix)[..., 1:, 0])
 
-def sample_delta(matrix: Array) -> Array:
-    """Return Delta of an isotropic sample in ellipsometry's exp(+i w t), from C and S."""
-    _, C, S = _bcs(matrix)
-    return direction(S, C)  # type: ignore[no-any-return]
+    @property
+    def depolarization_index(self) -> npt.NDArray[Any]:
+        """The depolarisation index, of shape (...).
+
+        1 for what a Jones matrix describes, 0 for an ideal depolariser;
+        sqrt(sum of M_ij^2 - M00^2) / (sqrt(3) M00) by J. J. Gil and E. Bernabeu, Opt. Acta 33,
+        185 (1986); 0 where M00 is 0.
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller(np.diag([1.0, 0.5, 0.5, 0.5])).depolarization_index.round(12))
+        0.5
+        """
+        matrix = known(self.matrix)
+        flat = matrix.reshape(*matrix.shape[:-2], 16)
+        return norm(_over_m00(matrix, flat[..., 1:])) / sqrt(3.0)
+
+    @property
+    def psi(self) -> npt.NDArray[Any]:
+        """The ellipsometric psi of an isotropic sample, of shape (...), in [0, pi/2].
+
+        tan psi = abs(r_p) / abs(r_s), with x along s and y along p in both frames, as
+        `Interface` has them; from cos 2 psi : sin 2 psi = M01 : hypot(M22, M23).
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> glass = [[0.5, 0.3, 0, 0], [0.3, 0.5, 0, 0], [0, 0, -0.4, 0], [0, 0, 0, -0.4]]
+        >>> print(np.tan(Mueller(glass).psi).round(12), Mueller(glass).delta.round(4))
+        0.5 3.1416
+        """
+        B, C, S = _bcs(known(self.matrix))
+        return 0.5 * direction(length(C, S), B)  # type: ignore[no-any-return]
+
+    @property
+    def delta(self) -> npt.NDArray[Any]:
+        """The ellipsometric Delta of an isotropic sample, of shape (...), in (-pi, pi].
+
+        The phase of r_p / r_s in ellipsometry's exp(+i w t), atan2(M23, M22): pi where a
+        dielectric is met below Brewster's angle, between 0 and pi for a bare metal.
+        """
+        _, C, S = _bcs(known(self.matrix))
+        return direction(S, C)  # type: ignore[no-any-return]
+
+    @property
+    def coherency(self) -> npt.NDArray[np.complex128]:
+        """Cloude's coherency matrix, Hermitian, of shape (..., 4, 4), with the trace M00.
+
+        The mean of c_k conj(c_l) over Jones matrices T = c_0 s_0 + c_1 s_1 + c_2 s_2 + c_3 s_3
+        that make the matrix up; s_0 is the unit matrix, and the others are Pauli's in the order
+        of S1, S2, S3: diag(1, -1), [[0, 1], [1, 0]], [[0, -i], [i, 0]]. By S. R. Cloude, Optik
+        75, 26 (1986).
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).coherency.real.diagonal()
+        array([0.25, 0.25, 0.25, 0.25])
+        """
+        return cloude.coherency(self.matrix)
+
+    @property
+    def cloude_eigenvalues(self) -> npt.NDArray[Any]:
+        """The eigenvalues of `coherency`, the largest first, of shape (..., 4); their sum is M00.
+
+        What does not depolarise has one above 0; a physical matrix has none below 0.
+        """
+        return cloude.eigenvalues(self.matrix)
 
 
 def norm(vector: Array) -> Array:

@@ -1,4 +1,4 @@
-"""Mueller: a 4x4 matrix between two reference frames."""
+"""Mueller: a 4x4 matrix between two reference frames, and the three parts that it has."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from optipath.errors import FrameError
 from optipath.kernels import NUMPY, ROTATION
 from optipath.light.frames import Frame
 from optipath.light.light import Light
-from optipath.light.mueller import cloude, figures
-from optipath.light.mueller.lu_chipman import LuChipman
+from optipath.light.mueller import cloude
+from optipath.light.mueller.figures import MatrixFigures
 from optipath.light.mueller.polar_decomposition import polar_parts
+from optipath.light.mueller.turns import turn_of
 from optipath.light.underflow import folded, normalise_exponent
 from optipath.values.arrays.jax_values import is_traced, known
 from optipath.values.arrays.read_only import same
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Mueller:
+class Mueller(MatrixFigures):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
     ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the
@@ -85,74 +86,6 @@ class Mueller:
         return NotImplemented
 
     @property
-    def diattenuation(self) -> npt.NDArray[Any]:
-        """The length of the diattenuation vector, of shape (...).
-
-        (max - min) / (max + min) of what is let through, over all states that come in: 0 for a
-        retarder, 1 for an ideal polariser, 0 where M00 is 0.
-
-        Examples
-        --------
-        >>> print(Mueller([[4, 2, 0, 0], [2, 4, 0, 0], [0, 0, 3, 0], [0, 0, 0, 3]]).diattenuation)
-        0.5
-        """
-        return figures.norm(self.diattenuation_vector)
-
-    @property
-    def diattenuation_vector(self) -> npt.NDArray[Any]:
-        """(M01, M02, M03) / M00, of shape (..., 3), in the frame of the light that comes in."""
-        return figures.diattenuation_vector(known(self.matrix))
-
-    @property
-    def polarizance(self) -> npt.NDArray[Any]:
-        """The degree of polarisation that unpolarised light leaves with, of shape (...)."""
-        return figures.norm(self.polarizance_vector)
-
-    @property
-    def polarizance_vector(self) -> npt.NDArray[Any]:
-        """(M10, M20, M30) / M00, of shape (..., 3), in the frame of the light that goes out."""
-        return figures.polarizance_vector(known(self.matrix))
-
-    @property
-    def depolarization_index(self) -> npt.NDArray[Any]:
-        """The depolarisation index, of shape (...).
-
-        1 for what a Jones matrix describes, 0 for an ideal depolariser;
-        sqrt(sum of M_ij^2 - M00^2) / (sqrt(3) M00) by J. J. Gil and E. Bernabeu, Opt. Acta 33,
-        185 (1986); 0 where M00 is 0.
-
-        Examples
-        --------
-        >>> print(Mueller(np.diag([1.0, 0.5, 0.5, 0.5])).depolarization_index.round(12))
-        0.5
-        """
-        return figures.depolarization_index(known(self.matrix))
-
-    @property
-    def psi(self) -> npt.NDArray[Any]:
-        """The ellipsometric psi of an isotropic sample, of shape (...), in [0, pi/2].
-
-        tan psi = abs(r_p) / abs(r_s), with x along s and y along p in both frames, as
-        `Interface` has them; from cos 2 psi : sin 2 psi = M01 : hypot(M22, M23).
-
-        Examples
-        --------
-        >>> glass = [[0.5, 0.3, 0, 0], [0.3, 0.5, 0, 0], [0, 0, -0.4, 0], [0, 0, 0, -0.4]]
-        >>> print(np.tan(Mueller(glass).psi).round(12), Mueller(glass).delta.round(4))
-        0.5 3.1416
-        """
-        return figures.sample_psi(known(self.matrix))
-
-    @property
-    def delta(self) -> npt.NDArray[Any]:
-        """The ellipsometric Delta of an isotropic sample, of shape (...), in (-pi, pi].
-
-        The phase of r_p / r_s in ellipsometry's exp(+i w t), atan2(M23, M22): pi where a
-        dielectric is met below Brewster's angle, between 0 and pi for a bare metal.
-        """
-        return figures.sample_delta(known(self.matrix))
-
-    @property
     def retardance(self) -> npt.NDArray[Any]:
         """The retardance of `lu_chipman`'s retarder, in radians, in [0, pi], of shape (...)."""
         return self.lu_chipman().retardance
@@ -176,30 +109,6 @@ class Mueller:
             retarder=Mueller(retarder, self.frame_in, self.frame_out),
             diattenuator=Mueller(diattenuator, self.frame_in, self.frame_in),
         )
-
-    @property
-    def coherency(self) -> npt.NDArray[np.complex128]:
-        """Cloude's coherency matrix, Hermitian, of shape (..., 4, 4), with the trace M00.
-
-        The mean of c_k conj(c_l) over Jones matrices T = c_0 s_0 + c_1 s_1 + c_2 s_2 + c_3 s_3
-        that make the matrix up; s_0 is the unit matrix, and the others are Pauli's in the order
-        of S1, S2, S3: diag(1, -1), [[0, 1], [1, 0]], [[0, -i], [i, 0]]. By S. R. Cloude, Optik
-        75, 26 (1986).
-
-        Examples
-        --------
-        >>> Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).coherency.real.diagonal()
-        array([0.25, 0.25, 0.25, 0.25])
-        """
-        return cloude.coherency(self.matrix)
-
-    @property
-    def cloude_eigenvalues(self) -> npt.NDArray[Any]:
-        """The eigenvalues of `coherency`, the largest first, of shape (..., 4); their sum is M00.
-
-        What does not depolarise has one above 0; a physical matrix has none below 0.
-        """
-        return cloude.eigenvalues(self.matrix)
 
     def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
         """Tell whether some mixture of Jones matrices acts like this, shape (...).
@@ -242,6 +151,93 @@ class Mueller:
         return frames and same(known(self.matrix), known(other.matrix))
 
     __hash__ = None  # type: ignore[assignment]
+
+
+@dataclass(frozen=True)
+class LuChipman:
+    """The polar decomposition: ``depolarizer @ retarder @ diattenuator`` is the matrix.
+
+    By S.-Y. Lu and R. A. Chipman, J. Opt. Soc. Am. A 13, 1106 (1996); from `Mueller.lu_chipman`.
+    What does not depolarise has the parts of its Jones matrix and the unit matrix as depolarizer,
+    however little it lets through: within the rounding of parts that let 1 through at most, so
+    that crossed polarisers are told from depolarisers down to an M00 of 1e-10.
+
+    No matrix is refused, and no noise makes a NaN. Where the parts are not unique:
+
+    - behind an ideal polariser, the retarder is the least turn of the state it lets through into
+      the one that goes out, and the depolarizer is the same along all axes;
+    - of a depolarizer that leaves one axis, or none, the retarder is the least turn;
+    - where the determinant of the lower right part of depolarizer and retarder is negative, the
+      depolarizer has three negative axes, as the paper has it, but one where the smallest is 0
+      within rounding.
+
+    What is no physical matrix comes back changed where it lets more through than its M00 allows
+    (the diattenuation is then 1), or where M00 is 0 (the diattenuator is then 0).
+
+    Attributes
+    ----------
+    depolarizer : Mueller
+        M00 is 1 and the lower right 3x3 part is symmetric; in the frame of the light that goes out.
+    retarder : Mueller
+        A rotation of (S1, S2, S3), from the frame that comes in to the one that goes out.
+    diattenuator : Mueller
+        Symmetric, with the M00 of the matrix; in the frame of the light that comes in.
+
+    Examples
+    --------
+    >>> from optipath import Interface
+    >>> parts = Interface(index=0.6 + 2.1j, incidence=1.0).mueller().lu_chipman()
+    >>> print(parts.diattenuation.round(4), parts.retardance.round(4))
+    0.2065 2.1267
+    """
+
+    depolarizer: Mueller
+    retarder: Mueller
+    diattenuator: Mueller
+
+    @property
+    def diattenuation(self) -> npt.NDArray[Any]:
+        """The diattenuation of the diattenuator, in [0, 1], of shape (...)."""
+        # Of a matrix next to the smallest floats, roundings are not small.
+        return np.asarray(np.minimum(self.diattenuator.diattenuation, 1.0))
+
+    @property
+    def diattenuation_vector(self) -> npt.NDArray[Any]:
+        """The diattenuation along S1, S2 and S3, of shape (..., 3)."""
+        return self.diattenuator.diattenuation_vector
+
+    @property
+    def retardance(self) -> npt.NDArray[Any]:
+        """The retardance, in radians, in [0, pi], of shape (...), with its digits at both ends."""
+        _, angle = turn_of(self.retarder.matrix)
+        return angle
+
+    @property
+    def retardance_vector(self) -> npt.NDArray[Any]:
+        """The retardance times `fast_axis`, of shape (..., 3)."""
+        axis, angle = turn_of(self.retarder.matrix)
+        return np.asarray(axis * angle[..., np.newaxis])
+
+    @property
+    def fast_axis(self) -> npt.NDArray[Any]:
+        """The (S1, S2, S3) of the state that goes ahead of all others, of shape (..., 3).
+
+        (1, 0, 0) for a `Retarder` at angle 0; 0 where nothing is retarded, and of either sign for
+        a half-wave plate.
+        """
+        axis, _ = turn_of(self.retarder.matrix)
+        return axis
+
+    @property
+    def depolarization(self) -> npt.NDArray[Any]:
+        """1 - abs(M11 + M22 + M33) / 3 of the depolarizer, its power to depolarise; shape (...)."""
+        three = np.trace(self.depolarizer.matrix[..., 1:, 1:], axis1=-2, axis2=-1)
+        return np.asarray(1.0 - np.abs(three) / 3.0)
+
+    @property
+    def polarizance_vector(self) -> npt.NDArray[Any]:
+        """What the depolarizer makes of unpolarised light, along S1, S2 and S3; shape (..., 3)."""
+        return self.depolarizer.polarizance_vector
 
 
 def _turn_matrix(leaves: Frame, enters: Frame) -> npt.NDArray[np.float64]:

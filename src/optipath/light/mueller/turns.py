@@ -109,3 +109,29 @@ def outer(a: Array, b: Array) -> Array:
     [[3.0, 4.0], [6.0, 8.0]]
     """
     return np.asarray(a[..., :, np.newaxis] * b[..., np.newaxis, :])
+
+
+def turn_of(retarder: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+    """Return the axis and the angle in [0, pi] of rotations, by the largest of four columns.
+
+    Each column is the unit quaternion (cos R/2, sin R/2 times the axis) times one of its parts.
+    """
+    r = np.asarray(retarder)[..., 1:, 1:]
+    xx, yy, zz = r[..., 0, 0], r[..., 1, 1], r[..., 2, 2]
+    x, y, z = (r[..., i, j] - r[..., j, i] for i, j in ((2, 1), (0, 2), (1, 0)))
+    xy, xz, yz = (r[..., i, j] + r[..., j, i] for i, j in ((0, 1), (0, 2), (1, 2)))
+    columns = np.stack(
+        [
+            np.stack([1 + xx + yy + zz, x, y, z], axis=-1),
+            np.stack([x, 1 + xx - yy - zz, xy, xz], axis=-1),
+            np.stack([y, xy, 1 - xx + yy - zz, yz], axis=-1),
+            np.stack([z, xz, yz, 1 - xx - yy + zz], axis=-1),
+        ],
+        axis=-2,
+    )
+    largest = np.argmax(np.diagonal(columns, axis1=-2, axis2=-1), axis=-1)
+    column = np.take_along_axis(columns, largest[..., np.newaxis, np.newaxis], axis=-2)[..., 0, :]
+    column = np.where(column[..., :1] < 0.0, -column, column)
+    sine = norm(column[..., 1:])
+    axis = column[..., 1:] / np.where(sine == 0.0, 1.0, sine)[..., np.newaxis]
+    return axis, np.asarray(2.0 * np.arctan2(sine, column[..., 0]))

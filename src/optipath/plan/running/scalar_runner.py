@@ -6,7 +6,7 @@ from collections import Counter
 from types import NoneType
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.engines.float_engine import compiled
+from optipath.engines.float_engine import FLOATS
 from optipath.engines.formulas import lights_formula
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
@@ -101,7 +101,7 @@ class ScalarRunner:
             self.program, self.interpreter.carrier, "float64", forms, limits, polynomials=False
         )
         places = {str(key): place for place, key in enumerate(given.numbers)}
-        return compiled(formula), [places[s.operands[0]] for s in formula.inputs]
+        return FLOATS.compiled(formula), [places[s.operands[0]] for s in formula.inputs]
 
     def _is_usual(self, given: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""

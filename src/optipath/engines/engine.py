@@ -1,0 +1,73 @@
+"""Engine: what runs a path that has been composed; each says of itself what it can do."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from importlib.util import find_spec
+from typing import ClassVar, Generic, TypeVar
+
+from optipath.errors import MissingExtraError
+
+Given = TypeVar("Given")
+Path = TypeVar("Path")
+
+
+class Engine(ABC, Generic[Given, Path]):
+    """Makes a function of a formula: the one entry of an engine, in a file of its own.
+
+    An engine takes a `Formula` and gives a function of numbers. JAX alone takes what stands
+    behind it, the steps of the program with their kernels: of a record it would know neither
+    where a kernel ends, which XLA compiles by itself, nor what a slope is at an edge.
+
+    Attributes
+    ----------
+    name : str
+        As `Composer` takes it, and what Python imports for it.
+    extra : str
+        What of optipath brings it; empty where it is always there.
+    precisions : tuple of str
+        The dtypes of the formulas that it takes.
+    longest : float
+        The most operations of a formula that it takes.
+    """
+
+    name: ClassVar[str]
+    extra: ClassVar[str] = ""
+    precisions: ClassVar[tuple[str, ...]] = ("float64", "float32")
+    longest: ClassVar[float] = math.inf
+
+    @abstractmethod
+    def compiled(self, formula: Given) -> Path:
+        """Return the function of a formula."""
+
+    def is_ready(self, formula: Given) -> bool:
+        """Tell whether a formula can be run at once: nothing is left to compile that takes time."""
+        del formula
+        return True
+
+    def takes(self, dtype: str, operations: int = 0) -> bool:
+        """Tell whether formulas of a precision and a length can be run.
+
+        Parameters
+        ----------
+        dtype : str
+            Their precision.
+        operations : int, optional
+            How many they have.
+
+        Returns
+        -------
+        bool
+        """
+        return dtype in self.precisions and operations <= self.longest
+
+    @property
+    def is_installed(self) -> bool:
+        """Whether what it needs is there, found without importing it."""
+        return not self.extra or find_spec(self.name) is not None
+
+    @property
+    def missing(self) -> MissingExtraError:
+        """The error that it is not installed."""
+        return MissingExtraError(f"plans of engine '{self.name}'", self.name, self.extra)

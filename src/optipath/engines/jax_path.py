@@ -1,0 +1,360 @@
+"""A program traced by JAX, light and slopes."""
+
+from __future__ import annotations
+
+from contextlib import nullcontext
+from dataclasses import replace
+from functools import cache, reduce
+from operator import and_
+from typing import TYPE_CHECKING, Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from optipath.engines.program.execute import execute
+from optipath.errors import ComposerError
+from optipath.kernels import MatrixCarrier, Primitives, cosine, sine
+from optipath.kernels.numbers.primitives import is_below_rounding, product_and_rest
+from optipath.values.angles import CosSin
+from optipath.values.arrays.jax_values import is_jax, is_traced
+from optipath.values.operands import part_of
+from optipath.values.precision import wide
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from optipath.engines.program.loops import LoopSolver
+    from optipath.engines.program.program import Program, Reading
+    from optipath.kernels import Carrier, Components
+    from optipath.values.operands import Operand
+    from optipath.values.parameters import Resolved
+
+
+def _frexp(number: Any) -> tuple[Any, Any]:
+    # Nothing is scaled: XLA takes minutes for a path whose every step is, and gains nothing.
+    return number, 0
+
+
+def _ldexp(number: Any, power: Any) -> Any:
+    if isinstance(power, int) and power == 0:
+        return number
+    one = jnp.ones((), jnp.result_type(number))
+    power = jnp.clip(power, -2040, 2040)
+    half = power // 2
+    return number * jnp.ldexp(one, half) * jnp.ldexp(one, power - half)
+
+
+def _apart(function: Callable[..., tuple[Any, ...]]) -> Callable[..., tuple[Any, ...]]:
+    """Make a kernel a function of its own for XLA, too, and not a part of whatever calls it.
+
+    On a CPU, XLA fuses all that comes before a result into its loop, again for each result: its
+    time grows with the square of what is in one piece. Numbers that are known stay so.
+    """
+
+    def called(*given: Any) -> tuple[Any, ...]:
+        known: dict[int, Any] = {}
+
+        def of_arrays(arrays: dict[int, Any]) -> dict[int, Any]:
+            found, plain = _parted(function(*(arrays.get(i, n) for i, n in enumerate(given))))
+            known.update(plain)
+            return found
+
+        with _not_inlined():
+            found = jax.jit(of_arrays)(_parted(given)[0])
+        together = found | known
+        return tuple(together[place] for place in range(len(together)))
+
+    return called
+
+
+def _parted(numbers: Sequence[Any]) -> tuple[dict[int, Any], dict[int, Any]]:
+    """Return numbers by their places: those that are JAX's, and those that are not."""
+    places = dict(enumerate(numbers))
+    arrays = {place: number for place, number in places.items() if is_jax(number)}
+    return arrays, {place: number for place, number in places.items() if place not in arrays}
+
+
+def _not_inlined() -> Any:
+    if jax.default_backend() != "cpu":
+        return nullcontext()
+    try:
+        from jax.experimental.xla_metadata import set_xla_metadata  # noqa: PLC0415 - newer versions
+    except ImportError:
+        return nullcontext()
+    return set_xla_metadata(inlineable="false")
+
+
+JAX = Primitives(
+    where=jnp.where,
+    sqrt=jnp.sqrt,
+    absolute=jnp.abs,
+    maximum=jnp.maximum,
+    minimum=jnp.minimum,
+    sin=jnp.sin,
+    cos=jnp.cos,
+    exp=jnp.exp,
+    atan2=jnp.arctan2,
+    frexp=_frexp,
+    ldexp=_ldexp,
+    two_product=product_and_rest,
+    below_rounding=is_below_rounding,
+    fixed=jax.lax.stop_gradient,
+    apart=_apart,
+)
+
+
+@cache
+def sloped(dtype: np.dtype[Any]) -> Primitives:
+    """Return the primitives for slopes in a precision."""
+    # So near to an edge no slope has changed yet, but its sixth power is still a number.
+    within = 2.0**-60 if dtype == np.float64 else 2.0**-20
+
+    def root(number: Any) -> Any:
+        # At 0 as well with the slope that it has there within: at 0 itself it has none.
+        raised = jnp.where(number > 0.0, 0.0, within**2 - JAX.fixed(number))
+        return jnp.sqrt(number + raised)
+
+    return replace(JAX, sqrt=root, within=within)
+
+
+_with_slopes: Any = jax.custom_jvp(lambda value, of: value)  # noqa: ARG005 - its slopes
+"""A value with the slopes of another number."""
+_with_slopes.defjvps(None, lambda tangent, *_: tangent)
+
+
+class JaxPath:
+    """A program for JAX.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    carrier : type
+        How light is carried.
+    dtype : dtype
+        The precision.
+    """
+
+    def __init__(self, program: Program, carrier: type[Carrier], dtype: np.dtype[Any]) -> None:
+        self.program = program
+        self.carrier = carrier(JAX)
+        self.dtype = dtype
+        self._lights = jax.jit(self._traced_lights, static_argnames=("batch", "absent"))
+        self._matrix = jax.jit(
+            self._traced_matrix, static_argnames=("batch", "absent", "source", "reading")
+        )
+        self._known_traced = any(operand.traced for operand in program.operands)
+
+    def lights(
+        self, resolved: Mapping[str, Resolved], batch: tuple[int, ...], given: Mapping[str, Any]
+    ) -> tuple[list[Any], Any]:
+        """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
+
+        A component that is not read is NaN, and so is light that gains going round.
+        """
+        values, absent = self._split(resolved, given)
+        with self._precision(values):
+            run = self._traced_lights if self._known_traced else self._lights
+            found, sound = run(values, batch=batch, absent=absent)
+        return list(found), sound
+
+    def matrix(
+        self,
+        resolved: Mapping[str, Resolved],
+        batch: tuple[int, ...],
+        given: Mapping[str, Any],
+        source: str,
+        reading: str,
+    ) -> Any:
+        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
+        values, absent = self._split(resolved, given)
+        with self._precision(values):
+            run = self._traced_matrix if self._known_traced else self._matrix
+            return run(values, batch=batch, absent=absent, source=source, reading=reading)
+
+    def _traced_lights(
+        self, values: Any, *, batch: tuple[int, ...], absent: frozenset[str]
+    ) -> tuple[tuple[Any, ...], Any]:
+        operands = self._operands(values, absent)
+        found, solvers = self._stokes(operands, self.carrier, batch)
+        factor = self._factor(solvers, batch)[..., np.newaxis]
+        return tuple(factor * stokes for stokes in found.values()), _are_sound(solvers)
+
+    def _traced_matrix(
+        self,
+        values: Any,
+        *,
+        batch: tuple[int, ...],
+        absent: frozenset[str],
+        source: str,
+        reading: str,
+    ) -> Any:
+        operands = self._operands(values, absent)
+        columns: list[Any] = []
+        solvers: list[LoopSolver] = []
+        for column in np.eye(4, dtype=self.dtype):
+            emitted = {
+                step: tuple(map(self._number, column if name == source else 0.0 * column))
+                for name, (step, _) in self.program.sources.items()
+            }
+            found, others = self._stokes(operands, MatrixCarrier(JAX), batch, emitted)
+            columns.append(found[reading])
+            # All light gains no more than unpolarised light does, which has some of each.
+            solvers = solvers or others
+        factor = self._factor(solvers, batch)[..., np.newaxis, np.newaxis]
+        return factor * jnp.stack(columns, axis=-1), _are_sound(solvers)
+
+    def _factor(self, solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> Any:
+        """Return 1 where light that goes round adds up, and NaN where it gains."""
+        slack = float(np.sqrt(np.finfo(self.dtype).eps))
+        holds = reduce(and_, (solver.adds_up(slack) for solver in solvers), True)  # noqa: FBT003
+        # As a factor it makes slopes NaN as well, and those of light that fades stay as they are.
+        return self._number(jnp.broadcast_to(jnp.where(holds, 1.0, jnp.nan), batch))
+
+    def _stokes(
+        self,
+        operands: Sequence[Any],
+        carrier: Carrier,
+        batch: tuple[int, ...],
+        emitted: Mapping[int, Components] | None = None,
+    ) -> tuple[dict[str, Any], list[LoopSolver]]:
+        """Return the Stokes vector of every reading, and what has been solved for loops."""
+        solvers: list[LoopSolver] = []
+        fixed = JAX.fixed(operands)
+        found = execute(self.program, fixed, carrier, emitted, self._number, None, solvers)
+        # Where the smaller of two intensities changes, the light that is carried has no slope,
+        # but what matrices make of it has: light comes from the one, its slope from the other.
+        smooth = execute(
+            self.program, operands, MatrixCarrier(sloped(self.dtype)), emitted, self._number
+        )
+        stokes = {}
+        for name, reading in self.program.readings.items():
+            components, exponent = found[reading.light]
+            if not isinstance(exponent, int):
+                components = tuple(_ldexp(part, exponent) for part in components)
+            both = components, smooth[reading.light][0]
+            stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
+        return stokes, solvers
+
+    def _number(self, number: Any) -> Any:
+        if isinstance(number, jax.Array):
+            return number.astype(self.dtype)
+        with np.errstate(over="ignore", under="ignore"):
+            return jnp.asarray(np.asarray(number, self.dtype))
+
+    def _stacked(self, components: Sequence[Any], reading: Reading, batch: tuple[int, ...]) -> Any:
+        unread = [jnp.nan] * (4 - reading.components)
+        parts = (*components[: reading.components], *unread)
+        return jnp.stack([jnp.broadcast_to(self._number(p), batch) for p in parts], axis=-1)
+
+    def _operands(self, values: Mapping[str, Any], absent: frozenset[str]) -> list[Any]:
+        return [
+            self._number(values[_place(place)])
+            if _place(place) in values
+            else self._operand(operand, values, absent)
+            for place, operand in enumerate(self.program.operands)
+        ]
+
+    def _operand(self, operand: Operand, values: Mapping[str, Any], absent: frozenset[str]) -> Any:
+        name = getattr(operand.value, "name", "")
+        if operand.part == "present":
+            if operand.known:
+                return operand.present()
+            return values.get(f"{name} present", name not in absent)
+        value = operand.value
+        if hasattr(value, "name"):
+            value = value.default if value.bound else values[name]
+            if is_traced(value) or not operand.known:
+                value = part_of(jnp.asarray(value), operand.input_part, operand.tail)
+                return self._done(operand, -value if operand.value.negative else value)
+        elif is_traced(value):
+            return self._done(operand, part_of(value, operand.input_part, operand.tail))
+        return self._number(operand.numbers({}))
+
+    def _done(self, operand: Operand, value: Any) -> Any:
+        value = self._number(value)
+        if operand.part in ("cos", "sin"):
+            # 0 at a right angle, but with its slope.
+            return (cosine if operand.part == "cos" else sine)(JAX)(value)
+        return value
+
+    def _split(
+        self, resolved: Mapping[str, Resolved], given: Mapping[str, Any]
+    ) -> tuple[dict[str, Any], frozenset[str]]:
+        """Return the values, and the names of what is not there at all.
+
+        Cosines and sines are among them that are given, or of angles that JAX would round.
+        """
+        values, absent = _split(resolved)
+        kind = wide(self.dtype)
+        for place, operand in enumerate(self.program.operands):
+            if operand.part not in ("cos", "sin") or operand.known:
+                continue
+            name = operand.value.name
+            pair, angle = given.get(name), values[name]
+            if isinstance(pair, CosSin):
+                number = getattr(pair, operand.part)
+                turned = operand.part == "sin" and operand.value.negative
+                values[_place(place)] = -number if turned else number
+            elif kind != self.dtype and not is_jax(angle):
+                values[_place(place)] = operand.of(angle, kind)
+        return values, absent
+
+    def _precision(self, values: Mapping[str, Any]) -> Any:
+        """Return a context in which JAX computes in the precision of the plan.
+
+        Raises
+        ------
+        ComposerError
+            If it is asked for slopes in double precision and does not have it.
+        """
+        if self.dtype == np.float32 or jax.config.jax_enable_x64:
+            return nullcontext()
+        if self._known_traced or any(map(is_traced, values.values())):
+            raise ComposerError(
+                "JAX computes in float32 until it is told otherwise, but the plan is in "
+                "float64; begin with jax.config.update('jax_enable_x64', True), or compose "
+                "with dtype='float32'"
+            )
+        return _double()(True)  # noqa: FBT003 - as JAX has it
+
+
+def _are_sound(solvers: Sequence[LoopSolver]) -> Any:
+    """Return whether so much light leaves every loop that nobody needs to look at it."""
+    conditions = [condition for solver in solvers for condition in solver.conditions]
+    return jnp.all(jnp.stack([jnp.all(holds) for holds in conditions])) if conditions else True
+
+
+@cache
+def _double() -> Any:
+    if hasattr(jax, "enable_x64"):
+        return jax.enable_x64
+    from jax.experimental import enable_x64  # noqa: PLC0415 - where older versions have it
+
+    return enable_x64
+
+
+def _split(resolved: Mapping[str, Resolved]) -> tuple[dict[str, Any], frozenset[str]]:
+    """Return the values, and the names of what is not there at all."""
+    values: dict[str, Any] = {}
+    absent = set()
+    for name, (value, present) in resolved.items():
+        values[name] = value if is_jax(value) else _known_to_jax(value)
+        if not np.all(present):
+            if np.any(present):
+                values[f"{name} present"] = present
+            else:
+                absent.add(name)
+    return values, frozenset(absent)
+
+
+def _place(place: int) -> str:
+    """Return what an operand is called that is computed before JAX is asked."""
+    return f".{place}"
+
+
+def _known_to_jax(value: Any) -> Any:
+    """Return an array in a precision and an order of bytes that JAX has."""
+    kind = np.complex128 if np.iscomplexobj(value) else np.float64
+    return np.asarray(value, kind)
