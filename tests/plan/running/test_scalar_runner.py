@@ -82,10 +82,11 @@ def test_every_run_brings_each_of_several_detectors_its_own_light(count):
         )
 
 
-def test_every_run_brings_each_of_several_detectors_its_own_exponent():
-    path = splitters(2)
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+def test_every_run_brings_each_of_several_detectors_its_own_exponent(composing):
+    plan = op.Composer(composing=composing).compose(splitters(2))
     for run in range(1, 9):
-        lights = path.trace_all(r0=1e-250, r1=10.0**-run, t=1e-100)
+        lights = plan.run_all(r0=1e-250, r1=10.0**-run, t=1e-100)
         found = [lights[end].log10_intensity for end in ("side0", "side1")]
         np.testing.assert_allclose(found, [-350.0, -100.0 - run], rtol=1e-14)
         assert lights["end"].intensity == pytest.approx(1.0 - 10.0**-run, rel=1e-15)
