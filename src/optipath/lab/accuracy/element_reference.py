@@ -260,7 +260,10 @@ def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
 def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
     angle = cos_sin(read.angle(element.incidence))
     indices = [read.index(index) for index in element.indices]
-    return stack(indices, *angle, back=way.enters == "back", way=way.reflects)
+    if way.enters == "back":
+        angle = refracted(indices[0].real / indices[-1].real, angle[1])
+        indices.reverse()
+    return stack(indices, *angle, back=False, way=way.reflects)
 
 
 @mueller.register
