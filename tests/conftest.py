@@ -1,12 +1,20 @@
-"""How hypothesis searches: the same examples every time, or, asked for, many new ones.
+"""Examples that are the same every time; or, asked for, many new ones from hypothesis.
 
 HYPOTHESIS_PROFILE=search pytest
 """
 
 import os
 
+import numpy as np
+import pytest
 from hypothesis import settings
 
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("search", max_examples=2000, deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+
+@pytest.fixture
+def rng(request):
+    """Random numbers of a test's own, whichever tests run beside it."""
+    return np.random.default_rng([*request.node.name.encode()])

@@ -6,10 +6,11 @@ import optipath as op
 
 
 class Draw:
-    """Draws a path and the values of its parameters from a seed."""
+    """Draws a path and the values of its parameters from a seed; without arrays, one path."""
 
-    def __init__(self, seed):
+    def __init__(self, seed, *, arrays=True):
         self.rng = np.random.default_rng(seed)
+        self.arrays = arrays
         self.values = {}
 
     def chance(self, share):
@@ -23,9 +24,10 @@ class Draw:
         if self.chance(0.6):
             return drawn
         if self.chance(0.4):
-            return self.rng.uniform(low, high, 3)
+            return self.rng.uniform(low, high, 3) if self.arrays else drawn
         name = f"p{len(self.values)}"
-        self.values[name] = drawn if self.chance(0.5) else self.rng.uniform(low, high, 3)
+        many = self.chance(0.5) and self.arrays
+        self.values[name] = self.rng.uniform(low, high, 3) if many else drawn
         return op.Parameter(name)
 
     def turn(self):
@@ -83,7 +85,7 @@ class Draw:
         if self.chance(0.4):
             return self.number(-1, 1)
         drawn = self.rng.uniform(0, 1, 3) * np.exp(1j * self.rng.uniform(-3, 3, 3))
-        drawn = drawn if self.chance(0.4) else complex(drawn[0])
+        drawn = drawn if self.chance(0.4) and self.arrays else complex(drawn[0])
         if self.chance(0.7):
             return drawn
         name = f"p{len(self.values)}"
@@ -145,4 +147,6 @@ class Draw:
                 ends = op.Dump()
             path.add(f"d{number}", ends)
             path.connect(light, f"d{number}.in")
+        # A splitter may stand in place of the element that they were drawn for.
+        self.values = {name: self.values[name] for name in path.parameters}
         return path

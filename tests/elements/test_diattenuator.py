@@ -17,15 +17,35 @@ def test_unpolarised_light_gains_the_diattenuation():
     assert light.dop == pytest.approx(0.6, abs=1e-15)
 
 
-def test_a_diattenuator_is_a_polariser_that_leaks():
-    state = [1.0, 0.5, 0.6, 0.4]
-    found = chain([op.Diattenuator(0.9, 0.05, angle=0.3, azimuth=0.2)], state).trace()
-    wanted = chain([op.Polarizer(0.3, 0.2, 0.9, 0.05)], state).trace()
-    np.testing.assert_array_equal(found.stokes, wanted.stokes)
+def chipman(q, r, angle):
+    """Chipman, Lam & Young (2018), eq. 6.54: a diattenuator of transmittances q and r."""
+    c, s, cross = np.cos(2 * angle), np.sin(2 * angle), 2 * np.sqrt(q * r)
+    return 0.5 * np.array(
+        [
+            [q + r, (q - r) * c, (q - r) * s, 0],
+            [(q - r) * c, (q + r) * c**2 + cross * s**2, (q + r - cross) * c * s, 0],
+            [(q - r) * s, (q + r - cross) * c * s, cross * c**2 + (q + r) * s**2, 0],
+            [0, 0, 0, cross],
+        ]
+    )
 
 
-def test_a_diattenuator_is_an_ideal_polariser_by_default():
-    assert op.Diattenuator().mueller() == op.Polarizer().mueller()
+@pytest.mark.parametrize("named", [op.Diattenuator, lambda q, r, a, z: op.Polarizer(a, z, q, r)])
+def test_a_diattenuator_and_a_polariser_that_leaks_are_chipmans(named):
+    matrix = named(0.9, 0.05, 0.3, 0.0).mueller().matrix
+    np.testing.assert_allclose(matrix, chipman(0.9, 0.05, 0.3), rtol=0, atol=2e-16)
+    state = np.array([1.0, 0.5, 0.6, 0.4])
+    # Light seen in a frame turned by the azimuth.
+    c, s = np.cos(0.4), np.sin(0.4)
+    seen = [1.0, 0.5 * c + 0.6 * s, 0.6 * c - 0.5 * s, 0.4]
+    found = chain([named(0.9, 0.05, 0.3, 0.2)], state).trace().stokes
+    np.testing.assert_allclose(found, chipman(0.9, 0.05, 0.3) @ seen, rtol=0, atol=4e-16)
+
+
+def test_a_diattenuator_is_an_ideal_polariser_along_x_by_default():
+    expected = np.zeros((4, 4))
+    expected[:2, :2] = 0.5
+    np.testing.assert_array_equal(op.Diattenuator().mueller().matrix, expected)
 
 
 def test_transmittances_that_give_light_are_refused():

@@ -6,8 +6,6 @@ import pytest
 import optipath as op
 from optipath.lab.accuracy.path_reference import exact_lights, exact_stokes
 
-RNG = np.random.default_rng(3)
-
 
 def path_of(stack, enters="in", leaves="reflected", state=(1.0, 0.3, 0.4, 0.5)):
     path = op.PathGraph()
@@ -32,21 +30,36 @@ def test_a_pile_of_plates_is_stokes_formula(faces):
 
 @pytest.mark.parametrize("ways", [("in", "reflected"), ("in", "transmitted")])
 @pytest.mark.parametrize("layers", [0, 1, 3])
-def test_a_stack_on_metal_is_right_to_the_last_digits(ways, layers):
+def test_a_stack_on_metal_is_right_to_the_last_digits(rng, ways, layers):
     for _ in range(5):
-        indices = [1.0, *RNG.uniform(0.7, 2.5, layers), complex(*RNG.uniform(0.2, 3, 2))]
-        path = path_of(op.LayerStack(indices, float(RNG.uniform(0, 1.5))), *ways)
+        indices = [1.0, *rng.uniform(0.7, 2.5, layers), complex(*rng.uniform(0.2, 3, 2))]
+        path = path_of(op.LayerStack(indices, float(rng.uniform(0, 1.5))), *ways)
         exact = [float(part) for part in exact_lights(path)["eye"].stokes]
         np.testing.assert_allclose(path.trace().stokes, exact, atol=4e-15)
 
 
 @pytest.mark.parametrize("ways", [("back", "reflected"), ("back", "transmitted")])
-def test_light_from_behind_is_right_too(ways):
+def test_light_from_behind_is_right_too(rng, ways):
     for _ in range(5):
-        indices = RNG.uniform(1.0, 2.5, 4).tolist()
-        path = path_of(op.LayerStack(indices, float(RNG.uniform(0, 1.5))), *ways)
+        indices = rng.uniform(1.0, 2.5, 4).tolist()
+        path = path_of(op.LayerStack(indices, float(rng.uniform(0, 1.5))), *ways)
         exact = [float(part) for part in exact_lights(path)["eye"].stokes]
         np.testing.assert_allclose(path.trace().stokes, exact, atol=4e-15)
+
+
+@pytest.mark.parametrize("turned", ["reflected", "transmitted"])
+def test_light_from_behind_is_that_of_the_stack_turned_round(turned):
+    # Glass seen from behind reflects all light where it meets the second medium.
+    indices, incidence = [1.9, 1.3, 2.4, 2.3], 1.1
+    behind = float(np.arcsin(indices[0] / indices[-1] * np.sin(incidence)))
+    other = {"reflected": "transmitted", "transmitted": "reflected"}[turned]
+    back = path_of(op.LayerStack(indices, incidence), "back", other)
+    front = path_of(op.LayerStack(indices[::-1], behind), "in", turned)
+    for found, expected in (
+        (back.trace().stokes, front.trace().stokes),
+        *((exact_stokes(path)["eye"], front.trace().stokes) for path in (back, front)),
+    ):
+        np.testing.assert_allclose([float(part) for part in found], expected, rtol=0, atol=4e-15)
 
 
 def test_two_media_are_an_interface():
@@ -67,8 +80,8 @@ def test_beyond_the_critical_angle_nothing_passes_a_gap():
     assert not gap.mueller("in", "transmitted").matrix.any()
 
 
-def test_energy_is_kept_from_either_side():
-    stack = op.LayerStack(RNG.uniform(1.0, 2.5, 12).tolist(), np.linspace(0, 1.57, 50))
+def test_energy_is_kept_from_either_side(rng):
+    stack = op.LayerStack(rng.uniform(1.0, 2.5, 12).tolist(), np.linspace(0, 1.57, 50))
     for enters in ("in", "back"):
         first = sum(stack.mueller(enters, leaves).matrix[:, 0] for leaves in stack.outputs)
         np.testing.assert_allclose(first, [[1, 0, 0, 0]] * 50, atol=1e-14)

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
@@ -101,8 +101,7 @@ def test_axes_that_are_no_frame_are_refused(axes, message):
 
 @given(z=VECTORS, x=VECTORS)
 def test_from_direction_keeps_z_and_puts_x_on_the_side_asked_for(z, x):
-    if np.linalg.norm(np.cross(z, x)) < 1e-3:
-        return
+    assume(np.linalg.norm(np.cross(z, x)) >= 1e-3)
     frame = op.Frame.from_direction(z, x)
     np.testing.assert_allclose(frame.z, z / np.linalg.norm(z), atol=1e-15)
     assert frame.x @ x > 0

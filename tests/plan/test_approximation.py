@@ -23,11 +23,7 @@ def test_no_certificate_is_violated_by_any_path(seed):
     draw = Draw(seed)
     path = draw.path()
     plan = op.Composer(model="full").compose(path)
-    try:
-        lights = plan.run_all(**draw.values)
-    except op.OptipathError:
-        return
-    for name, light in lights.items():
+    for name, light in plan.run_all(**draw.values).items():
         found = plan.certificate(name, **draw.values)
         lit = found.scalar > 0.0
         ratio = light.intensity[lit] / found.scalar[lit]

@@ -5,12 +5,11 @@ from hypothesis import strategies as st
 
 import optipath as op
 
-DRAW = np.random.default_rng(11)
 SHARES = st.floats(0.0, 1.0)
 
 
-def directions(count):
-    found = DRAW.normal(size=(count, 3))
+def directions(rng, count):
+    found = rng.normal(size=(count, 3))
     return found / np.linalg.norm(found, axis=-1, keepdims=True)
 
 
@@ -28,16 +27,16 @@ def behind(dop, diattenuations, axes):
 
 
 @pytest.mark.parametrize("length", range(2, 11))
-def test_no_chain_leaves_its_bounds_and_some_reach_them(length):
+def test_no_chain_leaves_its_bounds_and_some_reach_them(rng, length):
     count = 112_000  # A million for all lengths together.
-    dop = DRAW.choice([0.0, 1.0, -1.0], count, p=[0.3, 0.1, 0.6])
-    dop = np.where(dop < 0.0, DRAW.random(count), dop)
-    diattenuations = DRAW.random((length, count)) ** DRAW.choice([0.2, 1.0, 4.0], (length, 1))
+    dop = rng.choice([0.0, 1.0, -1.0], count, p=[0.3, 0.1, 0.6])
+    dop = np.where(dop < 0.0, rng.random(count), dop)
+    diattenuations = rng.random((length, count)) ** rng.choice([0.2, 1.0, 4.0], (length, 1))
     diattenuations[0, ::50] = 1.0
-    axes = [directions(count) for _ in range(length + 1)]
+    axes = [directions(rng, count) for _ in range(length + 1)]
     # Some with all axes along one line, one way or the other.
     for axis in axes:
-        axis[::5] = axes[0][::5] * DRAW.choice([-1.0, 1.0], (len(axis[::5]), 1))
+        axis[::5] = axes[0][::5] * rng.choice([-1.0, 1.0], (len(axis[::5]), 1))
     ratio = behind(dop, diattenuations, axes)
     lower, upper = op.intensity_bounds(dop, list(diattenuations))
     slack = 1e-14 * upper  # What goes to and fro is as large as that.

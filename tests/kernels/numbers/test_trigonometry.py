@@ -13,8 +13,6 @@ from optipath.kernels.numbers.trigonometry import (
     from_nearer_axis,
 )
 
-SEEDS = np.random.default_rng(5)
-
 
 def ulps(found, exact, dtype):
     off = [abs(mpmath.mpf(float(f)) - e) for f, e in zip(found, exact, strict=True)]
@@ -29,10 +27,10 @@ def exactly(angles):
 
 
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
-def test_angles_of_any_size_are_right_to_two_units_in_the_last_place(dtype):
+def test_angles_of_any_size_are_right_to_two_units_in_the_last_place(rng, dtype):
     digits = DIGITS[dtype]
-    near = np.round(SEEDS.uniform(-500, 500, 300)) * (np.pi / 2) * (1 + SEEDS.normal(0, 1e-5, 300))
-    angles = np.concatenate([SEEDS.uniform(-digits.most, digits.most, 500), near, [0.0]])
+    near = np.round(rng.uniform(-500, 500, 300)) * (np.pi / 2) * (1 + rng.normal(0, 1e-5, 300))
+    angles = np.concatenate([rng.uniform(-digits.most, digits.most, 500), near, [0.0]])
     angles = angles.astype(dtype)
     found = any_quadrant(NUMPY, digits)(angles)
     for value, exact in zip(found, exactly(angles), strict=True):
@@ -40,29 +38,27 @@ def test_angles_of_any_size_are_right_to_two_units_in_the_last_place(dtype):
 
 
 @pytest.mark.parametrize("dtype", ["float64", "float32"])
-def test_angles_of_the_first_quadrant_are_right_to_two_units_in_the_last_place(dtype):
-    near = np.pi / 2 - 10.0 ** SEEDS.uniform(-6, -1, 300)
-    angles = np.concatenate(
-        [SEEDS.uniform(0, np.pi / 2, 600), near, 10.0 ** SEEDS.uniform(-9, 0, 99)]
-    )
+def test_angles_of_the_first_quadrant_are_right_to_two_units_in_the_last_place(rng, dtype):
+    near = np.pi / 2 - 10.0 ** rng.uniform(-6, -1, 300)
+    angles = np.concatenate([rng.uniform(0, np.pi / 2, 600), near, 10.0 ** rng.uniform(-9, 0, 99)])
     angles = np.minimum(angles.astype(dtype), np.nextafter(np.dtype(dtype).type(np.pi / 2), 0))
     found = first_quadrant(NUMPY, DIGITS[dtype])(angles)
     for value, exact in zip(found, exactly(angles), strict=True):
         assert ulps(value, exact, dtype) < 2.0
 
 
-def test_next_to_a_right_angle_float32_has_what_double_precision_leaves():
-    angles = np.pi / 2 - 10.0 ** SEEDS.uniform(-15.6, 0, 500)
+def test_next_to_a_right_angle_float32_has_what_double_precision_leaves(rng):
+    angles = np.pi / 2 - 10.0 ** rng.uniform(-15.6, 0, 500)
     left = from_nearer_axis(NUMPY, DIGITS["float64"])(angles)
     found = first_quadrant(NUMPY, DIGITS["float32"])(*(x.astype("float32") for x in (angles, left)))
     for value, exact in zip(found, exactly(angles), strict=True):
         assert ulps(value, exact, "float32") < 2.0
 
 
-def test_next_to_any_right_angle_float32_has_what_double_precision_leaves():
-    turns = np.round(SEEDS.uniform(-500, 500, 500))
+def test_next_to_any_right_angle_float32_has_what_double_precision_leaves(rng):
+    turns = np.round(rng.uniform(-500, 500, 500))
     # Of a larger angle the double itself has fewer digits.
-    angles = turns * (np.pi / 2) + SEEDS.choice([-1, 1], 500) * 10.0 ** SEEDS.uniform(-9, -0.2, 500)
+    angles = turns * (np.pi / 2) + rng.choice([-1, 1], 500) * 10.0 ** rng.uniform(-9, -0.2, 500)
     left = from_axes(NUMPY, DIGITS["float64"])(angles)
     found = any_quadrant(NUMPY, DIGITS["float32"])(*(x.astype("float32") for x in (angles, left)))
     for value, exact in zip(found, exactly(angles), strict=True):

@@ -5,7 +5,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.lab.accuracy.path_reference import exact_batch, exact_lights
+from optipath.elements import Coupling
+from optipath.lab.accuracy.element_reference import Reader, mueller
+from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
 from optipath.lab.accuracy.reference import reflection, transmission
 from published import npgr026
 
@@ -139,7 +141,7 @@ def test_world_frames_have_a_reference():
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=2e-16)
 
 
-class Thing(op.Element):
+class Unregistered(op.Element):
     """An element of one's own."""
 
     share: op.Fraction = 0.5
@@ -150,12 +152,34 @@ class Thing(op.Element):
         return (1, 0, 0, 0), (0, share, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
 
 
-def test_an_element_of_ones_own_is_computed_in_many_digits():
+class Registered(Unregistered):
+    """One whose matrix is told a second time, in many digits."""
+
+
+@mueller.register
+def _(element: Registered, way: Coupling, read: Reader):
+    del way
+    share = read.real(element.share)
+    return mpmath.diag([1, share, mpmath.sqrt(share), mpmath.sqrt(share)]).tolist()
+
+
+def through(element):
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source(stokes=[1, 0.5, 0.5, 0.5]))
-    lamp >> path.add("thing", Thing(op.Parameter("share"))) >> path.add("eye", op.Detector())
-    stokes = exact_lights(path, share=0.3)["eye"].stokes
+    lamp >> path.add("thing", element) >> path.add("eye", op.Detector())
+    return path
+
+
+def test_an_element_of_ones_own_has_the_reference_that_is_registered_for_it():
+    stokes = exact_lights(through(Registered(op.Parameter("share"))), share=0.3)["eye"].stokes
     assert abs(stokes[2] - mpmath.sqrt(mpmath.mpf(0.3)) / 2) <= 1e-49
+
+
+@pytest.mark.parametrize("reference", [exact_lights, exact_stokes])
+def test_a_kernel_is_no_reference_of_itself(reference):
+    cure = r"class Unregistered have no reference .* register .*element_reference\.jones\.register"
+    with pytest.raises(op.PathError, match=cure):
+        reference(through(Unregistered(0.5)))
 
 
 @pytest.mark.parametrize("value", ["none", "horizontal"])

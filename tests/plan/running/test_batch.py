@@ -8,7 +8,6 @@ from optipath.plan.running.batch import Layout, sliced
 from optipath.values.operands import MANY, InputKey
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12, "filter": 0.3}
-DRAW = np.random.default_rng(2).uniform
 SHAPES = [
     [(100, 1), (1, 90)],
     [(70, 1, 1), (1, 3, 1), (80,)],
@@ -26,9 +25,9 @@ WAYS += [("numba", "float32", SHAPES[0])]
 
 
 @pytest.mark.parametrize(("engine", "dtype", "shapes"), WAYS)
-def test_a_grid_is_what_its_cells_are_one_by_one(engine, dtype, shapes):
+def test_a_grid_is_what_its_cells_are_one_by_one(rng, engine, dtype, shapes):
     names = ["delta", "phi", "rho"][: len(shapes)]
-    axes = {name: DRAW(0.1, 1.5, shape) for name, shape in zip(names, shapes, strict=True)}
+    axes = {name: rng.uniform(0.1, 1.5, shape) for name, shape in zip(names, shapes, strict=True)}
     batch = np.broadcast_shapes(*shapes)
     cells = {name: np.broadcast_to(value, batch).copy() for name, value in axes.items()}
     plan = op.Composer(engine=engine, dtype=dtype).compose(op.load_preset("npgr026", **METAL))
@@ -41,9 +40,9 @@ def test_a_grid_is_what_its_cells_are_one_by_one(engine, dtype, shapes):
         np.testing.assert_allclose(matrix, whole, rtol=0, atol=slack)
 
 
-def test_interfaces_of_a_grid_are_evaluated_once_for_each_of_their_own_angles():
+def test_interfaces_of_a_grid_are_evaluated_once_for_each_of_their_own_angles(rng):
     plan = op.load_preset("npgr026", **METAL).compose()
-    axes = {"delta": DRAW(0, 1, (1000, 1)), "phi": DRAW(0, 1, (1, 1000))}
+    axes = {"delta": rng.uniform(0, 1, (1000, 1)), "phi": rng.uniform(0, 1, (1, 1000))}
     counts = plan.evaluations(**axes)
     assert counts["X1.reflected"] + counts["X2.reflected"] == 2000
     full = op.Composer(model="full").compose(op.load_preset("npgr026", **METAL))
@@ -91,14 +90,14 @@ class Counting(op.Element):
         )
 
 
-def test_elements_that_cannot_be_compiled_are_evaluated_along_their_own_axes_too():
+def test_elements_that_cannot_be_compiled_are_evaluated_along_their_own_axes_too(rng):
     path = op.PathGraph()
     node = path.add("lamp", op.Source())
     for name in "ab":
         node = node >> path.add(name, Counting(op.Parameter(name)))
     node >> path.add("eye", op.Detector())
     plan = path.compose()
-    axes = {"a": DRAW(0, 1, (300, 1)), "b": DRAW(0, 1, 200)}
+    axes = {"a": rng.uniform(0, 1, (300, 1)), "b": rng.uniform(0, 1, 200)}
     expected = np.cos(axes["a"]) * np.cos(axes["b"])
     assert plan.engine_for(60_000) == "numpy, step by step"
     Counting.asked = 0
@@ -114,18 +113,18 @@ def test_axes_that_all_arrays_have_together_are_one():
 
 
 @pytest.mark.parametrize("where", [(slice(1, 3),), (2, slice(0, 2)), (slice(0, 1), slice(2, 4))])
-def test_a_part_of_an_array_is_that_of_the_array_laid_out(where):
+def test_a_part_of_an_array_is_that_of_the_array_laid_out(rng, where):
     batch = (4, 5)
     for shape in [(4, 1), (5,), (4, 5), (1, 1)]:
-        array = DRAW(size=shape)
+        array = rng.uniform(size=shape)
         part, whole = sliced(array, batch, where), np.broadcast_to(array, batch)[where]
         np.testing.assert_array_equal(np.broadcast_to(part, whole.shape), whole)
 
 
 @pytest.mark.parametrize("engine", ["numpy", "numba"])
-def test_a_value_out_of_range_on_one_axis_of_a_grid_is_refused(engine):
+def test_a_value_out_of_range_on_one_axis_of_a_grid_is_refused(rng, engine):
     plan = op.Composer(engine=engine).compose(op.load_preset("npgr026", **METAL))
-    delta, phi = DRAW(0, 1, (100, 1)), DRAW(0, 1, 100)
+    delta, phi = rng.uniform(0, 1, (100, 1)), rng.uniform(0, 1, 100)
     delta[70] = 2.0
     with pytest.raises(op.ParameterError, match="'delta' is 114"):
         plan.run(delta=delta, phi=phi)

@@ -12,18 +12,21 @@ from optipath.elements import (
     BeamSplitter,
     Combiner,
     Coupling,
+    Depolarizer,
     Diattenuator,
     Element,
     Interface,
     LayerStack,
     Medium,
     Mirror,
+    MuellerElement,
     Polarizer,
     Retarder,
     Rotator,
     SpecularVertex,
 )
-from optipath.kernels import INCIDENCE, REFLECTION
+from optipath.errors import PathError
+from optipath.kernels import INCIDENCE
 from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, exact_angle, exactly, mpmath
 from optipath.values.materials import Material
@@ -222,19 +225,59 @@ def _(element: Combiner, way: Coupling, read: Reader) -> Jones:
     return _diagonal(1, 1)
 
 
-def mueller(element: Element, coupling: Coupling, read: Reader) -> list[list[Any]]:
-    """Return the Mueller matrix of a way through a stack, or an element of one's own."""
-    if isinstance(element, LayerStack):
-        angle = cos_sin(read.angle(element.incidence))
-        indices = [read.index(index) for index in element.indices]
-        return stack(indices, *angle, back=coupling.enters == "back", way=coupling.reflects)
-    matrix = mpmath.eye(4)
-    for operation in coupling.operations:
-        kernel = operation.kernel.by_method(next(iter(REFLECTION.methods)))
-        numbers = kernel.made_for(MANY_DIGITS)(*map(read.real, operation.arguments))
-        assert kernel.structure is not None  # noqa: S101 - only sources have none
-        matrix = mpmath.matrix(kernel.structure.rows(MANY_DIGITS, numbers)) * matrix
-    return matrix.tolist()  # type: ignore[no-any-return]
+@singledispatch
+def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
+    """Return the Mueller matrix of a way through what has no Jones matrix.
+
+    Parameters
+    ----------
+    element : Element
+        One whose class is registered here, or in `jones`.
+    way : Coupling
+        The way through.
+    read : Reader
+        Gives its values in many digits.
+
+    Returns
+    -------
+    list of list of mpf
+        Its rows.
+
+    Raises
+    ------
+    PathError
+        If nothing is registered for the class.
+    """
+    del way, read
+    raise PathError(
+        f"elements of class {type(element).__name__} have no reference in many digits: register "
+        f"what computes their matrix with {__name__}.jones.register or .mueller.register, "
+        "or leave them out"
+    )
+
+
+@mueller.register
+def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
+    angle = cos_sin(read.angle(element.incidence))
+    indices = [read.index(index) for index in element.indices]
+    if way.enters == "back":
+        angle = refracted(indices[0].real / indices[-1].real, angle[1])
+        indices.reverse()
+    return stack(indices, *angle, back=False, way=way.reflects)
+
+
+@mueller.register
+def _(element: Depolarizer, way: Coupling, read: Reader) -> list[list[Any]]:
+    del way
+    kept = 1 - read.real(element.depolarization)
+    return mpmath.diag([1, kept, kept, kept]).tolist()  # type: ignore[no-any-return]
+
+
+@mueller.register
+def _(element: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
+    del element
+    numbers = [read.real(number) for number in way.operations[0].arguments]
+    return [numbers[row : row + 4] for row in range(0, 16, 4)]
 
 
 def _filter(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
