@@ -1,66 +1,30 @@
-"""PathGraph: named elements and links, the face that users touch."""
+"""PathGraph: a graph of elements that can be asked for its light, the face that users touch."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-import networkx as nx
-
-from optipath.composer import KEPT, LOOPS, Composer, parameters_of, validate
-from optipath.elements import Detector, Element
+from optipath.composer import KEPT, Composer
+from optipath.elements import Detector
 from optipath.errors import ParameterError, PathError, shown, unknown
-from optipath.light.frames import Frame
 from optipath.paths.binding import bind
-from optipath.paths.port_names import check_port, element_at, find_port
-from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import read_only, same
+from optipath.paths.element_graph import ElementGraph
 from optipath.values.cases import Case
-from optipath.values.domains import ANGLE, in_unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    import networkx as nx
 
     from optipath.light.light import Light
     from optipath.light.mueller import Mueller
     from optipath.plan.light_paths import LightPath
     from optipath.plan.plan import Plan
-    from optipath.values.parameters import Parameter
 
 
-@dataclass(frozen=True)
-class Node:
-    """A named element in its path; ``a >> b`` links the natural way out of a to b."""
-
-    path: PathGraph
-    name: str
-
-    def __rshift__(self, other: object) -> Node:
-        if not isinstance(other, Node):
-            return NotImplemented
-        if other.path is not self.path:
-            raise PathError(f"'{self.name}' and '{other.name}' stand in different paths; use one")
-        start, end = self.path.element(self.name), self.path.element(other.name)
-        if not start.natural:
-            ports = ", ".join(f"'{self.name}.{port}'" for port in start.outputs) or "none"
-            raise PathError(
-                f"'{self.name}' has no one natural way out; connect one of its out-ports: {ports}"
-            )
-        entry = end.inputs[0] if len(end.inputs) == 1 else end.entry
-        if not entry:
-            ports = ", ".join(f"'{other.name}.{port}'" for port in end.inputs) or "none"
-            raise PathError(
-                f"'{other.name}' has no one way in; connect one of its in-ports: {ports}"
-            )
-        self.path.connect(f"{self.name}.{start.natural}", f"{other.name}.{entry}")
-        return other
-
-    def __repr__(self) -> str:
-        return f"Node '{self.name}'"
-
-
-class PathGraph:
+class PathGraph(ElementGraph):
     """An optical path: named elements, linked from out-port to in-port.
 
     Parameters
@@ -87,6 +51,8 @@ class PathGraph:
     4.0
     """
 
+    _plans: dict[str, Plan]
+
     def __init__(
         self,
         description: str = "",
@@ -101,150 +67,21 @@ class PathGraph:
             raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
         self.description = description
         self.cases = dict(cases)
-        if faults := unknown("loops", loops, LOOPS):
-            raise PathError(*faults)
-        names = entries_of("declared", "names of parameters", declared, PathError)
-        if not all(isinstance(name, str) for name in names):
-            raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
-        self._graph = nx.MultiDiGraph(declared=names, loops=loops)
-        self._plan: Plan | None = None
-        self._plan_of_all: Plan | None = None
-
-    @property
-    def graph(self) -> nx.MultiDiGraph:
-        """The networkx graph, to query and not to change.
-
-        Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
-        and carry ``azimuth``.
-        """
-        return self._graph.copy(as_view=True)
+        super().__init__(declared, loops)
 
     def __copy__(self) -> PathGraph:
+        return self._with(self._graph.copy())
+
+    def _with(self, graph: nx.MultiDiGraph) -> PathGraph:
         path = PathGraph(self.description, self.cases)
-        path._graph = self._graph.copy()
+        path._graph = graph
         return path
-
-    @property
-    def loops(self) -> str:
-        """What becomes of light that goes round in a cycle: ``"refuse"`` or ``"sum"``."""
-        return str(self._graph.graph["loops"])
-
-    @property
-    def parameters(self) -> dict[str, Parameter]:
-        """The parameters of all elements and links, by name, bound ones included."""
-        return parameters_of(self._graph)
-
-    def add(self, name: str, element: Element, frames: Mapping[str, Frame] | None = None) -> Node:
-        """Add a named element.
-
-        Parameters
-        ----------
-        name : str
-            Not empty, without a dot, and new to the path.
-        element : Element
-            The same element may stand in several places.
-        frames : mapping of str to Frame, optional
-            The world frame of each port, for an element that stands in space rather
-            than relative to the one before it. One frame will do for an element that
-            light goes straight through.
-
-        Returns
-        -------
-        Node
-            For ``>>``.
-
-        Raises
-        ------
-        PathError
-            If the name is taken or not allowed, the element is no Element, or a port
-            does not exist.
-        """
-        if not isinstance(name, str) or not name or "." in name:
-            raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
-        if name in self._graph:
-            raise PathError(f"node '{name}' is there already; choose another name")
-        if not isinstance(element, Element):
-            raise PathError(
-                f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"
-            )
-        frames = {} if frames is None else frames
-        if not isinstance(frames, Mapping) or not all(
-            isinstance(frame, Frame) for frame in frames.values()
-        ):
-            raise PathError(
-                f"frames of '{name}' must be a Frame for each port, such as "
-                f"{{'in': Frame()}}, not {shown(frames)}"
-            )
-        frames = dict(frames)
-        for port in frames:
-            check_port(element, name, port, (*element.inputs, *element.outputs))
-        self._graph.add_node(name, element=element, frames=frames)
-        self._plan = self._plan_of_all = None
-        return Node(self, name)
-
-    def connect(self, leaves: str, enters: str, azimuth: Any = None) -> None:
-        """Link an out-port to an in-port.
-
-        Parameters
-        ----------
-        leaves, enters : str
-            The ports, as ``"node.port"``.
-        azimuth : float, array_like or Parameter, optional
-            The turn of the in-port's frame against the out-port's about the direction
-            of travel, in radians; by default the azimuth of the element.
-
-        Raises
-        ------
-        PathError
-            If a node or port does not exist, runs the other way, or the link is there
-            already.
-        """
-        faults: list[str] = []
-        ends = []
-        for text, out in ((leaves, True), (enters, False)):
-            try:
-                ends.append(find_port(self._graph, text, out=out))
-            except PathError as fault:
-                faults += fault.faults
-        if faults:
-            raise PathError(*faults)
-        (start, out_port), (end, in_port) = ends
-        if self._graph.has_edge(start, end, key=(out_port, in_port)):
-            raise PathError(f"link '{leaves} -> {enters}' is there already; remove the second one")
-        self._graph.add_edge(
-            start, end, key=(out_port, in_port), azimuth=in_unit_of(read_only(azimuth), ANGLE)
-        )
-        self._plan = self._plan_of_all = None
-
-    def element(self, name: str) -> Element:
-        """Return the element of a node.
-
-        Raises
-        ------
-        PathError
-            If there is no such node.
-        """
-        return element_at(self._graph, name)
-
-    def __getitem__(self, name: str) -> Node:
-        self.element(name)
-        return Node(self, name)
-
-    def check(self) -> None:
-        """Raise with every fault of the path, if it has any.
-
-        Raises
-        ------
-        PathError
-            A sentence for each fault.
-        """
-        validate(self._graph)
 
     def compose(self) -> Plan:
         """Return the plan of a default `Composer`, composed once and kept."""
-        if self._plan is None:
-            self._plan = Composer().compose(self._graph)
-        return self._plan
+        if "ends" not in self._plans:
+            self._plans["ends"] = Composer().compose(self._graph)
+        return self._plans["ends"]
 
     @overload
     def trace(self, /, keep: Literal["ends"] = ..., **parameters: Any) -> Light: ...
@@ -264,26 +101,43 @@ class PathGraph:
             The values of open parameters. Those that JAX traces cannot be refused: light is NaN
             where they are outside their domain.
 
+        Returns
+        -------
+        Light or dict of str to Light
+            The light at the detector; with ``"all"``, each light by name.
+
         Raises
         ------
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
         plan = self.compose()
-        if "keep" in plan.inputs.open and not _is(keep, KEPT[0]):
-            return plan.run(keep=keep, **parameters)
-        if _is(keep, KEPT[0]):
+        if isinstance(keep, str) and keep == KEPT[0]:
             return plan.run(**parameters)
+        if "keep" in plan.inputs.open:
+            return plan.run(keep=keep, **parameters)
         if faults := unknown("keep", keep, KEPT):
             raise ParameterError(*faults)
-        if self._plan_of_all is None:
-            self._plan_of_all = Composer(keep="all").compose(self._graph)
-        return self._plan_of_all.run_all(**parameters)
+        if keep not in self._plans:
+            self._plans[keep] = Composer(keep=keep).compose(self._graph)
+        return self._plans[keep].run_all(**parameters)
 
     def paths(
         self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
     ) -> list[LightPath]:
-        """Return the ways of light one by one, the brightest first; see `Plan.paths`."""
+        """Return the ways of light one by one, the brightest first; see `Plan.paths`.
+
+        Parameters
+        ----------
+        limit, bounces : int, optional
+            How many ways at most, and how often light may be reflected on each.
+        **parameters : float or array_like
+            As in `trace`.
+
+        Returns
+        -------
+        list of LightPath
+        """
         return self.compose().paths(limit, bounces, **parameters)
 
     def trace_all(self, /, **parameters: Any) -> dict[str, Light]:
@@ -293,7 +147,19 @@ class PathGraph:
     def mueller(
         self, source: str | None = None, detector: str | None = None, /, **parameters: Any
     ) -> Mueller:
-        """Return the Mueller matrix from a source to a detector; see `Plan.mueller`."""
+        """Return the Mueller matrix from a source to a detector; see `Plan.mueller`.
+
+        Parameters
+        ----------
+        source, detector : str, optional
+            Their names; needed only where there are several.
+        **parameters : float or array_like
+            As in `trace`.
+
+        Returns
+        -------
+        Mueller
+        """
         return self.compose().mueller(source, detector, **parameters)
 
     def bind(self, /, **values: Any) -> PathGraph:
@@ -304,9 +170,7 @@ class PathGraph:
         ParameterError
             With every unknown parameter and every value that is not allowed.
         """
-        path = PathGraph(self.description, self.cases)
-        path._graph = bind(self._graph, values)
-        return path
+        return self._with(bind(self._graph, values))
 
     def reading(self, reads: str) -> PathGraph:
         """Return a copy of the path whose detectors and dumps all read this, and no more.
@@ -329,12 +193,11 @@ class PathGraph:
         """
         if faults := Detector(reads).faults("path.reading(...)"):
             raise PathError(*faults)
-        path = PathGraph(self.description, self.cases)
-        path._graph = self._graph.copy()
-        for name, element in self._graph.nodes(data="element"):
-            if hasattr(element, "reads"):
-                path._graph.nodes[name]["element"] = replace(element, reads=reads)
-        return path
+        graph = self._graph.copy()
+        for node in graph.nodes.values():
+            if hasattr(node["element"], "reads"):
+                node["element"] = replace(node["element"], reads=reads)
+        return self._with(graph)
 
     def to_toml(self) -> str:
         """Return the path as the text of a preset file; loading it gives the path back.
@@ -351,28 +214,7 @@ class PathGraph:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PathGraph):
             return NotImplemented
-        mine, theirs = self._graph, other._graph
-        return (
-            self.description == other.description
-            and self.loops == other.loops
-            and self.cases == other.cases
-            and dict(mine.nodes(data=True)) == dict(theirs.nodes(data=True))
-            and _links(mine).keys() == _links(theirs).keys()
-            and all(same(turn, _links(theirs)[link]) for link, turn in _links(mine).items())
-        )
+        told = self.description == other.description and self.cases == other.cases
+        return told and super().__eq__(other)
 
-    __hash__ = None  # type: ignore[assignment]
-
-    def __repr__(self) -> str:
-        nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
-        return f"<PathGraph with {nodes} nodes and {links} links>"
-
-
-def _is(given: Any, word: str) -> bool:
-    return isinstance(given, str) and given == word
-
-
-def _links(graph: nx.MultiDiGraph) -> dict[Any, Any]:
-    return {
-        (start, end, key): turn for start, end, key, turn in graph.edges(keys=True, data="azimuth")
-    }
+    __hash__ = None

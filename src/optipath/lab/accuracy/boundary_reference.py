@@ -1,4 +1,7 @@
-"""The reference for boundaries and stacks of them, in many digits, written for nothing else."""
+"""The reference for boundaries and stacks of them: Fresnel's complex amplitudes in many digits.
+
+It shares no formula with the kernels.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +9,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from optipath.lab.accuracy.many_digits import mpmath
-from optipath.lab.accuracy.reference import amplitudes
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,27 +17,65 @@ Jones: TypeAlias = tuple[tuple[Any, Any], tuple[Any, Any]]
 
 
 class ExactBoundary(NamedTuple):
-    """The Jones matrices of what is reflected and, as carried power, let through."""
+    """What a boundary does to the field, the same from either side.
+
+    Attributes
+    ----------
+    reflected, transmitted : Jones
+        The Jones matrices of what is reflected and, as carried power, let through.
+    """
 
     reflected: Jones
     transmitted: Jones
 
 
 def boundary(m: Any, c: Any, s: Any) -> ExactBoundary:
-    """Return both for a relative index and an angle; they are the same from either side."""
-    rs, rp, g = amplitudes(m, c, s)
-    through = mpmath.mpf(0), mpmath.mpf(0)
+    """Return what a boundary reflects and lets through.
+
+    Parameters
+    ----------
+    m : mpc
+        The relative index.
+    c, s : mpf
+        Of the angle of incidence.
+
+    Returns
+    -------
+    ExactBoundary
+    """
+    # 1 - s^2 is c^2: an equal medium reflects nothing, at grazing incidence too.
+    g = mpmath.sqrt(m * m - s * s if s < c else (m * m - 1) + c * c)
+    if g.imag < 0 or (g.imag == 0 and g.real < 0):
+        g = -g
+    rs = (c - g) / (c + g) if c + g else mpmath.mpf(0)
+    second = m * m * c
+    # At normal incidence on an index of 0 nothing tells s from p but the turn of y.
+    rp = (second - g) / (second + g) if second + g else -rs
+    rs, rp = cleaned(rs), cleaned(rp)
+    along, across = mpmath.mpf(0), mpmath.mpf(0)
     # E_s is continuous, and so is H along s: t_s = 1 + r_s, t_p = (1 + r_p) / m.
     cross = (1 + rs) * mpmath.conj((1 + rp) / m) if m else mpmath.mpc(0)
     if cross and (m.imag != 0 or g.imag == 0):
-        roots = (mpmath.sqrt(abs(1 - abs(r) ** 2)) for r in (rs, rp))
-        along, across = roots
-        through = along, across * mpmath.conj(cross) / abs(cross)
-    return ExactBoundary(((rs, 0), (0, rp)), ((through[0], 0), (0, through[1])))
+        along, across = (mpmath.sqrt(abs(1 - abs(r) ** 2)) for r in (rs, rp))
+        across *= mpmath.conj(cross) / abs(cross)
+    return ExactBoundary(((rs, 0), (0, rp)), ((along, 0), (0, across)))
 
 
 def refracted(ratio: Any, s: Any) -> tuple[Any, Any]:
-    """Return cosine and sine behind a boundary, for the ratio of the indices before and behind."""
+    """Return cosine and sine behind a boundary.
+
+    Parameters
+    ----------
+    ratio : mpf
+        The index before over that behind.
+    s : mpf
+        The sine before.
+
+    Returns
+    -------
+    tuple of two mpf
+        ``(0, 1)`` where all is reflected.
+    """
     s = ratio * s
     return (mpmath.sqrt(1 - s * s), s) if s < 1 else (mpmath.mpf(0), mpmath.mpf(1))
 
@@ -53,29 +93,50 @@ def stack(indices: Sequence[Any], c: Any, s: Any, *, back: bool, way: bool) -> l
         Whether light comes from behind.
     way : bool
         Whether it is reflected.
+
+    Returns
+    -------
+    list of four lists of four mpf
     """
     first, faces = indices[0].real, []
     for place, (n, behind) in enumerate(pairwise(indices)):
         angle = refracted(first / n.real, s) if place else (c, s)
-        faces.append(boundary(behind / n.real, *angle))
+        face = boundary(behind / n.real, *angle)
+        faces.append(list(zip(*map(powers, face), strict=True)))
     if back:
         faces.reverse()
-    numbers = [_numbers(face) for face in faces]
-    total = numbers[-1]
-    for here in reversed(numbers[:-1]):
+    total = faces[-1]
+    for here in reversed(faces[:-1]):
         pairs = zip(here, total, strict=True)
         total = [_added(r, t, below, through) for (r, t), (below, through) in pairs]
-    Fs, Fp, z = (pair[0] if way else pair[1] for pair in total)
-    A, B, C, S = (Fs + Fp) / 2, (Fs - Fp) / 2, mpmath.re(z), mpmath.im(z)
+    A, B, C, S = mueller_numbers(*(pair[0] if way else pair[1] for pair in total))
     return [[A, B, 0, 0], [B, A, 0, 0], [0, 0, C, S], [0, 0, -S, C]]
 
 
-def _numbers(face: ExactBoundary) -> list[tuple[Any, Any]]:
-    """Return what is reflected and let through of s, of p, and of E_s conj(E_p)."""
-    found = []
-    for (x, _), (_, y) in face:
-        found.append((abs(x) ** 2, abs(y) ** 2, x * mpmath.conj(y)))
-    return list(zip(*found, strict=True))
+def powers(matrix: Jones) -> tuple[Any, Any, Any]:
+    """Return what becomes of the powers of s and p, and of E_s conj(E_p)."""
+    (x, _), (_, y) = matrix
+    return abs(x) ** 2, abs(y) ** 2, x * mpmath.conj(y)
+
+
+def mueller_numbers(Fs: Any, Fp: Any, z: Any) -> tuple[Any, Any, Any, Any]:
+    """Return (A, B, C, S) of a Mueller matrix.
+
+    Parameters
+    ----------
+    Fs, Fp, z
+        As `powers` has them.
+
+    Returns
+    -------
+    tuple of four mpf
+    """
+    return (Fs + Fp) / 2, (Fs - Fp) / 2, mpmath.re(z), mpmath.im(z)
+
+
+def cleaned(value: Any) -> Any:
+    """Return 0 for what is only the rounding of the last digits of what has cancelled."""
+    return value if abs(value) > mpmath.mpf(10) ** -(mpmath.mp.dps - 10) else mpmath.mpf(0)
 
 
 def _added(r: Any, t: Any, below: Any, through: Any) -> tuple[Any, Any]:

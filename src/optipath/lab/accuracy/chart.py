@@ -6,7 +6,6 @@ import platform
 from collections import Counter
 from dataclasses import asdict
 from functools import partial
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -17,11 +16,13 @@ from optipath.lab.accuracy.chart_file import FORMAT
 from optipath.lab.accuracy.contenders import Contender, available_dtypes, contenders
 from optipath.lab.accuracy.error_measures import LIMIT, Errors
 from optipath.lab.accuracy.interface_errors import interface_errors, matrix_numbers
-from optipath.lab.accuracy.machine import fastest, limits
+from optipath.lab.accuracy.machine import limits
 from optipath.lab.accuracy.many_paths import many_paths
 from optipath.lab.accuracy.path_errors import path_errors, trials, worst_and_median
 from optipath.lab.accuracy.regions import REGIONS
 from optipath.lab.accuracy.slow_operations import kernel_operations, slow_operations
+from optipath.lab.bench.report import software
+from optipath.lab.bench.timing import seconds_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -32,7 +33,17 @@ PATHS = 4096
 
 
 class Effort(NamedTuple):
-    """How much is measured: samples a region, timings a contender, and which engines."""
+    """How much is measured.
+
+    Attributes
+    ----------
+    samples : int
+        How many a region has.
+    rounds : int
+        How often each contender is timed.
+    engines : tuple of str
+        Which are measured.
+    """
 
     samples: int = 24
     rounds: int = 7
@@ -81,15 +92,11 @@ def path_chart(
     found = []
     for number, runner in enumerate(runners):
         progress("errors", 0.6 + 0.2 * number / len(runners))
-        found.append(
-            _entry(
-                runner,
-                {
-                    trial.region: path_errors(runner.composer, trial, runner.dtype)
-                    for trial in tests[rounded[runner.dtype]]
-                },
-            )
-        )
+        off = {
+            trial.region: path_errors(runner.composer, trial, runner.dtype)
+            for trial in tests[rounded[runner.dtype]]
+        }
+        found.append(_entry(runner, off))
     graph, values = many_paths(path, PATHS)
     plans = [runner.composer.compose(graph) for runner in runners]
     _time(found, [partial(plan.run_all, **values) for plan in plans], effort, progress)
@@ -117,18 +124,16 @@ def interface_chart(
         What `draw` draws.
     """
     runners = contenders(("stokes",), ("numpy",))
-    found: list[dict[str, Any]] = []
-    actions: list[Callable[[], Any]] = []
+    found, actions = [], []
     for number, runner in enumerate(runners):
         progress("50-digit references and errors", 0.8 * number / len(runners))
-        kernel = REFLECTION.by_method(runner.method)
         off = {
             region.name: interface_errors(runner.method, region, runner.dtype, effort.samples)
             for region in REGIONS
         }
         found.append(_entry(runner, off))
         samples = REGIONS[0].samples(PATHS, runner.dtype)
-        actions.append(partial(matrix_numbers, kernel, samples))
+        actions.append(partial(matrix_numbers, REFLECTION.by_method(runner.method), samples))
     _time(found, actions, effort, progress)
     least = limits(4 + 4, kernel_operations(REFLECTION.by_method("stable"), 5))
     return _chart("one interface", found, least)
@@ -180,7 +185,7 @@ def _time(
     for turn in range(effort.rounds):
         progress("times", 0.8 + 0.2 * turn / effort.rounds)
         for number, action in enumerate(actions):
-            times[number].append(fastest(action, 1) * 1e9 / PATHS)
+            times[number].append(seconds_of(action) * 1e9 / PATHS)
     for entry, taken in zip(entries, times, strict=True):
         entry["ns"] = {"least": min(taken), "median": float(np.median(taken))}
 
@@ -194,8 +199,5 @@ def _chart(title: str, found: list[dict[str, Any]], least: Mapping[str, float]) 
         "fails_above": LIMIT,
         "paths": PATHS,
         "machine": {"system": platform.system(), "processor": platform.machine()},
-        "versions": {
-            "python": platform.python_version(),
-            **{name: version(name) for name in ("optipath", "numpy")},
-        },
+        "versions": software(["numpy"]),
     }

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from io import BytesIO
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -41,6 +41,19 @@ _SIDES = (
     (-6, 14, "right"),
 )
 _INK, _FAINT, _RED = "#333333", "#8a8a8a", "#c0392b"
+_SMALL: dict[str, Any] = {"fontsize": 7.5, "color": _FAINT}
+
+
+class _Mark(NamedTuple):
+    """A contender in one panel: how it is called and drawn, its time, and its errors."""
+
+    name: str
+    colour: str
+    shape: str
+    ns: float
+    worst: float
+    median: float
+    fails: int
 
 
 def check_form(out: Path) -> None:
@@ -86,77 +99,71 @@ def _figure(chart: Mapping[str, Any]) -> Figure:
     title = f"Speed against accuracy: {chart['title']}".replace("$", r"\$")
     figure.suptitle(title, fontsize=14, color=_INK)
     panels = figure.subplots(1, 2, sharex=True)
+    held = []
     for axes, (kind, words) in zip(panels, _PANELS.items(), strict=True):
-        _panel(axes, chart, kind)
+        held.append(_panel(axes, chart, kind))
         axes.set_title(words, fontsize=10.5, color=_INK)
         axes.set_xlabel("ns a path", color=_INK)
     panels[0].set_ylabel("relative error: worst region (marker), median (dash)", color=_INK)
     handles = _legend(chart)
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
     figure.draw_without_rendering()
-    for axes, kind in zip(panels, _PANELS, strict=True):
-        _label_markers(axes, chart, kind)
+    for axes, marks in zip(panels, held, strict=True):
+        _label_markers(axes, marks)
     return figure
 
 
-def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
+def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> list[_Mark]:
+    """Draw a panel, and return the marks of what fails nowhere, which are still to be named."""
     axes.set_xscale("log")
     axes.set_yscale("log")
-    found = [(c, *_worst(c, kind), _failures(c, kind, chart)) for c in chart["contenders"]]
-    held = [entry for entry in found if not entry[3]]
-    for contender, worst, median, _ in held:
-        _marker(axes, contender, worst, median)
-    _frontier(axes, [(c["ns"]["least"], worst) for c, worst, *_ in held])
-    low = min([worst for _, worst, *_ in held] + [c["eps"] for c in chart["contenders"]]) / 30
-    high = max([worst for _, worst, *_ in held] + [c["eps"] for c in chart["contenders"]])
-    times = [c["ns"]["least"] for c in chart["contenders"]]
+    contenders = chart["contenders"]
+    marks = [_mark(contender, kind, chart["fails_above"]) for contender in contenders]
+    held = [mark for mark in marks if not mark.fails]
+    for mark in held:
+        axes.plot([mark.ns] * 2, [mark.median, mark.worst], color=mark.colour, lw=0.8, alpha=0.6)
+        axes.plot(mark.ns, mark.median, marker="_", color=mark.colour, markersize=7)
+        axes.plot(mark.ns, mark.worst, marker=mark.shape, color=mark.colour, markersize=7)
+    _frontier(axes, [(mark.ns, mark.worst) for mark in held])
+    sizes = [mark.worst for mark in held] + [contender["eps"] for contender in contenders]
+    low, base = min(sizes) / 30, max(sizes) * 30
+    times = [mark.ns for mark in marks]
     axes.set_xlim(min([*times, *chart["limits_ns"].values()]) / 5, max(times) * 8)
-    _failing_band(axes, [(c, fails) for c, *_, fails in found if fails], low, high * 30)
-    _limits(axes, chart, low, high * 30)
+    regions = max(len(contender["errors"][kind]) for contender in contenders)
+    _failing_band(axes, [mark for mark in marks if mark.fails], regions, low, base)
+    _limits(axes, chart, low, base)
     axes.grid(visible=True, which="major", color="#ececec", linewidth=0.8)
     axes.set_axisbelow(True)
     axes.tick_params(colors=_INK, which="both")
     for side in ("top", "right"):
         axes.spines[side].set_visible(False)
+    return held
 
 
-def _worst(contender: Mapping[str, Any], kind: str) -> tuple[float, float]:
+def _mark(contender: Mapping[str, Any], kind: str, most: float) -> _Mark:
     errors, eps = contender["errors"][kind].values(), contender["eps"]
     # An error of nothing has no place on a logarithmic axis: it stands at a tenth of eps.
-    worst = max(0.1, *(error["worst"] for error in errors))
-    return worst * eps, max(float(np.median([e["median"] for e in errors])), 0.1) * eps
+    return _Mark(
+        name=contender["method"] + " · jones" * (contender["composing"] == "jones"),
+        colour=_colour(contender["engine"]),
+        shape=_shape(contender["dtype"]),
+        ns=contender["ns"]["least"],
+        worst=max(0.1, *(error["worst"] for error in errors)) * eps,
+        median=max(float(np.median([error["median"] for error in errors])), 0.1) * eps,
+        fails=sum(not error["worst"] <= most for error in errors),
+    )
 
 
-def _failures(contender: Mapping[str, Any], kind: str, chart: Mapping[str, Any]) -> int:
-    errors = contender["errors"][kind].values()
-    return sum(not error["worst"] <= chart["fails_above"] for error in errors)
-
-
-def _marker(axes: Axes, contender: Mapping[str, Any], worst: float, median: float) -> None:
-    x, colour = contender["ns"]["least"], _colour(contender["engine"])
-    axes.plot([x, x], [median, worst], color=colour, linewidth=0.8, alpha=0.6)
-    axes.plot(x, median, marker="_", color=colour, markersize=7)
-    axes.plot(x, worst, marker=_shape(contender["dtype"]), color=colour, markersize=7)
-
-
-def _label_markers(axes: Axes, chart: Mapping[str, Any], kind: str) -> None:
+def _label_markers(axes: Axes, marks: list[_Mark]) -> None:
     """Name each marker, on the first side of it where nothing stands yet."""
-    held = [c for c in chart["contenders"] if not _failures(c, kind, chart)]
     # From above, so that of two that stand close the upper one is named above.
-    held.sort(key=lambda contender: -_worst(contender, kind)[0])
-    points = [(c["ns"]["least"], _worst(c, kind)[0]) for c in held]
+    marks = sorted(marks, key=lambda mark: -mark.worst)
+    points = [(mark.ns, mark.worst) for mark in marks]
     taken = [Bbox.from_bounds(x - 5, y - 5, 10, 10) for x, y in axes.transData.transform(points)]
-    for contender, point in zip(held, points, strict=True):
+    words: dict[str, Any] = {"textcoords": "offset points", "fontsize": 8, "color": _INK}
+    for mark, point in zip(marks, points, strict=True):
         for x, y, side in _SIDES:
-            label = axes.annotate(
-                _name(contender),
-                point,
-                xytext=(x, y),
-                textcoords="offset points",
-                ha=side,
-                fontsize=8,
-                color=_INK,
-            )
+            label = axes.annotate(mark.name, point, xytext=(x, y), ha=side, **words)
             box = label.get_window_extent()
             if not box.count_overlaps(taken) or (x, y, side) == _SIDES[-1]:
                 taken.append(box)
@@ -172,11 +179,6 @@ def _shape(dtype: str) -> str:
     return _SHAPES.get(dtype, "^")
 
 
-def _name(contender: Mapping[str, Any]) -> str:
-    composed = " · jones" if contender["composing"] == "jones" else ""
-    return f"{contender['method']}{composed}"
-
-
 def _frontier(axes: Axes, points: list[tuple[float, float]]) -> None:
     best: list[tuple[float, float]] = []
     for x, y in sorted(points):
@@ -190,36 +192,19 @@ def _limits(axes: Axes, chart: Mapping[str, Any], low: float, high: float) -> No
     """Draw what this machine needs at least, and the rounding of each precision."""
     for name, ns in chart["limits_ns"].items():
         axes.vlines(ns, low, high, color=_FAINT, linewidth=1, linestyle=":")
-        axes.text(
-            ns,
-            low,
-            f" this machine's limit: {name}",
-            rotation=90,
-            va="bottom",
-            ha="right",
-            fontsize=7.5,
-            color=_FAINT,
-        )
+        words = f" this machine's limit: {name}"
+        axes.text(ns, low, words, rotation=90, va="bottom", ha="right", **_SMALL)
     for dtype, eps in {c["dtype"]: c["eps"] for c in chart["contenders"]}.items():
         axes.axhline(eps, color=_FAINT, linewidth=0.9, linestyle="--")
-        axes.text(
-            1.005,
-            eps,
-            f"eps of\n{dtype}",
-            transform=axes.get_yaxis_transform(),
-            va="center",
-            ha="left",
-            fontsize=7.5,
-            color=_FAINT,
-        )
+        beside = axes.get_yaxis_transform()
+        axes.text(1.005, eps, f"eps of\n{dtype}", transform=beside, va="center", **_SMALL)
 
 
-def _failing_band(
-    axes: Axes, failing: list[tuple[Mapping[str, Any], int]], low: float, base: float
-) -> None:
+def _failing_band(axes: Axes, failing: list[_Mark], regions: int, low: float, base: float) -> None:
     """Draw what fails in some region above everything: a row a method, hollow, counted."""
-    regions = max((len(c["errors"]["normwise"]) for c, _ in failing), default=0)
-    rows = list(dict.fromkeys(_name(contender) for contender, _ in failing))
+    rows: dict[str, list[_Mark]] = {}
+    for mark in failing:
+        rows.setdefault(mark.name, []).append(mark)
     step = 15.0
     top = base * step ** (len(rows) + 0.6)
     axes.set_ylim(low, top)
@@ -230,18 +215,15 @@ def _failing_band(
         return
     axes.axhspan(base, top, color=_RED, alpha=0.09, linewidth=0)
     left = axes.get_xlim()[0]
-    for number, row in enumerate(rows):
+    for number, (name, marks) in enumerate(rows.items()):
         y = base * step ** (number + 0.7)
-        counts = sorted({count for contender, count in failing if _name(contender) == row})
+        counts = sorted({mark.fails for mark in marks})
         many = f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
-        axes.text(
-            left, y, f" {row}: fails in {many} of {regions}", va="center", fontsize=8, color=_RED
-        )
-        for contender, _ in failing:
-            if _name(contender) == row:
-                x, colour = contender["ns"]["least"], _colour(contender["engine"])
-                shape = _shape(contender["dtype"])
-                axes.plot(x, y, marker=shape, color=colour, markersize=7, markerfacecolor="white")
+        words = f" {name}: fails in {many} of {regions}"
+        axes.text(left, y, words, va="center", fontsize=8, color=_RED)
+        for mark in marks:
+            style: dict[str, Any] = {"color": mark.colour, "markerfacecolor": "white"}
+            axes.plot(mark.ns, y, marker=mark.shape, markersize=7, **style)
 
 
 def _legend(chart: Mapping[str, Any]) -> list[Line2D]:

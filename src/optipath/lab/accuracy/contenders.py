@@ -41,24 +41,31 @@ def contenders(
 
     JAX is not among them: it compiles anew for every path that it is given.
 
+    Parameters
+    ----------
+    composing, engines : tuple of str, optional
+        Those that are wanted.
+
+    Returns
+    -------
+    list of Contender
+        Those whose engine is installed and has their precision.
+
     Examples
     --------
     >>> Contender("stable", "float64", "numpy", "jones") in contenders()
     True
     """
-    found = [
-        Contender(*words) for words in product(METHODS, available_dtypes(), engines, composing)
+    return [
+        Contender(method, dtype, engine, way)
+        for method, dtype, engine, way in product(METHODS, available_dtypes(), engines, composing)
+        if engine == "numpy" or (is_installed(engine) and dtype != "longdouble")
     ]
-    return [one for one in found if one.engine == "numpy" or _is_compiled(one)]
 
 
 def available_dtypes() -> tuple[str, ...]:
     """Return the precisions that this platform has."""
     return tuple(name for name in DTYPES if _exists(name))
-
-
-def _is_compiled(contender: Contender) -> bool:
-    return is_installed(contender.engine) and contender.dtype != "longdouble"
 
 
 def _exists(name: str) -> bool:

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from optipath.lab.accuracy.regions import Region, Samples
 
 SAMPLES = 200
-_FAMILIES = {"reflection": REFLECTION, "transmission": TRANSMISSION}
-_REFERENCES = {"reflection": reference.reflection, "transmission": reference.transmission}
+FAMILIES = {"reflection": REFLECTION, "transmission": TRANSMISSION}
+REFERENCES = {"reflection": reference.reflection, "transmission": reference.transmission}
 
 
 def interface_errors(
@@ -45,6 +45,10 @@ def interface_errors(
     what : {"reflection", "transmission"}, optional
         Which Mueller matrix.
 
+    Returns
+    -------
+    Errors
+
     Examples
     --------
     >>> from optipath.lab.accuracy.regions import REGIONS
@@ -52,13 +56,26 @@ def interface_errors(
     >>> bool(np.all(off.componentwise <= 10))
     True
     """
-    kernel = _FAMILIES[what].by_method(method)
+    kernel = FAMILIES[what].by_method(method)
     found = matrix_numbers(kernel, region.samples(count, dtype))
     return errors(found, _references(region, dtype, count, what), dtype)
 
 
 def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
-    """Return (A, B, C, S), shape (samples, 4), as a kernel computes them."""
+    """Return (A, B, C, S) as a kernel computes them.
+
+    Parameters
+    ----------
+    kernel : Kernel
+        Of an interface.
+    samples : Samples
+        Boundaries and angles.
+
+    Returns
+    -------
+    ndarray, shape (samples, 4)
+        In the precision of the samples.
+    """
     outside = np.ones((), samples.n.dtype)
     with np.errstate(all="ignore"):
         numbers = kernel.made_for(NUMPY)(outside, *samples)
@@ -70,4 +87,4 @@ def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:
 def _references(region: Region, dtype: str, count: int, what: str) -> tuple[reference.Exact, ...]:
     samples = zip(*region.samples(count, dtype), strict=True)
     with mpmath.workdps(WORKING_DIGITS):
-        return tuple(_REFERENCES[what](*map(exactly, sample)) for sample in samples)
+        return tuple(REFERENCES[what](*map(exactly, sample)) for sample in samples)

@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-from time import perf_counter
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from optipath.lab.bench.timing import seconds_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
 _INNER, _OUTER = 2048, 4_000_000
-
-
-def fastest(action: Callable[[], Any], repeats: int = 9) -> float:
-    """Return the smallest time of an action in seconds."""
-    times = []
-    for _ in range(repeats):
-        begin = perf_counter()
-        action()
-        times.append(perf_counter() - begin)
-    return min(times)
 
 
 def throughput() -> dict[str, float]:
@@ -35,22 +27,16 @@ def throughput() -> dict[str, float]:
     """
     x, y = np.full(_INNER, 1.5), np.empty(_INNER)
     many, copy = np.ones(_OUTER), np.ones(_OUTER)
-    loops = 200
-
-    def repeated(function: Callable[..., Any], *given: Any) -> Callable[[], None]:
-        def action() -> None:
-            for _ in range(loops):
-                function(*given, out=y)
-
-        return action
-
-    per = 1e9 / (loops * _INNER)
     return {
-        "sqrt": fastest(repeated(np.sqrt, x)) * per,
-        "div": fastest(repeated(np.divide, x, x)) * per,
+        "sqrt": _least_ns(partial(np.sqrt, x, out=y), 200) / _INNER,
+        "div": _least_ns(partial(np.divide, x, x, out=y), 200) / _INNER,
         # A copy reads and writes every byte once.
-        "byte": fastest(lambda: np.copyto(copy, many)) * 1e9 / (2 * many.nbytes),
+        "byte": _least_ns(partial(np.copyto, copy, many)) / (2 * many.nbytes),
     }
+
+
+def _least_ns(action: Callable[[], Any], calls: int = 1) -> float:
+    return 1e9 * min(seconds_of(action, calls) for _ in range(9))
 
 
 def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
@@ -61,7 +47,12 @@ def limits(numbers: int, counts: Mapping[str, int]) -> dict[str, float]:
     numbers : int
         How many float64 a path is given and gives.
     counts : mapping
-        What `operations` has counted.
+        What `slow_operations` has counted.
+
+    Returns
+    -------
+    dict of str to float
+        Of those that are above 0.
     """
     unit = throughput()
     found = {

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     import networkx as nx
-    import numpy.typing as npt
 
     from optipath.composer import Composer
     from optipath.lab.accuracy.path_reference import ExactLight
@@ -51,7 +50,25 @@ def trials(
     count: int,
     tick: Callable[[], object] = lambda: None,
 ) -> list[Trial]:
-    """Return the path as given, and in every region if it has interfaces."""
+    """Return the path as given, and in every region if it has interfaces.
+
+    Parameters
+    ----------
+    path : PathGraph
+        Any path.
+    regions : tuple of Region
+        Where its interfaces are drawn.
+    dtype : str
+        The precision that they are rounded to.
+    count : int
+        How many samples a region has.
+    tick : callable, optional
+        Is called after each.
+
+    Returns
+    -------
+    list of Trial
+    """
     graphs = [(AS_GIVEN, path.graph.copy())]
     if interfaces(path):
         graphs += [(region.name, in_region(path, region, count, dtype)) for region in regions]
@@ -63,9 +80,21 @@ def trials(
 
 
 def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
-    """Return the errors of a composer's plan, at all ends together, one row a sample and end.
+    """Return the errors of a composer's plan, at all ends together.
 
-    A plan that refuses, because a number is not finite, has infinite errors.
+    Parameters
+    ----------
+    composer : Composer
+        What makes the plan.
+    trial : Trial
+        What it is made of.
+    dtype : str
+        The precision whose ulp is the unit.
+
+    Returns
+    -------
+    Errors
+        One row a sample and end; infinite for a plan that refuses, because a number is not finite.
     """
     ends = list(trial.lights[0])
     exact = [lights[end] for end in ends for lights in trial.lights]
@@ -76,11 +105,11 @@ def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
         return Errors(np.full(shape, np.inf), np.full(len(exact), np.inf))
     found = np.concatenate([lights[end].mantissa.reshape(-1, 4) for end in ends])
     powers = np.concatenate([lights[end].exponent.ravel() for end in ends])
-    exact = [_over(light, int(power)) for light, power in zip(exact, powers, strict=True)]
-    # A component that a detector does not read has no error.
     unread = np.isnan(found)
     found = np.where(unread, 0, found)
-    exact = [_without(light, row) for light, row in zip(exact, unread, strict=True)]
+    exact = [
+        _comparable(*each) for each in zip(exact, powers.tolist(), (~unread).tolist(), strict=True)
+    ]
     off = errors(found, exact, dtype, against_first=True)
     # Light that a precision cannot hold is lost, however small the step of its last place.
     least = exactly(np.finfo(dtype).tiny)
@@ -91,14 +120,13 @@ def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
     return off
 
 
-def _without(light: ExactLight, unread: npt.NDArray[np.bool_]) -> ExactLight:
-    kept = zip(light.stokes, unread.tolist(), strict=True)
-    return light._replace(stokes=tuple(mpmath.mpf(0) if gone else part for part, gone in kept))
+def _comparable(light: ExactLight, power: int, read: list[bool]) -> ExactLight:
+    """Return a light without two to a power: what is too faint for floats is compared so.
 
-
-def _over(light: ExactLight, power: int) -> ExactLight:
-    """Return a light without two to a power: what is too faint for floats is compared so."""
-    return light._replace(stokes=tuple(mpmath.ldexp(part, -power) for part in light.stokes))
+    A component that a detector does not read is 0, and has no error.
+    """
+    parts = zip(light.stokes, read, strict=True)
+    return light._replace(stokes=tuple(mpmath.ldexp(part, -power) * seen for part, seen in parts))
 
 
 def worst_and_median(numbers: Any) -> dict[str, float]:

@@ -15,7 +15,15 @@ if TYPE_CHECKING:
 
 
 class Samples(NamedTuple):
-    """Boundaries and angles, one a row; n + ik is relative to the medium in front."""
+    """Boundaries and angles, one a row.
+
+    Attributes
+    ----------
+    n, k : ndarray
+        The index n + ik, relative to the medium in front.
+    cos, sin : ndarray
+        Of the angle of incidence.
+    """
 
     n: Floats
     k: Floats
@@ -47,7 +55,20 @@ class Region:
     draw: Draw
 
     def samples(self, count: int, dtype: str = "float64", seed: int = 0) -> Samples:
-        """Return boundaries and angles, rounded to a precision; others for another seed.
+        """Return boundaries and angles, rounded to a precision.
+
+        Parameters
+        ----------
+        count : int
+            How many.
+        dtype : str, optional
+            The precision.
+        seed : int, optional
+            Another one draws others.
+
+        Returns
+        -------
+        Samples
 
         Examples
         --------
@@ -59,6 +80,17 @@ class Region:
 
     def at(self, units: Floats, dtype: str = "float64") -> Samples:
         """Return what comes of numbers within 0 .. 1 in place of random ones.
+
+        Parameters
+        ----------
+        units : ndarray, shape (dimensions, count)
+            The numbers.
+        dtype : str, optional
+            The precision that samples are rounded to.
+
+        Returns
+        -------
+        Samples
 
         Examples
         --------
@@ -126,10 +158,6 @@ def _at(angle: Floats | float) -> tuple[Floats, Floats]:
     return np.cos(angle), np.sin(angle)
 
 
-def _below_90(degrees: Floats) -> tuple[Floats, Floats]:
-    return np.sin(np.radians(degrees)), np.cos(np.radians(degrees))
-
-
 def _generic(dice: _Dice) -> tuple[Floats, ...]:
     angle = np.radians(dice.even(1, 89))
     return dice.even(0.1, 5), dice.some(dice.even(0.01, 8)), *_at(angle)
@@ -164,7 +192,8 @@ def _inner(dice: _Dice) -> tuple[Floats, Floats]:
 
 
 def _grazing(dice: _Dice) -> tuple[Floats, Floats]:
-    return _below_90(dice.decades(1e-12, 1e-1))
+    below_90 = np.radians(dice.decades(1e-12, 1e-1))
+    return np.sin(below_90), np.cos(below_90)
 
 
 def _nearly_one(dice: _Dice) -> Floats:
@@ -187,10 +216,6 @@ def _extreme(dice: _Dice) -> tuple[Floats, ...]:
     return size * np.cos(phase), k, *_inner(dice)
 
 
-def _metal(dice: _Dice) -> tuple[Floats, Floats]:
-    return dice.even(0.05, 4), dice.even(1, 9)
-
-
 _NONE = np.zeros(1)
 
 REGIONS: tuple[Region, ...] = (
@@ -209,7 +234,7 @@ REGIONS: tuple[Region, ...] = (
     Region("n near 1, k = 0", lambda d: (_nearly_one(d), _NONE, *_inner(d))),
     Region("n near 1, k like n - 1", _alike),
     Region("n near 1, grazing", lambda d: (_nearly_one(d), _NONE, *_grazing(d))),
-    Region("metals", lambda d: (*_metal(d), *_inner(d))),
+    Region("metals", lambda d: (d.even(0.05, 4), d.even(1, 9), *_inner(d))),
     Region("index of 1e3 to 1e8", lambda d: (*_large(d), *_inner(d))),
     Region("index of 1e3 to 1e8, grazing", lambda d: (*_large(d), *_grazing(d))),
     Region("n near 0", lambda d: (d.decades(1e-12, 1e-2), d.some(d.decades(1e-12, 1)), *_inner(d))),

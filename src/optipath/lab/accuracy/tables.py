@@ -14,7 +14,7 @@ from optipath.lab.accuracy.regions import REGIONS
 from optipath.lab.accuracy.worst_cases import COMPONENTS, worst
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from optipath.lab.accuracy.regions import Region
 
@@ -61,6 +61,19 @@ def searched_tables(generations: int) -> list[TextTable]:
 def put_tables(text: str, found: Sequence[TextTable], marks: tuple[str, str] = SAMPLED) -> str:
     """Return a Markdown text with the tables between the two lines that mark their place.
 
+    Parameters
+    ----------
+    text : str
+        Of the document.
+    found : sequence of TextTable
+        In their order.
+    marks : tuple of two str, optional
+        The lines before and behind.
+
+    Returns
+    -------
+    str
+
     Raises
     ------
     OptipathError
@@ -98,50 +111,48 @@ def shown(error: float) -> str:
 
 
 def _reflection(dtype: str, kind: str, samples: int) -> TextTable:
-    rows = []
-    for region in REGIONS:
-        off = (interface_errors(method, region, dtype, samples) for method in METHODS)
-        rows.append((region.name, *(shown(_largest(getattr(e, kind))) for e in off)))
+    def row(region: Region) -> Iterator[str]:
+        for method in METHODS:
+            off = interface_errors(method, region, dtype, samples)
+            yield shown(_largest(getattr(off, kind)))
+
     words = {"componentwise": "worst of A, B, C, S, each in its ulp*", "normwise": "in ulp of A"}
-    return TextTable(
-        f"Reflection, {dtype}, {kind}: {words[kind]}", ("region", *METHODS), tuple(rows)
-    )
+    return _of_regions(f"Reflection, {dtype}, {kind}: {words[kind]}", METHODS, row)
 
 
 def _transmission(samples: int) -> TextTable:
     methods = ("stable", "compensated")
-    rows = []
-    for region in REGIONS:
-        row = [region.name]
+
+    def row(region: Region) -> Iterator[str]:
+        lossless = region.samples(samples).k == 0.0
         for method in methods:
             off = interface_errors(method, region, "float64", samples, "transmission")
-            lossless = _lossless(region, samples)
-            row += [shown(_largest(off.componentwise[:, i])) for i in (0, 1)]
-            row.append(shown(_largest(off.componentwise[lossless, 2])) if lossless.any() else "")
-        rows.append(tuple(row))
-    header = ("region", *(f"{method} {name}" for method in methods for name in ("A", "B", "C")))
+            yield from (shown(_largest(off.componentwise[:, i])) for i in (0, 1))
+            yield shown(_largest(off.componentwise[lossless, 2])) if lossless.any() else ""
+
+    columns = [f"{method} {name}" for method in methods for name in "ABC"]
     title = "Transmission, float64: worst in ulp*; C where nothing absorbs"
-    return TextTable(title, header, tuple(rows))
+    return _of_regions(title, columns, row)
 
 
 def _worst_cases(method: str, dtype: str, generations: int) -> TextTable:
-    sides = [("reflection", name) for name in COMPONENTS] + [
-        ("transmission", name) for name in "ABC"
-    ]
-    rows = []
-    for region in REGIONS:
-        found = (
-            worst(method, region, name, what, dtype, generations=generations).error
-            for what, name in sides
-        )
-        rows.append((region.name, *map(shown, found)))
-    header = ("region", *(f"{what[0].upper()} {name}" for what, name in sides))
+    sides = [("reflection", name) for name in COMPONENTS]
+    sides += [("transmission", name) for name in "ABC"]
+
+    def row(region: Region) -> Iterator[str]:
+        for what, name in sides:
+            yield shown(worst(method, region, name, what, dtype, generations=generations).error)
+
+    columns = [f"{what[0].upper()} {name}" for what, name in sides]
     title = f"Worst cases found of {method}, {dtype}: reflection (R), transmission (T)"
-    return TextTable(title, header, tuple(rows))
+    return _of_regions(title, columns, row)
 
 
-def _lossless(region: Region, samples: int) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
-    return np.asarray(region.samples(samples).k == 0.0)
+def _of_regions(
+    title: str, columns: Iterable[str], row: Callable[[Region], Iterable[str]]
+) -> TextTable:
+    rows = tuple((region.name, *row(region)) for region in REGIONS)
+    return TextTable(title, ("region", *columns), rows)
 
 
 def _largest(numbers: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:

@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels import NUMPY, REFLECTION, TRANSMISSION, DoubleDouble, twice
-from optipath.lab.accuracy import reference
+from optipath.kernels import NUMPY, REFLECTION, DoubleDouble, twice
 from optipath.lab.accuracy.error_measures import errors, in_ulp
-from optipath.lab.accuracy.interface_errors import matrix_numbers
+from optipath.lab.accuracy.interface_errors import FAMILIES, REFERENCES, matrix_numbers
 from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
 
 if TYPE_CHECKING:
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
 COMPONENTS = ("A", "B", "C", "S", "C near 0")
 """What is searched: the four numbers, C but where its zero is double, and C there."""
 
-_FAMILIES = {"reflection": REFLECTION, "transmission": TRANSMISSION}
-_REFERENCES = {"reflection": reference.reflection, "transmission": reference.transmission}
 _CHILDREN, _KEPT = 1000, 100
 _STEP = 2.0**-60
 """By how much of it a tangent is moved to find a condition."""
@@ -81,6 +78,10 @@ def worst(
     seed : int, optional
         Another one finds other cases.
 
+    Returns
+    -------
+    WorstCase
+
     Examples
     --------
     >>> from optipath.lab.accuracy.regions import REGIONS
@@ -88,14 +89,15 @@ def worst(
     True
     """
     rng = np.random.default_rng(seed)
-    kernel = _FAMILIES[what].by_method(method)
+    family = FAMILIES[what]
+    kernel = family.by_method(method)
     # Twice the precision tells nothing of numbers that are computed with twice the precision.
     kind = np.longdouble if method == "compensated" else np.float64
     units: Floats = rng.random((region.dimensions, _CHILDREN))
     kept, known = units[:, :0], np.empty(0)
     for _ in range(generations):
         samples = region.at(units, dtype)
-        scores = _scores(component, matrix_numbers(kernel, samples), samples, _FAMILIES[what], kind)
+        scores = _scores(component, matrix_numbers(kernel, samples), samples, family, kind)
         known, kept = np.append(known, scores), np.append(kept, units, axis=1)
         best = np.argsort(-known)[:_KEPT]
         known, kept = known[best], kept[:, best]
@@ -137,7 +139,19 @@ def _scores(
 
 
 def is_near_double_zero(A: Any, C: Any, condition: Any) -> Any:
-    """Tell whether C is small at an angle that hardly moves it."""
+    """Tell whether C is small at an angle that hardly moves it.
+
+    Parameters
+    ----------
+    A, C : mpf or array
+        Of the Mueller matrix.
+    condition : float or array
+        The condition number of C.
+
+    Returns
+    -------
+    bool or array of bool
+    """
     return abs(C) * (1.0 + condition) < 0.5 * A
 
 
@@ -162,7 +176,7 @@ def _measured(kernel: Kernel, sample: Samples, component: str, what: str, dtype:
     found, place = matrix_numbers(kernel, sample), "ABCS".index(component[0])
     given = [part[0] for part in sample]
     with mpmath.workdps(WORKING_DIGITS):
-        exact = _REFERENCES[what](*map(exactly, given))
+        exact = REFERENCES[what](*map(exactly, given))
         value, condition = exact.values[place], exact.conditions[place]
         has_zeros = component[0] == "C" and what == "reflection"
         near = has_zeros and is_near_double_zero(exact.values[0], value, condition)

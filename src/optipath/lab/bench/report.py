@@ -8,6 +8,7 @@ import sys
 from dataclasses import dataclass, field
 from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer import Composer
@@ -17,7 +18,7 @@ from optipath.lab.bench.random_values import random_values
 from optipath.lab.bench.timing import race
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping
 
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
@@ -75,6 +76,10 @@ def bench(
     progress : callable
         Is told what is being measured.
 
+    Returns
+    -------
+    Report
+
     Raises
     ------
     MissingExtraError
@@ -107,10 +112,23 @@ def bench(
     timings = race(single, tick=progress)
     report.single.update({name: 1e3 * timing.least for name, timing in timings.items()})
     # First, since their first calls tell how long they take to be compiled.
-    report.methods.extend(_methods(plan_of, min(_COMPARED, largest), found, progress))
-    sizes = [10**power for power in range(20) if 10**power <= largest]
-    for size in sizes:
-        report.batches.extend(_batches(plan_of, size, found, progress))
+    size = min(_COMPARED, largest)
+    methods = {
+        f"{engine}, {method}": {"engine": engine, "method": method, "paths": size}
+        for engine, method in product(found, METHODS)
+    }
+    report.methods.extend(_timed(plan_of, methods, progress))
+    for size in [10**power for power in range(20) if 10**power <= largest]:
+        batches = {
+            f"{size} paths, {engine}, {dtype}, {output}": {
+                "engine": engine,
+                "dtype": dtype,
+                "output": output,
+                "paths": size,
+            }
+            for engine, dtype, output in product(found, _DTYPES, _OUTPUTS)
+        }
+        report.batches.extend(_timed(plan_of, batches, progress))
     return report
 
 
@@ -125,44 +143,27 @@ def software(names: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def _batches(
+def _timed(
     plan_of: Callable[..., Plan],
-    size: int,
-    engines: list[str],
+    runs: Mapping[str, Mapping[str, Any]],
     progress: Callable[[str], object],
 ) -> list[dict[str, Any]]:
     contenders: dict[str, Callable[[], object]] = {}
-    about = {}
-    for engine in engines:
-        for dtype in _DTYPES:
-            plan = plan_of(engine, dtype, "stable")
-            values = random_values(plan, size)
-            values = {name: value.astype(dtype) for name, value in values.items()}
-            for output in _OUTPUTS:
-                name = f"{size} paths, {engine}, {dtype}, {output}"
-                about[name] = {"engine": engine, "dtype": dtype, "output": output, "paths": size}
-                run = plan.run_all if output == "stokes" else plan.mueller
-                contenders[name] = partial(_finished, run, values)
-    timings = race(contenders, tick=progress)
-    return [{**about[name], **_per_path(timing, size)} for name, timing in timings.items()]
-
-
-def _methods(
-    plan_of: Callable[..., Plan],
-    size: int,
-    engines: list[str],
-    progress: Callable[[str], object],
-) -> list[dict[str, Any]]:
-    contenders: dict[str, Callable[[], object]] = {}
-    about = {}
-    for engine in engines:
-        for method in METHODS:
-            plan = plan_of(engine, "float64", method)
-            name = f"{engine}, {method}"
-            about[name] = {"engine": engine, "method": method, "paths": size}
-            contenders[name] = partial(_finished, plan.run_all, random_values(plan, size))
-    timings = race(contenders, tick=progress)
-    return [{**about[name], **_per_path(timing, size)} for name, timing in timings.items()]
+    for name, run in runs.items():
+        plan = plan_of(run["engine"], run.get("dtype", "float64"), run.get("method", "stable"))
+        values = random_values(plan, run["paths"])
+        values = {name: value.astype(plan.dtype) for name, value in values.items()}
+        action = plan.mueller if run.get("output") == "mueller" else plan.run_all
+        contenders[name] = partial(_finished, action, values)
+    return [
+        {
+            **runs[name],
+            "ns_least": 1e9 * timing.least / runs[name]["paths"],
+            "ns_median": 1e9 * timing.middle / runs[name]["paths"],
+            "first_s": timing.first,
+        }
+        for name, timing in race(contenders, tick=progress).items()
+    ]
 
 
 def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
@@ -172,14 +173,6 @@ def _finished(run: Callable[..., Any], values: dict[str, Any]) -> None:
     for light in lights:
         numbers = light.matrix if hasattr(light, "matrix") else light.stokes
         getattr(numbers, "block_until_ready", bool)()
-
-
-def _per_path(timing: Any, size: int) -> dict[str, float]:
-    return {
-        "ns_least": 1e9 * timing.least / size,
-        "ns_median": 1e9 * timing.middle / size,
-        "first_s": timing.first,
-    }
 
 
 def _import(names: str) -> Callable[[], object]:

@@ -42,6 +42,10 @@ def race(
     tick : callable
         Is told the name of each contender as its turn comes.
 
+    Returns
+    -------
+    dict of str to Timing
+
     Examples
     --------
     >>> timings = race({"nothing": lambda: None}, seconds=0.001)
@@ -52,8 +56,8 @@ def race(
     calls: dict[str, int] = {}
     for name, action in contenders.items():
         tick(name)
-        first[name] = _time(action, 1)
-        once = _time(action, 1)
+        first[name] = seconds_of(action)
+        once = seconds_of(action)
         # Calls that are too short for the clock are timed several at a time.
         calls[name] = max(1, int(seconds / 20 / max(once, 1e-9)))
     taken: dict[str, list[float]] = {name: [] for name in contenders}
@@ -61,12 +65,26 @@ def race(
     for turn in range(rounds):
         for name, action in contenders.items():
             if turn < 3 or sum(taken[name]) * calls[name] < seconds:
-                taken[name].append(_time(action, calls[name]) / calls[name])
+                taken[name].append(seconds_of(action, calls[name]))
     return {name: Timing(first[name], min(found), median(found)) for name, found in taken.items()}
 
 
-def _time(action: Callable[[], object], calls: int) -> float:
+def seconds_of(action: Callable[[], object], calls: int = 1) -> float:
+    """Return the time of one call of an action, the mean of several.
+
+    Parameters
+    ----------
+    action : callable
+        What is called.
+    calls : int, optional
+        How often.
+
+    Returns
+    -------
+    float
+        In seconds.
+    """
     begin = perf_counter()
     for _ in range(calls):
         action()
-    return perf_counter() - begin
+    return (perf_counter() - begin) / calls
