@@ -5,7 +5,19 @@ composer aligns the frames and orders the work; the plan it makes runs on one se
 values or on millions.
 """
 
-from optipath.cli import starting  # noqa: F401 - first, for Ctrl-C while the others are imported
+# First, for Ctrl-C while the others are imported.
+from optipath.errors import (
+    ComposerError,
+    FrameError,
+    LoopWarning,
+    OptipathError,
+    ParameterError,
+    PathError,
+    PresetError,
+    ShapeError,
+    UnitError,
+    ValueFault,
+)
 
 # isort: split
 from optipath.composer import Composer
@@ -33,18 +45,6 @@ from optipath.elements import (
 )
 from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
 from optipath.elements.vertices import VerticesByAngles, vertices_from_angles
-from optipath.errors import (
-    ComposerError,
-    FrameError,
-    LoopWarning,
-    OptipathError,
-    ParameterError,
-    PathError,
-    PresetError,
-    ShapeError,
-    UnitError,
-    ValueFault,
-)
 from optipath.light.frames import Frame
 from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
 from optipath.light.light import Light

@@ -1,9 +1,16 @@
-"""Every exception of the library: one sentence a fault, all under `OptipathError`."""
+"""Every exception of the library: one sentence a fault, all under `OptipathError`.
+
+The package imports this before all else, so that Ctrl-C ends the command ``optipath`` in one line
+while NumPy, which takes longer than a user to change their mind, is still being imported.
+"""
 
 from __future__ import annotations
 
 import math
+import os
 import re
+import signal
+import sys
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from difflib import get_close_matches
@@ -14,6 +21,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Sequence
 
+INTERRUPTED = 130
+"""The status of a command that Ctrl-C ended: 128 and the number of the signal."""
 
 _LONGEST = 600
 _MOST_NAMES = 1000
@@ -306,3 +315,23 @@ def shown(value: object) -> str:
 
 
 _SHORT = _Short()
+
+
+def stop(*_: object) -> None:
+    """End at once: what is being imported could swallow an exception."""
+    try:
+        os.write(2, b"optipath: interrupted\n")
+    finally:
+        os._exit(INTERRUPTED)
+
+
+def _is_command() -> bool:
+    # While a package is looked for, its name stands behind -m, and "-m" is all that argv knows.
+    if sys.argv[:1] == ["-m"]:
+        return sys.orig_argv[sys.orig_argv.index("-m") + 1 :][:1] == ["optipath"]
+    return os.path.basename("".join(sys.argv[:1])).partition(".")[0] == "optipath"  # noqa: PTH119
+
+
+# In a program of others, nothing changes.
+if _is_command() and signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+    signal.signal(signal.SIGINT, stop)

@@ -23,8 +23,7 @@ from optipath.cli.polarization_command import polarization
 from optipath.cli.presets_command import presets
 from optipath.cli.run_command import run
 from optipath.cli.show_command import show
-from optipath.cli.starting import INTERRUPTED
-from optipath.errors import LoopWarning, OptipathError, printable
+from optipath.errors import INTERRUPTED, LoopWarning, OptipathError, printable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
