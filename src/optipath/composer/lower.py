@@ -10,7 +10,6 @@ from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
 from optipath.composer.vertex_frames import vertex_frame
 from optipath.composer.wiring import link_text
-from optipath.elements import Detector, SpecularVertex
 from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
 from optipath.light.frames import Frame
@@ -95,7 +94,7 @@ class _Lowering:
         for name, port in self.wiring.ends:
             element = self.wiring.elements[name]
             reads = getattr(element, "reads", "stokes")
-            kept = detectors if isinstance(element, Detector) else dumps
+            kept = detectors if element.detects else dumps
             light, frame = self.lights[name, port], self._reading_frame(name, port)
             kept[name] = Reading(light, frame, _COMPONENTS[reads])
         return self.builder.program(self.sources, detectors, dumps, self._links())
@@ -194,11 +193,8 @@ class _Lowering:
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
         """Return the frame in which light leaves an element; the unit frame if none is known."""
-        element = self.wiring.elements[name]
-        if isinstance(element, SpecularVertex):
-            return element.own_frame(port)
-        found = frame_at(self.wiring, name, port)
-        return found or vertex_frame(self.wiring, name, port) or Frame()
+        found = frame_at(self.wiring, name, port) or vertex_frame(self.wiring, name, port)
+        return found or Frame()
 
     def _reading_frame(self, name: str, port: str) -> Frame | VertexFrame:
         own = frame_at(self.wiring, name, port)

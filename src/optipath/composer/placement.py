@@ -6,15 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.vertex_placement import is_vertex, vertex_faults, vertex_link_faults
 from optipath.composer.wiring import link_text
-from optipath.elements import Operation, SpecularVertex, Terminal
+from optipath.elements import Operation
 from optipath.errors import OptipathError
 from optipath.kernels import GIVEN_TURN, TURN
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from optipath.composer.wiring import Link, Wiring
     from optipath.light.frames import Frame
 
@@ -48,9 +49,8 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
     It comes from the link's own two port frames alone and is never accumulated.
     """
     start, end, (leaves, enters) = link
-    element = wiring.elements[end]
-    if isinstance(element, SpecularVertex) and is_vertex(wiring, start):
-        return element.turn_from_before()
+    if start in wiring.self_placed and end in wiring.self_placed:
+        return wiring.elements[end].turn_from(wiring.elements[start])
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     if arriving is not None and expected is not None:
         c, s = arriving.turn_to(expected)
@@ -69,15 +69,51 @@ def placement_faults(wiring: Wiring) -> list[str]:
         if not broadcast_fault({port: frame.z.shape[:-1] for port, frame in frames.items()}):
             found += element.frame_faults(name, frames)
     for link in wiring.graph.edges(keys=True):
-        found += vertex_link_faults(wiring, link) or _link_faults(wiring, link)
+        found += _self_placed_faults(wiring, link) or _link_faults(wiring, link)
     for name, element in wiring.elements.items():
         found += _meeting_faults(wiring, name, element)
-    return [*found, *vertex_faults(wiring)]
+    return [*found, *_between_faults(wiring)]
+
+
+def _self_placed_faults(wiring: Wiring, link: Link) -> list[str]:
+    """Return what is wrong with a link from or to an element that has frames by its values."""
+    start, end, _ = link
+    placed = [start in wiring.self_placed, end in wiring.self_placed]
+    text = f"link '{link_text(link)}'"
+    if all(placed):
+        if wiring.graph.edges[link]["azimuth"] is not None:
+            return [f"{text} is turned by its vertices and by an azimuth; leave the azimuth out"]
+        fault = wiring.elements[end].fault_behind(wiring.elements[start])
+        return [f"{text} {fault}"] if fault else []
+    if any(placed):
+        given, own = (end, start) if placed[0] else (start, end)
+        if wiring.graph.nodes[given]["frames"]:
+            problem = f"'{given}' has world frames of its own, and '{own}' those of its vertices"
+            return [f"{text}: {problem}; place '{given}' relatively"]
+    return []
+
+
+def _between_faults(wiring: Wiring) -> Iterator[str]:
+    """Yield what is wrong with elements that stand relatively between two vertices."""
+    for name in (name for name in wiring.elements if name in wiring.self_placed):
+        waiting = [p for p in wiring.graph.predecessors(name) if p not in wiring.self_placed]
+        seen = set(waiting)
+        while waiting:
+            between = waiting.pop()
+            for before in wiring.graph.predecessors(between):
+                if before in wiring.self_placed:
+                    yield (
+                        f"'{between}' stands relatively between the vertices '{before}' and "
+                        f"'{name}', whose frames differ; put it before the first vertex or "
+                        f"behind the last"
+                    )
+                elif before not in seen:
+                    seen.add(before)
+                    waiting.append(before)
 
 
 def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     start, end, (leaves, enters) = link
-    element = wiring.elements[end]
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     own, element_turn = wiring.graph.edges[link]["azimuth"], _element_turn(wiring, link)
     text = f"link '{link_text(link)}'"
@@ -90,7 +126,7 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
             problem = f"'{name}.{port}' has no world frame, though '{other}' has"
             return [f"{text}: {problem}; give it one"]
     if (arriving is None) != (expected is None):
-        if expected is None and isinstance(element, Terminal) and own is None:
+        if expected is None and not wiring.elements[end].outputs and own is None:
             return []
         has, lacks = f"{start}.{leaves}", f"{end}.{enters}"
         if arriving is None:
@@ -111,7 +147,7 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
     if not element.merges or frame_at(wiring, name, "in") is not None:
         return []
     links = wiring.links_to.get((name, "in"), [])
-    if len(links) > 1 and any(is_vertex(wiring, link[0]) for link in links):
+    if len(links) > 1 and any(link[0] in wiring.self_placed for link in links):
         return [
             f"several lights meet at '{name}' in frames of vertices; give each an end of its own"
         ]

@@ -10,7 +10,7 @@ from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
 from optipath.composer.travel import among, cycles
 from optipath.composer.wiring import Wiring, link_text
-from optipath.elements import Detector, Source
+from optipath.elements import Source
 from optipath.errors import PathError
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def _end_faults(wiring: Wiring) -> Iterator[str]:
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
     if not wiring.starts:
         yield f"the path has no source; add one, such as {Source()!r}"
-    if not any(isinstance(element, Detector) for element in wiring.elements.values()):
+    if not any(element.detects for element in wiring.elements.values()):
         yield "the path has no detector; add one, such as Detector()"
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from optipath.composer.placement import azimuth_of
-from optipath.elements import SpecularVertex
 from optipath.light.frames import Frame
 from optipath.values.operands import operand_of
 
@@ -23,8 +22,20 @@ def vertex_frame(wiring: Wiring, name: str, port: str) -> VertexFrame | None:
 
     Directly, or through elements that let it go straight on, whose links may turn it. Of
     light that several links bring, or may have brought, nothing is known.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    name, port : str
+        The port of a node; the own frame of a vertex is that of its port.
+
+    Returns
+    -------
+    VertexFrame or None
+        None where no element on the way has frames by its own values.
     """
-    if not wiring.vertices:
+    if not wiring.self_placed:
         return None
     return _followed(wiring, (name, port), _before) or _followed(wiring, (name, port), _behind)
 
@@ -38,15 +49,15 @@ def _followed(
     turns: list[Operand] = []
     passed: set[Port] = set()
     while port not in passed:
+        own = wiring.elements[port[0]].own_frame(port[1])
+        if own is not None:
+            return own.turned(*turns)
         passed.add(port)
         found = following(wiring, port)
         if found is None:
             return None
         port, more = found
         turns += more
-        element = wiring.elements[port[0]]
-        if isinstance(element, SpecularVertex):
-            return element.own_frame(port[1]).turned(*turns)
     return None
 
 

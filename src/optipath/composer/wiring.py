@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 from optipath.composer.travel import Port, Ways, among, backwards, reached, stretches
-from optipath.elements import SpecularVertex
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -62,10 +61,9 @@ class Wiring:
         return dict(self.graph.nodes(data="element"))
 
     @cached_property
-    def vertices(self) -> frozenset[str]:
-        """The nodes that are vertices of chains."""
-        found = (name for name, e in self.elements.items() if isinstance(e, SpecularVertex))
-        return frozenset(found)
+    def self_placed(self) -> frozenset[str]:
+        """The nodes whose elements have frames by their own values."""
+        return frozenset([name for name, e in self.elements.items() if e.self_placed])
 
     @cached_property
     def couplings(self) -> dict[str, tuple[Coupling, ...]]:

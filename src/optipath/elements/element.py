@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import MISSING, dataclass, fields, is_dataclass
-from functools import cache
-from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform, get_args, get_type_hints
+from dataclasses import MISSING, dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.fields import domains_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
 from optipath.errors import PathError, ValueFault, shown
-from optipath.kernels import (
-    REFLECTION,
-    Kernel,
-)
+from optipath.kernels import REFLECTION, Kernel
 from optipath.light.frames import Frame
 from optipath.light.mueller import Mueller
 from optipath.values.arrays.memory import enough_for
-from optipath.values.arrays.read_only import same
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
-from optipath.values.domains import REAL, Domain, in_unit_of
+from optipath.values.domains import Domain, in_unit_of
 from optipath.values.inputs import Use
 from optipath.values.parameters import Parameter
 
@@ -48,6 +44,11 @@ class Element:
       none: it turns the frame of ``in`` against the one before it, for every element; or
     - ``couplings()``, which names a kernel for each way from an in-port to an out-port.
 
+    An element that stands in space by its own values, as a vertex of a chain of points does,
+    says `self_placed`, and has three methods more: `own_frame`, the frame of each port;
+    `turn_from`, how light from such an element is turned on its way to this one; and
+    `fault_behind`, why light must not come from there.
+
     Attributes
     ----------
     kind : str
@@ -62,6 +63,10 @@ class Element:
         Whether several links may feed one in-port; their light adds incoherently.
     straight : bool
         Whether light keeps its direction, so that all ports share one frame.
+    self_placed : bool
+        Whether its ports have frames by its own values.
+    detects : bool
+        Whether light that ends here is what a path is asked for.
 
     Examples
     --------
@@ -83,6 +88,8 @@ class Element:
     entry: ClassVar[str] = ""
     merges: ClassVar[bool] = False
     straight: ClassVar[bool] = True
+    self_placed: ClassVar[bool] = False
+    detects: ClassVar[bool] = False
     _kernel: ClassVar[Kernel | None] = None
 
     def __init_subclass__(cls, kind: str = "", **keywords: Any) -> None:
@@ -103,7 +110,7 @@ class Element:
     @classmethod
     def domains(cls) -> Mapping[str, Domain]:
         """Return the domain of each field, in order; a field without one is a real number."""
-        return _domains(cls)  # type: ignore[arg-type]
+        return domains_of(cls)  # type: ignore[arg-type]
 
     @classmethod
     def needs(cls, name: str) -> bool:
@@ -158,6 +165,34 @@ class Element:
         """Return the world frame that a port has by the values of the element, if it has one."""
         del port
         return None
+
+    def turn_from(self, before: Element) -> Operation | None:
+        """Return the turn of light from one self-placed element to another, which this is.
+
+        Parameters
+        ----------
+        before : Element
+            The one that a link leads from; `fault_behind` finds no fault with it.
+
+        Returns
+        -------
+        Operation or None
+            From the frame in which light leaves there to the one it enters here; None for none.
+
+        Raises
+        ------
+        PathError
+            If the class does not say it.
+        """
+        raise PathError(
+            f"element class {type(self).__name__} does not say how light from {before.kind} is "
+            f"turned; give it a method turn_from(before)"
+        )
+
+    def fault_behind(self, before: Element) -> str:
+        """Say why no link may lead here from another self-placed element; nothing if it may."""
+        del before
+        return ""
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the ways light goes through; by default from ``in`` to ``out`` by `mueller_rows`.
@@ -258,44 +293,11 @@ class Element:
         if type(other) is not type(self):
             return NotImplemented
         return all(
-            _same_value(getattr(self, name), getattr(other, name), domain)
+            same_value(getattr(self, name), getattr(other, name), domain)
             for name, domain in self.domains().items()
         )
 
     __hash__ = None  # type: ignore[assignment]
-
-
-@cache
-def _domains(element_class: type[Element]) -> dict[str, Domain]:
-    try:
-        hints = get_type_hints(element_class, include_extras=True)
-    except NameError as error:
-        raise PathError(
-            f"the annotations of element class {element_class.__name__} cannot be read: {error}; "
-            f"import it where the module runs, not for type checking alone"
-        ) from None
-    domains: dict[str, Domain] = {}
-    if not is_dataclass(element_class):
-        return domains  # The base of all, which has no fields.
-    for f in fields(element_class):
-        domains[f.name] = next(_annotated(hints[f.name]), REAL)
-    return domains
-
-
-def _annotated(hint: Any) -> Iterator[Domain]:
-    for part in get_args(hint):
-        if isinstance(part, Domain):
-            yield part
-        else:
-            yield from _annotated(part)
-
-
-def _same_value(first: Any, second: Any, domain: Domain) -> bool:
-    if same(first, second) or not domain.complex_parts:
-        return same(first, second)
-    # An index may be written as a complex number or as a Material.
-    pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)
-    return all(same(one, other) for one, other in pairs)
 
 
 def _faults(uses: list[Use]) -> list[str]:

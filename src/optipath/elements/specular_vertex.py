@@ -16,7 +16,6 @@ from optipath.values.materials import Material
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices import Coordinates
     from optipath.light.frames import Frame
     from optipath.values.domains import Domain
 
@@ -51,6 +50,7 @@ class SpecularVertex(Element, kind="specular-vertex"):
     outputs: ClassVar[tuple[str, ...]] = ("reflected",)
     natural: ClassVar[str] = "reflected"
     straight: ClassVar[bool] = False
+    self_placed: ClassVar[bool] = True
 
     index: Index
     vertices: Vertices
@@ -85,7 +85,7 @@ class SpecularVertex(Element, kind="specular-vertex"):
         """Return the reflection from ``in`` to ``reflected``."""
         outside = self.outside.n if isinstance(self.outside, Material) else self.outside
         index = numbers_of(self.index, self.domains()["index"])
-        points = self.points_around()
+        points = self.in_chain.points_around()
         kernels = points.family(REFLECTION, INCIDENCE)
         operation = Operation(kernels, (outside, *index, *points.arguments))
         return (Coupling("in", "reflected", (operation,), reflects=True),)
@@ -94,23 +94,24 @@ class SpecularVertex(Element, kind="specular-vertex"):
         """Return the frame of a port, made when somebody looks at it."""
         return VertexFrame(self.in_chain.points_from_start(), leaves=port == "reflected")
 
-    def points_around(self) -> Coordinates:
-        """Return the three points that say at which angle light meets the surface."""
-        return self.in_chain.points_around()
-
-    def turn_from_before(self) -> Operation:
+    def turn_from(self, before: Element) -> Operation:
         """Return the turn from the frame in which light leaves the vertex before."""
+        del before  # It is the one that this chain says.
         points = self.in_chain.points_from_start()
         kernel = replace(TURN_BETWEEN_PLANES, factory=points.planes(TurnBetweenPlanes()))
         return Operation(kernel, points.arguments)
 
-    def follows(self, before: Element) -> bool:
-        """Tell whether another element is the vertex before this one, in the same chain."""
-        if not isinstance(before, SpecularVertex):
-            return False
-        if not is_count(self.place) or not is_count(before.place):
-            return False
-        return before.place == self.place - 1 and same(self.vertices, before.vertices)
+    def fault_behind(self, before: Element) -> str:
+        """Say which vertex light must come from, unless it comes from the one before this."""
+        chain, place = getattr(before, "vertices", None), getattr(before, "place", None)
+        counted = is_count(self.place) and is_count(place)
+        if counted and place == self.place - 1 and same(self.vertices, chain):
+            return ""
+        wanted = self.place - 1 if isinstance(self.place, int) else "the one"
+        return (
+            f"must lead from a vertex to the next of one chain: the same vertices, and place "
+            f"{wanted} before place {self.place}"
+        )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Check that the chain has this vertex, and that no other frames are given."""

@@ -37,6 +37,8 @@ class Detector(Terminal, kind="detector"):
     'stokes'
     """
 
+    detects: ClassVar[bool] = True
+
     reads: Reads = "stokes"
 
 

@@ -9,7 +9,6 @@ import numpy as np
 from optipath.composer import Wiring
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
-from optipath.composer.vertex_placement import is_vertex
 from optipath.errors import ParameterError, PathError, shown
 from optipath.kernels import REFLECTION
 from optipath.lab.accuracy.element_reference import Reader, jones, mueller, times, turn
@@ -210,7 +209,7 @@ class _Walk:
             start, end, (leaves, enters) = link
             ends = (start, leaves), (end, enters)
             before, behind = (frame_at(self.wiring, *port) for port in ends)
-            if is_vertex(self.wiring, start) and is_vertex(self.wiring, end):
+            if {start, end} <= self.wiring.self_placed:
                 angle = self._between_vertices(link)
             elif before is not None and behind is not None:
                 angle = self.read.move(_angle_between(before, behind), 2)
