@@ -171,7 +171,7 @@ class _Lowering:
             return light
         light = self.lights[name, coupling.enters]
         presence = _presence(coupling.operations)
-        if presence is not None and presence.known and not np.any(presence.present()):
+        if presence is not None and presence.known and not np.any(presence.numbers()):
             return light
         last = len(coupling.operations) - 1
         for place, operation in enumerate(coupling.operations):
@@ -216,7 +216,7 @@ def _presence(operations: tuple[Operation, ...]) -> Operand | None:
             value: Any = operand_of(argument).value
             if isinstance(value, Parameter) and value.optional:
                 presence = Operand(value, "present")
-                if presence.known and np.all(presence.present()):
+                if presence.known and np.all(presence.numbers()):
                     return None
                 return presence
     return None

@@ -14,7 +14,7 @@ import numpy as np
 
 from optipath.engines.program.execute import execute
 from optipath.errors import ComposerError
-from optipath.kernels import MatrixCarrier, Primitives, cosine, sine
+from optipath.kernels import NUMPY, MatrixCarrier, Primitives
 from optipath.kernels.numbers.primitives import is_below_rounding, product_and_rest
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced
@@ -257,27 +257,17 @@ class JaxPath:
         ]
 
     def _operand(self, operand: Operand, values: Mapping[str, Any], absent: frozenset[str]) -> Any:
-        name = getattr(operand.value, "name", "")
+        value = operand.value
         if operand.part == "present":
             if operand.known:
-                return operand.present()
-            return values.get(f"{name} present", name not in absent)
-        value = operand.value
-        if hasattr(value, "name"):
-            value = value.default if value.bound else values[name]
-            if is_traced(value) or not operand.known:
-                value = part_of(jnp.asarray(value), operand.input_part, operand.tail)
-                return self._done(operand, -value if operand.value.negative else value)
-        elif is_traced(value):
-            return self._done(operand, part_of(value, operand.input_part, operand.tail))
-        return self._number(operand.numbers({}))
-
-    def _done(self, operand: Operand, value: Any) -> Any:
-        value = self._number(value)
-        if operand.part in ("cos", "sin"):
-            # 0 at a right angle, but with its slope.
-            return (cosine if operand.part == "cos" else sine)(JAX)(value)
-        return value
+                return operand.raw()
+            return values.get(f"{value.name} present", value.name not in absent)
+        if operand.known and not operand.traced:
+            return self._number(operand.numbers())
+        raw = getattr(value, "default", value) if operand.known else values[value.name]
+        raw = part_of(jnp.asarray(raw), operand.input_part, operand.tail)
+        # A cosine is 0 at a right angle, but with its slope.
+        return operand.evaluated(JAX, self._number(raw))
 
     def _split(
         self, resolved: Mapping[str, Resolved], given: Mapping[str, Any]
@@ -294,11 +284,9 @@ class JaxPath:
             name = operand.value.name
             pair, angle = given.get(name), values[name]
             if isinstance(pair, CosSin):
-                number = getattr(pair, operand.part)
-                turned = operand.part == "sin" and operand.value.negative
-                values[_place(place)] = -number if turned else number
+                values[_place(place)] = operand.evaluated(JAX, (pair.cos, pair.sin))
             elif kind != self.dtype and not is_jax(angle):
-                values[_place(place)] = operand.of(angle, kind)
+                values[_place(place)] = operand.evaluated(NUMPY, np.asarray(angle).astype(kind))
         return values, absent
 
     def _precision(self, values: Mapping[str, Any]) -> Any:

@@ -4,24 +4,28 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import prod
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels import FLOAT, NUMPY, cosine, sine
+from optipath.kernels import NUMPY, cosine, sine
+from optipath.kernels.numbers.primitives import made
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same
 from optipath.values.parameters import Parameter, Resolved
 from optipath.values.roundings import doubles
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Mapping
+    from collections.abc import Callable, Hashable, Mapping
+
+    from optipath.kernels import Primitives
 
 
-_COS, _SIN = cosine(NUMPY), sine(NUMPY)
-_FLOAT_COS, _FLOAT_SIN = cosine(FLOAT), sine(FLOAT)
 _DOUBLE = np.dtype(np.float64)
 
+NOTHING: Mapping[str, Resolved] = MappingProxyType({})
+"""What is given where all is known."""
 
 ZERO, ONE, MANY, WIDE, ABSENT = "zero", "one", "many", "wide", "absent"
 """What is given: 0, one number, an array, one of more digits than the plan's, or nothing."""
@@ -105,32 +109,83 @@ class Operand:
         """The part, but for cosines and sines, which are made of the value."""
         return "value" if self.part in ("cos", "sin") else self.part
 
-    def numbers(
-        self, given: Mapping[str, Resolved], kind: np.dtype[Any] = _DOUBLE
-    ) -> np.ndarray[Any, Any]:
-        """Return this part of the value, parameters being given.
+    def evaluated(self, xp: Primitives, raw: Any) -> Any:
+        """Return what a kernel is given, for the number that is given for the `input_key`.
 
-        Cosines and sines are computed in the precision of `kind`.
+        Parameters
+        ----------
+        xp : Primitives
+            What it is computed with.
+        raw : Any
+            A number of their sort; for an angle that is given by them, its cosine and sine.
+
+        Returns
+        -------
+        Any
+            Another.
         """
-        if not isinstance(self.value, Parameter):
-            return np.asarray(
-                self._done_to(part_of(_doubles(self.value), self.input_part, self.tail), kind)
-            )
         if self.part == "present":
-            return self.present(given)
-        raw = part_of(_doubles(self._resolved(given).value), self.input_part, self.tail)
-        return np.asarray(self.of(raw, kind))
+            return raw
+        negative = isinstance(self.value, Parameter) and self.value.negative
+        if isinstance(raw, tuple):
+            cos, sin = raw
+            if self.part == "cos":
+                return cos
+            raw = sin if self.part == "sin" else xp.atan2(sin, cos)
+        elif self.part in ("cos", "sin"):
+            return made(cosine if self.part == "cos" else sine, xp)(-raw if negative else raw)
+        return -raw if negative else raw
 
-    def of(self, raw: Any, kind: np.dtype[Any] = _DOUBLE) -> Any:
-        """Return this part of a parameter's value, from the number or array that is given."""
-        return self._done_to(-raw if self.value.negative else raw, kind)
+    def given_in(self, numbers: Mapping[InputKey, Any], sort: Callable[[Any], Any]) -> Any:
+        """Return what is given for it among numbers, as `evaluated` takes it.
 
-    def of_float(self, raw: float) -> Any:
-        """Return this part of a parameter's value, from one float, without arrays."""
-        signed = -raw if self.value.negative else raw
+        Parameters
+        ----------
+        numbers : mapping of InputKey to Any
+            An angle may be among them as its cosine and sine.
+        sort : callable
+            Makes a number one of the sort that is computed with.
+
+        Returns
+        -------
+        Any
+            A number, or a cosine and a sine.
+        """
+        key = self.input_key
+        if key in numbers:
+            return sort(numbers[key])
+        return tuple(sort(numbers[key._replace(part=part)]) for part in ("cos", "sin"))
+
+    def raw(self, given: Mapping[str, Resolved] = NOTHING) -> Any:
+        """Return the number of the `input_part` in a known value, or among parameters given."""
+        value = self.value
+        if isinstance(value, Parameter):
+            resolved = value.resolve(value.default) if value.bound else given[value.name]
+            if self.part == "present":
+                return resolved.present
+            value = resolved.value
+        return part_of(_doubles(value), self.input_part, self.tail)
+
+    def numbers(
+        self, given: Mapping[str, Resolved] = NOTHING, kind: np.dtype[Any] = _DOUBLE
+    ) -> np.ndarray[Any, Any]:
+        """Return this part of the value as an array.
+
+        Parameters
+        ----------
+        given : mapping of str to Resolved, optional
+            The parameters, where the value is not known.
+        kind : dtype, optional
+            The precision in which cosines and sines are computed.
+
+        Returns
+        -------
+        ndarray
+        """
+        raw = self.raw(given)
         if self.part in ("cos", "sin"):
-            return (_FLOAT_COS if self.part == "cos" else _FLOAT_SIN)(signed)
-        return signed
+            raw = np.asarray(raw).astype(kind)
+        return np.asarray(self.evaluated(NUMPY, raw))
 
     @property
     def known_float(self) -> float | None:
@@ -139,11 +194,7 @@ class Operand:
             return None
         if self.part in ("value", "real"):
             return self.value
-        return float(self.numbers({})) if self.part in ("cos", "sin", "imag") else None
-
-    def present(self, given: Mapping[str, Resolved] | None = None) -> np.ndarray[Any, Any]:
-        """Return where an optional parameter is there."""
-        return self._resolved(given or {}).present
+        return float(self.numbers()) if self.part in ("cos", "sin", "imag") else None
 
     @property
     def span(self) -> tuple[float, float]:
@@ -151,7 +202,7 @@ class Operand:
         if self.traced or self.part == "present":
             return -np.inf, np.inf
         if self.known:
-            numbers = self.numbers({})
+            numbers = self.numbers()
             return (float(numbers.min()), float(numbers.max())) if numbers.size else (0.0, 0.0)
         if self.part not in ("value", "real") or self.tail:
             return -np.inf, np.inf
@@ -177,20 +228,11 @@ class Operand:
         is_array = isinstance(self.value, np.ndarray)
         return (id(self.value), self.part, self.tail) if is_array else None
 
-    def _resolved(self, given: Mapping[str, Resolved]) -> Resolved:
-        parameter: Parameter = self.value
-        return parameter.resolve(parameter.default) if parameter.bound else given[parameter.name]
-
-    def _done_to(self, numbers: Any, kind: np.dtype[Any]) -> Any:
-        if self.part in ("cos", "sin"):
-            return (_COS if self.part == "cos" else _SIN)(np.asarray(numbers).astype(kind))
-        return numbers
-
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Operand):
             return NotImplemented
         if self.known and other.known and "present" not in (self.part, other.part):
-            return same(self.numbers({}), other.numbers({}))
+            return same(self.numbers(), other.numbers())
         return self.part == other.part and same(self.value, other.value)
 
     __hash__ = None  # type: ignore[assignment]

@@ -9,8 +9,8 @@ import numpy as np
 from optipath.engines.formulas.left import FROM_ANY, FROM_NEARER
 from optipath.engines.formulas.recorder import ONE_AXIS
 from optipath.engines.formulas.symbol import Symbol
-from optipath.engines.formulas.symbolic import SYMBOLIC, record, with_polynomials
-from optipath.kernels import cosine, sine, without_rounding
+from optipath.engines.formulas.symbolic import SYMBOLIC, with_polynomials
+from optipath.kernels import without_rounding
 from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant, first_quadrant
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO
 from optipath.values.precision import wide
@@ -82,9 +82,9 @@ class SymbolicInputs:
 
     def _operand(self, operand: Operand, name: str) -> Any:
         if operand.known:
+            numbers = operand.numbers(kind=wide(self.recorder.dtype))
             if operand.part == "present":
-                return self._input(name, MANY, "bool") if operand.present().ndim else True
-            numbers = operand.numbers({}, wide(self.recorder.dtype))
+                return self._input(name, MANY, "bool") if numbers.ndim else True
             if numbers.ndim:
                 return self._input(name, MANY)
             with np.errstate(over="ignore", under="ignore"):
@@ -100,9 +100,9 @@ class SymbolicInputs:
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
         given = self._given(key, form)
-        if operand.part in ("cos", "sin"):
+        if operand.part in ("cos", "sin") and self.polynomials:
             return self._circular(operand, form, given)
-        return -given if operand.value.negative else given
+        return operand.evaluated(SYMBOLIC, given)
 
     def _input(self, name: str, form: str, kind: str = "float", left: str = "") -> Any:
         axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
@@ -132,12 +132,12 @@ class SymbolicInputs:
             self._part(operand.input_key._replace(part=part), least) for part in ("cos", "sin")
         )
         self.recorder.require(abs(cos * cos + sin * sin - 1.0) <= _APART)
-        if operand.part == "cos":
-            return cos
-        found = sin if operand.part == "sin" else record("arctan2", sin, cos)
-        if found is not sin and isinstance(found, Symbol):
-            self.recorder.pairs[found.index] = sin, cos
-        return -found if operand.value.negative else found
+        if operand.part in ("cos", "sin"):
+            return operand.evaluated(SYMBOLIC, (cos, sin))
+        angle = SYMBOLIC.atan2(sin, cos)
+        if isinstance(angle, Symbol):
+            self.recorder.pairs[angle.index] = sin, cos
+        return operand.evaluated(SYMBOLIC, angle)
 
     def _part(self, key: InputKey, least: float) -> Any:
         kind = self.recorder.dtype.type
@@ -155,8 +155,6 @@ class SymbolicInputs:
         kind, negative = self.recorder.dtype, operand.value.negative
         if negative:
             angle = -angle
-        if not self.polynomials:
-            return (cosine if operand.part == "cos" else sine)(SYMBOLIC)(angle)
         digits = DIGITS[kind.name]
         low, high = self.limits[operand.value.name]
         first = not negative and low >= 0.0 and high <= np.pi / 2

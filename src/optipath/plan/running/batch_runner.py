@@ -218,9 +218,9 @@ def _is_read_number(result: Any) -> bool:
 def known_arrays(program: Program, dtype: np.dtype[Any]) -> dict[str, Array]:
     """Return the numbers of a program that are known, as formulas name them."""
     return {
-        f".{place}": operand.present()
-        if operand.part == "present"
-        else operand.numbers({}, wide(dtype)).astype(dtype, copy=False)
+        f".{place}": operand.numbers(kind=wide(dtype)).astype(
+            bool if operand.part == "present" else dtype, copy=False
+        )
         for place, operand in enumerate(program.operands)
-        if operand.known and operand.numbers({}).ndim
+        if operand.known and operand.numbers().ndim
     }

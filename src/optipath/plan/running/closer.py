@@ -7,24 +7,21 @@ goes round is summed, in numbers of twice the precision, by the same kernels.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.engines.program.execute import evaluated
 from optipath.engines.program.loops import LoopSolver
-from optipath.kernels import NUMPY, ROTATION, DoubleDouble, StokesCarrier, cosine, sine, twice
+from optipath.kernels import NUMPY, ROTATION, DoubleDouble, StokesCarrier, twice
+from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from optipath.engines.program.program import Loop
+    from optipath.engines.program.program import Loop, Program
     from optipath.kernels.carriers.structures import Numbers
-    from optipath.plan.running.interpreter import Interpreter
     from optipath.plan.running.reading import ResolvedInputs
-    from optipath.values.operands import Operand
 
 _TWICE = twice(NUMPY)
-_COS, _SIN = cosine(_TWICE), sine(_TWICE)
 
 
 class CloserLook:
@@ -32,17 +29,27 @@ class CloserLook:
 
     Parameters
     ----------
-    interpreter : Interpreter
-        What runs the program.
+    program : Program
+        The steps.
     given : ResolvedInputs
         The numbers.
+    plain : list of ndarray
+        The operands of the program for these, as they are where nobody looks closer.
+    dtype : dtype
+        The precision of what is found.
     """
 
-    def __init__(self, interpreter: Interpreter, given: ResolvedInputs) -> None:
-        self.interpreter = interpreter
+    def __init__(
+        self,
+        program: Program,
+        given: ResolvedInputs,
+        plain: list[np.ndarray[Any, Any]],
+        dtype: np.dtype[Any],
+    ) -> None:
+        self.program = program
         self.given = given
-        self.program = interpreter.program
-        self.plain = interpreter.operands(given)
+        self.plain = plain
+        self.dtype = dtype
         self._operands: dict[int, Any] = {}
         self._numbers: dict[int, Numbers] = {}
 
@@ -72,22 +79,18 @@ class CloserLook:
 
     def _operand(self, place: int) -> Any:
         if place not in self._operands:
-            self._operands[place] = self._number(self.program.operands[place])
+            operand, kind = self.program.operands[place], wide(self.dtype)
+            if operand.known:
+                raw = _longer(self.given.cut(np.asarray(operand.raw(), kind)))
+            else:
+                raw = operand.given_in(self.given.numbers, lambda n: _longer(np.asarray(n, kind)))
+            raw = _of_an_angle(*raw) if isinstance(raw, tuple) else raw
+            self._operands[place] = operand.evaluated(_TWICE, raw)
         return self._operands[place]
-
-    def _number(self, operand: Operand) -> Any:
-        whole = operand if operand.part not in ("cos", "sin") else replace(operand, part="value")
-        number = self.interpreter.wide_number(whole, self.given)
-        if isinstance(number, tuple):
-            c, s = _of_an_angle(*map(_longer, number))
-            return {"cos": c, "sin": s}.get(str(operand.part), _TWICE.atan2(s, c))
-        if whole is operand:
-            return _longer(number)
-        return (_COS if operand.part == "cos" else _SIN)(_longer(number))
 
     def _rounded(self, number: Any) -> Any:
         high = number.high if isinstance(number, DoubleDouble) else number
-        return self.interpreter.number(high)
+        return np.asarray(high, self.dtype)
 
 
 def _longer(number: Any) -> DoubleDouble:

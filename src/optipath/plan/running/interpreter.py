@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import reduce
+from functools import partial, reduce
 from math import prod
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -78,14 +78,13 @@ class Interpreter:
         """
         if self._known_floats is None:
             self._known_floats = [
-                self._of_known(operand).item() if operand.known else 0.0
+                operand.numbers(kind=wide(self.dtype)).item() if operand.known else 0.0
                 for operand in self.program.operands
             ]
         operands = list(self._known_floats)
         for place, operand in enumerate(self.program.operands):
             if not operand.known:
-                number = numbers[operand.input_key]
-                operands[place] = number if operand.part == "present" else operand.of_float(number)
+                operands[place] = operand.evaluated(FLOAT, numbers[operand.input_key])
         solvers: list[LoopSolver] = []
         try:
             found = execute(self.program, operands, self._float_carrier, solvers=solvers)
@@ -204,7 +203,8 @@ class Interpreter:
                 return found
             part = given if np.all(doubtful) else given.part((doubtful,))
             operands, solvers = self.operands(part), []
-            begin, closer = emitted and emitted(part), CloserLook(self, part)
+            begin = emitted and emitted(part)
+            closer = CloserLook(self.program, part, operands, self.dtype)
             again = execute(
                 self.program, operands, carrier, begin, self.number, None, solvers, closer.meet
             )
@@ -220,56 +220,23 @@ class Interpreter:
         """Return the numbers behind the operands of the program."""
         if self._known is None:
             self._known = [
-                self._cast(self._of_known(operand)) if operand.known else None
+                self._cast(operand.numbers(kind=wide(self.dtype))) if operand.known else None
                 for operand in self.program.operands
             ]
-        kind, numbers = wide(self.dtype), given.numbers
         return [
-            self._cast(_given(operand, numbers, kind))
-            if fixed is None and operand.part != "present"
-            else np.asarray(numbers[operand.input_key])
-            if fixed is None
-            else given.cut(fixed)
+            self._given(operand, given) if fixed is None else given.cut(fixed)
             for fixed, operand in zip(self._known, self.program.operands, strict=True)
         ]
 
-    def wide_number(self, operand: Operand, given: ResolvedInputs) -> Any:
-        """Return the number behind an operand with all digits that are given.
-
-        For an angle that is given by its cosine and sine, these two.
-        """
-        kind, numbers = wide(self.dtype), given.numbers
-        if operand.known:
-            return given.cut(np.asarray(operand.numbers({}), kind))
-        if operand.input_key in numbers:
-            return operand.of(np.asarray(numbers[operand.input_key], kind), kind)
-        sign = -1.0 if operand.value.negative else 1.0
-        return numbers[operand.input_key._replace(part="cos")], sign * numbers[
-            operand.input_key._replace(part="sin")
-        ]
-
-    def _of_known(self, operand: Any) -> Any:
-        if operand.part == "present":
-            return operand.present()[()]
-        return operand.numbers({}, wide(self.dtype))[()]
+    def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
+        kind = wide(self.dtype) if operand.part in ("cos", "sin") else None
+        raw = operand.given_in(given.numbers, partial(np.asarray, dtype=kind))
+        return self._cast(operand.evaluated(NUMPY, raw))
 
     def _cast(self, numbers: Any) -> np.ndarray[Any, Any]:
         array = np.asarray(numbers)
         with np.errstate(over="ignore", under="ignore"):  # What is not finite is told later.
             return array if array.dtype == bool else array.astype(self.dtype, copy=False)
-
-
-def _given(operand: Operand, numbers: Mapping[InputKey, Any], kind: np.dtype[Any]) -> Any:
-    """Return what an operand sees of what is given: a number, or an angle's cosine and sine."""
-    if operand.input_key in numbers:
-        return operand.of(np.asarray(numbers[operand.input_key]), kind)
-    sign = -1.0 if operand.value.negative else 1.0
-    cos, sin = (
-        np.asarray(numbers[operand.input_key._replace(part=part)]) for part in ("cos", "sin")
-    )
-    if operand.part == "cos":
-        return cos
-    return sign * (sin if operand.part == "sin" else np.arctan2(sin, cos))
 
 
 def _doubtful(solvers: Sequence[LoopSolver], batch: tuple[int, ...]) -> np.ndarray[Any, Any]:
