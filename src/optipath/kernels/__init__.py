@@ -22,7 +22,6 @@ from optipath.kernels.carriers.carried import (
     stokes_of,
 )
 from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER, is_physical
-from optipath.kernels.carriers.composed import Composed, composed
 from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
 from optipath.kernels.carriers.jones_carrier import JonesCarrier
 from optipath.kernels.carriers.kernel import Factory, Kernel, KernelFamily
@@ -175,7 +174,9 @@ TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
-INCIDENCE, ARRIVING, REFLECTED = vertex_chain.incidence, AxesAtVertex(), AxesAtVertex(leaves=True)
+INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
+ARRIVING = Kernel("arriving axes", None, AxesAtVertex())
+REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
 """What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
@@ -249,7 +250,6 @@ __all__ = [
     "Carried",
     "Carrier",
     "Components",
-    "Composed",
     "DoubleDouble",
     "Elimination",
     "IntensityCarrier",
@@ -268,7 +268,6 @@ __all__ = [
     "add",
     "boosted",
     "carry",
-    "composed",
     "cosine",
     "energy",
     "is_physical",

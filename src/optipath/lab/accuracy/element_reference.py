@@ -153,7 +153,7 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
 def _(element: SpecularVertex, way: Coupling, read: Reader) -> Jones:
     del way
     points = element.in_chain.points_around()
-    cos, sin = points.factory(INCIDENCE)(MANY_DIGITS)(*map(read.exact, points.arguments))
+    cos, sin = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     m = read.index(element.index) / read.index(element.outside).real
     return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
 
@@ -231,7 +231,7 @@ def mueller(element: Element, coupling: Coupling, read: Reader) -> list[list[Any
     matrix = mpmath.eye(4)
     for operation in coupling.operations:
         kernel = operation.kernel.by_method(next(iter(REFLECTION.methods)))
-        numbers = kernel.made_for(MANY_DIGITS)(*map(read.real, operation.arguments))
+        numbers = operation.numbers(MANY_DIGITS, read.real, next(iter(REFLECTION.methods)))
         assert kernel.structure is not None  # noqa: S101 - only sources have none
         matrix = mpmath.matrix(kernel.structure.rows(MANY_DIGITS, numbers)) * matrix
     return matrix.tolist()  # type: ignore[no-any-return]
