@@ -6,13 +6,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.junctions import in_order_of_elimination
-from optipath.engines.program.program import Evaluation, Loop, Program, Reading, Step
+from optipath.elements.coupling import ResultOf
+from optipath.engines.program.program import Evaluation, Loop, Program, Reading, Result, Step
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
 
+    from optipath.elements.coupling import Operation
     from optipath.elements.vertices import VertexFrame
-    from optipath.kernels import Kernel
     from optipath.light.frames import Frame
     from optipath.values.operands import Operand
 
@@ -27,6 +28,7 @@ class Builder:
         self.loops: list[Loop] = []
         self._operand_at: dict[Hashable, int] = {}
         self._evaluation_at: dict[Evaluation, int] = {}
+        self._place_of: dict[tuple[int, int], tuple[int, Operation, Operand | None]] = {}
 
     def program(
         self,
@@ -63,22 +65,31 @@ class Builder:
         self,
         label: str,
         inputs: tuple[int, ...],
-        kernel: Kernel,
-        operands: Sequence[Operand],
+        operation: Operation,
         presence: Operand | None = None,
         **about: Any,
     ) -> int:
-        """Add a step that does something to light; return the light that it makes.
+        """Add a step that does something to light.
 
-        What else a `Step` tells about itself may be given by name.
+        Parameters
+        ----------
+        label : str
+            The place where it happens.
+        inputs : tuple of int
+            The light that it is done to; none where light is emitted.
+        operation : Operation
+            What is done, with operands and results of such operations as arguments.
+        presence : Operand, optional
+            Where it is done at all.
+        **about
+            What else a `Step` tells about itself.
+
+        Returns
+        -------
+        int
+            The light that it makes.
         """
-        arguments = tuple(map(self._operand, operands))
-        there = None if presence is None else self._operand(presence)
-        evaluation = Evaluation(kernel, arguments, there)
-        index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
-        if index == len(self.evaluations):
-            self.evaluations.append(evaluation)
-        self.steps.append(Step(label, inputs, index, **about))
+        self.steps.append(Step(label, inputs, self._evaluation(operation, presence), **about))
         return len(self.steps) - 1
 
     def sum(self, label: str, lights: Sequence[int]) -> int:
@@ -113,6 +124,25 @@ class Builder:
             sums = {k: [moved(light) for light in old.steps[k].inputs] for k in loop.junctions}
             self.close({moved(junction): lights for junction, lights in sums.items()})
 
+    def _evaluation(self, operation: Operation, presence: Operand | None = None) -> int:
+        key = id(operation), id(presence)
+        if key not in self._place_of:
+            given = [
+                Result(self._evaluation(argument.operation), argument.place)
+                if type(argument) is ResultOf
+                else self._operand(argument)
+                for argument in operation.arguments
+            ]
+            there = None if presence is None else self._operand(presence)
+            kernel: Any = operation.kernel
+            evaluation = Evaluation(kernel, tuple(given), there)
+            index = self._evaluation_at.setdefault(evaluation, len(self.evaluations))
+            if index == len(self.evaluations):
+                self.evaluations.append(evaluation)
+            # Kept with its place, so that no others get these numbers.
+            self._place_of[key] = index, operation, presence
+        return self._place_of[key][0]
+
     def _operand(self, operand: Operand) -> int:
         key = operand.key()
         index = (
@@ -123,3 +153,38 @@ class Builder:
         if index == len(self.operands):
             self.operands.append(operand)
         return index
+
+
+def rebuilt(old: Program, operations: Sequence[Operation | None]) -> Program:
+    """Return a program with other operations in its steps.
+
+    Parameters
+    ----------
+    old : Program
+        The steps.
+    operations : sequence of Operation or None
+        What each step does; one without is left out, unless it adds lights up.
+
+    Returns
+    -------
+    Program
+        With the same ends.
+    """
+    builder = Builder()
+    moved: dict[int, int] = {}
+    for lights, loop in old.stretches():
+        moved |= builder.junctions_of(old, loop)
+        for light in lights:
+            if light in moved:
+                continue
+            step, operation = old.steps[light], operations[light]
+            inputs = tuple([moved[i] for i in step.inputs])
+            if step.evaluation is None:
+                moved[light] = builder.sum(step.label, inputs)
+            elif operation is None:
+                moved[light] = inputs[0]
+            else:
+                there = old.presence(step.evaluation)
+                moved[light] = builder.step(step.label, inputs, operation, there)
+        builder.close_like(old, loop, moved.__getitem__)
+    return builder.instead_of(old, moved.__getitem__)

@@ -11,7 +11,7 @@ import networkx as nx
 from optipath.composer.collection import put_off
 from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
 from optipath.composer.path_values import Values
-from optipath.composer.reduce import by_name, for_jones, reduced, tolerated, unreduced
+from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
@@ -201,15 +201,10 @@ class Composer:
 
     def _reduced(self, whole: Program) -> tuple[Reduction, Tolerance | None]:
         """Return what is run, and what may be taken in its place."""
-        # Constants are multiplied in float64.
-        constants = self.dtype != "longdouble"
-        if self.model == "full":
-            return unreduced(whole), None
-        if self.composing == "jones":
-            return for_jones(whole, constants=constants), None
-        exact = reduced(whole, constants=constants)
+        exact = reduced(whole, self.model, self.composing, self.dtype)
         if self.tolerance is not None:
             instead = tolerated(exact, self.model, self.tolerance)
             if instead is not None:
                 return exact, instead
-        return (exact if self.model == "auto" else by_name(exact, self.model)), None
+        as_found = self.model == "auto" or exact.unreduced
+        return exact if as_found else by_name(exact, self.model), None

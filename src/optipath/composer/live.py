@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from optipath.composer.builder import Builder
+from optipath.composer.builder import rebuilt
 from optipath.composer.entries import entries_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from optipath.composer.entries import Entries
+    from optipath.elements.coupling import Operation
     from optipath.engines.program.program import Program
 
 
@@ -41,15 +43,10 @@ class Live:
         self.needed = self._backward()
 
     @property
-    def components(self) -> list[tuple[int, ...]]:
+    def components(self) -> tuple[tuple[int, ...], ...]:
         """For each light, the components that are alive; an intensity always is."""
         pairs = zip(self.reached, self.needed, strict=True)
-        return [tuple(sorted((reached & needed) | {0})) for reached, needed in pairs]
-
-    @property
-    def counts(self) -> tuple[int, ...]:
-        """For each light, how many of the first components hold all that are alive."""
-        return tuple(components[-1] + 1 for components in self.components)
+        return tuple([tuple(sorted((reached & needed) | {0})) for reached, needed in pairs])
 
     def does_nothing(self, light: int) -> bool:
         """Tell whether a step leaves everything as it is that is alive."""
@@ -123,25 +120,38 @@ class _Waiting:
             yield light
 
 
-def trim(live: Live) -> tuple[Program, list[str]]:
-    """Return a program without the steps that do nothing to what is alive, and which they are."""
-    old, builder = live.program, Builder()
-    moved: dict[int, int] = {}
-    left_out = []
-    for lights, loop in old.stretches():
-        moved |= builder.junctions_of(old, loop)
-        for light in lights:
-            if light in moved:
-                continue
-            step = old.steps[light]
-            inputs = tuple(moved[i] for i in step.inputs)
-            if step.evaluation is not None and live.does_nothing(light):
-                kernel = old.parts(step.evaluation)[0]
-                left_out.append(f"{kernel.name} at '{step.label}'")
-                moved[light] = inputs[0]
-            elif step.evaluation is None:
-                moved[light] = builder.sum(step.label, inputs)
-            else:
-                moved[light] = builder.step(step.label, inputs, *old.parts(step.evaluation))
-        builder.close_like(old, loop, moved.__getitem__)
-    return builder.instead_of(old, moved.__getitem__), left_out
+def left_out(program: Program) -> tuple[Program, list[str]]:
+    """Return a program without the steps that do nothing to what is alive.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+
+    Returns
+    -------
+    program : Program
+        The same light, and what of it is alive.
+    notes : list of str
+        Which steps were left out.
+    """
+    live, notes = Live(program), []
+    operations: list[Operation | None] = []
+    for light, step in enumerate(program.steps):
+        operation = None if step.evaluation is None else program.operations[step.evaluation]
+        if operation is not None and live.does_nothing(light):
+            notes.append(
+                f"left out, since it changes nothing alive: {operation.kernel.name} at "
+                f"'{step.label}'"
+            )
+            operation = None
+        operations.append(operation)
+    if notes:
+        return rebuilt(program, operations), notes
+    return replace(program, live=live.components), []
+
+
+def fewest_components(program: Program) -> tuple[Program, list[str]]:
+    """Return a program that carries the first components of each light that hold all alive."""
+    live = program.live or Live(program).components
+    return replace(program, live=live, counts=tuple([alive[-1] + 1 for alive in live])), []

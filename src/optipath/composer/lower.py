@@ -10,6 +10,7 @@ from optipath.composer.builder import Builder
 from optipath.composer.placement import alignment, frame_at
 from optipath.composer.vertex_frames import vertex_frame
 from optipath.composer.wiring import link_text
+from optipath.elements.coupling import Operation, ResultOf
 from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
 from optipath.light.frames import Frame
@@ -19,7 +20,7 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from optipath.composer.travel import Port, Stretch
     from optipath.composer.wiring import Link, Wiring
-    from optipath.elements import Coupling, Operation
+    from optipath.elements import Coupling
     from optipath.elements.vertices import VertexFrame
     from optipath.engines.program.program import Program
 
@@ -187,9 +188,22 @@ class _Lowering:
         presence: Operand | None,
         **about: Any,
     ) -> int:
-        operands = [operand_of(argument) for argument in operation.arguments]
-        kernel = operation.kernel.by_method(self.method)
-        return self.builder.step(label, inputs, kernel, operands, presence, **about)
+        operation = self._lowered(operation)
+        return self.builder.step(label, inputs, operation, presence, **about)
+
+    def _lowered(self, operation: Operation) -> Operation:
+        """Return an operation by the method, with operands and results of such as arguments."""
+        known: dict[int, Operation] = {}
+        found: list[Operand | ResultOf] = []
+        for argument in operation.arguments:
+            if not isinstance(argument, ResultOf):
+                found.append(operand_of(argument))
+                continue
+            inner = argument.operation
+            if id(inner) not in known:
+                known[id(inner)] = self._lowered(inner)
+            found.append(ResultOf(known[id(inner)], argument.place))
+        return Operation(operation.kernel.by_method(self.method), tuple(found))
 
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
         """Return the frame in which light leaves an element; the unit frame if none is known."""
@@ -212,8 +226,8 @@ class _Lowering:
 
 def _presence(operations: tuple[Operation, ...]) -> Operand | None:
     for operation in operations:
-        for argument in operation.arguments:
-            value: Any = operand_of(argument).value
+        for operand in operation.operands():
+            value: Any = operand.value
             if isinstance(value, Parameter) and value.optional:
                 presence = Operand(value, "present")
                 if presence.known and np.all(presence.numbers()):

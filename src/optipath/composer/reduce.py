@@ -2,64 +2,108 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
-from optipath.composer.fold import fold
-from optipath.composer.live import Live, trim
+from optipath.composer.cheaper import cheaper_kernels
+from optipath.composer.live import fewest_components, left_out
+from optipath.composer.multiply import multiplied_constants
+from optipath.composer.turns import joined_turns
 from optipath.engines.program.reduction import MODELS, Reduction, Tolerance
 from optipath.errors import ComposerError, listed
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.engines.program.program import Program
 
-_ROUNDS = 3
+
+@dataclass(frozen=True)
+class Pass:
+    """One way in which a program gives the same light for less work.
+
+    Attributes
+    ----------
+    name : str
+        What it does.
+    change : callable
+        Gives a program in place of one, and notes on what has changed, for ``explain()``.
+    """
+
+    name: str
+    change: Callable[[Program], tuple[Program, list[str]]]
+
+    def __call__(self, program: Program) -> tuple[Program, list[str]]:
+        """Return the program that is left, and notes."""
+        return self.change(program)
 
 
-def unreduced(whole: Program) -> Reduction:
-    """Return a program with nothing reduced: all four components through every step."""
-    live = tuple(Live(whole).components)
-    reason = "asked for by name: every step as it stands"
-    return Reduction(whole, "full", reason, live, unreduced=True)
+def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...], int]:
+    """Return what programs go through, in order, and how often as long as the last one helps.
+
+    Parameters
+    ----------
+    model, composing, dtype : str
+        As `Composer` takes them.
+
+    Returns
+    -------
+    passes : tuple of Pass
+        None for the model ``"full"``, which takes every step as it stands.
+    rounds : int
+        How often at most.
+    """
+    stokes, doubles = composing == "stokes", dtype != "longdouble"
+    if model == "full":
+        return (), 0
+    found = [
+        Pass("cheaper kernels", cheaper_kernels),
+        Pass("joined turns", partial(joined_turns, sums=doubles)),
+    ]
+    if doubles:
+        multiply = partial(multiplied_constants, matrices=stokes)
+        found.append(Pass("multiplied constants", multiply))
+    if stokes:
+        found.append(Pass("left out", left_out))
+    return tuple(found), 3 if stokes else 1
 
 
-def for_jones(whole: Program, *, constants: bool) -> Reduction:
-    """Return a program for Jones columns, which are carried whole."""
-    program, notes = fold(whole, constants=constants, matrices=False)
-    reason = "Jones columns are carried whole"
-    return Reduction(program, "full", reason, tuple(Live(program).components), tuple(notes))
-
-
-def reduced(whole: Program, *, constants: bool) -> Reduction:
+def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:
     """Return the smallest program that is exact for a path.
 
     Parameters
     ----------
     whole : Program
         The path as it stands.
-    constants : bool
-        Whether constants may be multiplied, which is done in float64.
+    model, composing, dtype : str
+        As `Composer` takes them.
+
+    Returns
+    -------
+    Reduction
+        By any model but ``"full"``, the smallest one.
     """
-    program, folded = whole, []
-    for _ in range(_ROUNDS):
-        before = len(program.steps)
-        program, notes = fold(program, constants=constants, matrices=True)
-        folded += notes
-        live = Live(program)
-        program, left_out = trim(live)
-        folded += [f"left out, since it changes nothing alive: {name}" for name in left_out]
-        if len(program.steps) == before or not left_out:
+    passes, rounds = passes_for(model, composing, dtype)
+    program, notes = whole, []
+    for _ in range(rounds):
+        found: list[str] = []
+        for each in passes:
+            program, found = each(program)
+            notes += found
+        if not found:
             break
+    smallest, _ = fewest_components(program)
+    folded = tuple(dict.fromkeys(notes))
+    if not passes:
+        reason = "asked for by name: every step as it stands"
+    elif composing == "jones":
+        reason = "Jones columns are carried whole"
     else:
-        live = Live(program)
-    size = max(live.counts)
-    return Reduction(
-        replace(live.program, counts=live.counts),
-        MODELS[size - 1],
-        _reason(live, size),
-        tuple(live.components),
-        tuple(dict.fromkeys(folded)),
-    )
+        size = max(smallest.counts)
+        return Reduction(smallest, MODELS[size - 1], _reason(smallest, size), folded)
+    carried = replace(smallest, counts=())
+    return Reduction(carried, "full", reason, folded, unreduced=not passes)
 
 
 def by_name(exact: Reduction, model: str) -> Reduction:
@@ -117,10 +161,10 @@ def _others(exact: Reduction) -> list[str]:
     return [name for name, end in exact.program.readings.items() if end.components > 1]
 
 
-def _reason(live: Live, size: int) -> str:
+def _reason(program: Program, size: int) -> str:
     """Return why as many components are needed."""
     if size == 1:
         return "S1, S2 and S3 are 0, or nobody needs them"
-    names = [f"S{i}" for i in range(4) if any(i in alive for alive in live.components)]
+    names = [f"S{i}" for i in range(4) if any(i in alive for alive in program.live)]
     dead = [f"S{i}" for i in range(4) if f"S{i}" not in names]
     return f"{listed(names)} are alive" + (f", {listed(dead)} nowhere" if dead else "")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain, is_count
-from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES, TurnBetweenPlanes
+from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
 from optipath.values.arrays.read_only import same
 from optipath.values.domains import Index, OutsideIndex
 from optipath.values.materials import Material
@@ -85,9 +85,8 @@ class SpecularVertex(Element, kind="specular-vertex"):
         """Return the reflection from ``in`` to ``reflected``."""
         outside = self.outside.n if isinstance(self.outside, Material) else self.outside
         index = numbers_of(self.index, self.domains()["index"])
-        points = self.in_chain.points_around()
-        kernels = points.family(REFLECTION, INCIDENCE)
-        operation = Operation(kernels, (outside, *index, *points.arguments))
+        cos_sin = self.in_chain.points_around().given_to(INCIDENCE).results(2)
+        operation = Operation(REFLECTION, (outside, *index, *cos_sin))
         return (Coupling("in", "reflected", (operation,), reflects=True),)
 
     def own_frame(self, port: str) -> VertexFrame:
@@ -97,9 +96,7 @@ class SpecularVertex(Element, kind="specular-vertex"):
     def turn_from(self, before: Element) -> Operation:
         """Return the turn from the frame in which light leaves the vertex before."""
         del before  # It is the one that this chain says.
-        points = self.in_chain.points_from_start()
-        kernel = replace(TURN_BETWEEN_PLANES, factory=points.planes(TurnBetweenPlanes()))
-        return Operation(kernel, points.arguments)
+        return self.in_chain.points_from_start().planes(TURN_BETWEEN_PLANES)
 
     def fault_behind(self, before: Element) -> str:
         """Say which vertex light must come from, unless it comes from the one before this."""

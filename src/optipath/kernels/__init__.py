@@ -20,7 +20,6 @@ from optipath.kernels.carriers.carried import (
 )
 from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER, is_physical
-from optipath.kernels.carriers.composed import Composed, composed
 from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
 from optipath.kernels.carriers.jones_carrier import JonesCarrier
 from optipath.kernels.carriers.kernel import Kernel, KernelFamily
@@ -130,7 +129,6 @@ __all__ = [
     "Carried",
     "Carrier",
     "Components",
-    "Composed",
     "DoubleDouble",
     "Elimination",
     "IntensityCarrier",
@@ -149,7 +147,6 @@ __all__ = [
     "add",
     "boosted",
     "carry",
-    "composed",
     "cosine",
     "energy",
     "is_physical",

@@ -94,7 +94,9 @@ TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
-INCIDENCE, ARRIVING, REFLECTED = vertex_chain.incidence, AxesAtVertex(), AxesAtVertex(leaves=True)
+INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
+ARRIVING = Kernel("arriving axes", None, AxesAtVertex())
+REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
 """What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)

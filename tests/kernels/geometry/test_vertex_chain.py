@@ -9,11 +9,8 @@ from optipath.kernels import (
     INCIDENCE,
     NUMPY,
     REFLECTED,
-    REFLECTION,
     TURN_BETWEEN_PLANES,
-    Composed,
     PointsByAngles,
-    composed,
 )
 
 
@@ -24,14 +21,14 @@ def at_angle(theta):
 
 @pytest.mark.parametrize("theta", [1e-12, 1e-6, 0.3, 1.0, math.pi / 2 - 1e-6, math.pi / 2 - 1e-12])
 def test_cosine_and_sine_of_the_incidence_keep_their_digits_where_they_are_small(theta):
-    cos, sin = INCIDENCE(FLOAT)(*at_angle(theta))
+    cos, sin = INCIDENCE.made_for(FLOAT)(*at_angle(theta))
     assert cos == pytest.approx(math.cos(theta), rel=1e-15 if theta < 1 else 1e-4 * theta)
     assert sin == pytest.approx(math.sin(theta), rel=1e-15)
 
 
 def test_the_incidence_does_not_depend_on_the_lengths_of_the_legs():
-    near = INCIDENCE(FLOAT)(0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0)
-    far = INCIDENCE(FLOAT)(0.0, 0.0, -1e60, 0.0, 0.0, 0.0, 1e-60, 0.0, 0.0)
+    near = INCIDENCE.made_for(FLOAT)(0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    far = INCIDENCE.made_for(FLOAT)(0.0, 0.0, -1e60, 0.0, 0.0, 0.0, 1e-60, 0.0, 0.0)
     assert near == pytest.approx((math.sqrt(0.5), math.sqrt(0.5)), rel=1e-15)
     assert far == pytest.approx(near, rel=1e-15)
 
@@ -39,8 +36,8 @@ def test_the_incidence_does_not_depend_on_the_lengths_of_the_legs():
 def test_x_is_along_the_normal_cross_the_direction():
     # Down along -z onto a mirror whose normal is (y + z): n cross k = -x.
     points = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
-    assert ARRIVING(FLOAT)(*points) == (-1.0, 0.0, 0.0, 0.0, 0.0, -1.0)
-    assert REFLECTED(FLOAT)(*points) == (-1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+    assert ARRIVING.made_for(FLOAT)(*points) == (-1.0, 0.0, 0.0, 0.0, 0.0, -1.0)
+    assert REFLECTED.made_for(FLOAT)(*points) == (-1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 
 
 def test_planes_that_are_turned_by_a_right_angle_change_the_sign_of_s1():
@@ -60,7 +57,9 @@ def test_points_by_angles_have_these_angles():
     points = PointsByAngles(4, 0, 5)(NUMPY)(*pairs)
     for vertex, theta in enumerate(incidences):
         around = points[3 * vertex : 3 * vertex + 9]
-        assert INCIDENCE(FLOAT)(*around) == pytest.approx((math.cos(theta), math.sin(theta)))
+        assert INCIDENCE.made_for(FLOAT)(*around) == pytest.approx(
+            (math.cos(theta), math.sin(theta))
+        )
     for vertex, turn in enumerate(turns):
         found = TURN_BETWEEN_PLANES.made_for(FLOAT)(*points[: 3 * vertex + 12])
         assert found == pytest.approx((math.cos(2 * turn), math.sin(2 * turn)))
@@ -81,7 +80,7 @@ def test_some_of_the_points_by_angles_are_those_of_all(count):
 def test_legs_that_keep_no_digits_are_not_finite(length, kind):
     with np.errstate(all="ignore"):
         points = map(kind, (0.0, 0.0, 0.0, 0.0, 0.0, length, 0.0, 2.0, length))
-        found = INCIDENCE(NUMPY)(*points)
+        found = INCIDENCE.made_for(NUMPY)(*points)
     assert all(math.isnan(number) and number.dtype == kind for number in found)
 
 
@@ -93,32 +92,5 @@ def test_the_axes_of_angles_are_across_the_planes_of_their_points(count):
     found = PointsByAngles(count, 0, count + 1, axes=True)(FLOAT)(*numbers)
     points, across = found[: 3 * count + 6], found[3 * count + 6 :]
     for vertex in range(count):
-        x = ARRIVING(FLOAT)(*points[: 3 * vertex + 9])[:3]
+        x = ARRIVING.made_for(FLOAT)(*points[: 3 * vertex + 9])[:3]
         assert across[3 * vertex : 3 * vertex + 3] == pytest.approx(x, abs=1e-13)
-
-
-def cheaper(kernel):
-    """All the cheaper kernels of one, however deep."""
-    for found in (kernel.without, kernel.denser):
-        if found:
-            yield found[-1]
-            yield from cheaper(found[-1])
-
-
-@pytest.mark.parametrize("method", REFLECTION.methods)
-def test_cheaper_kernels_of_a_composed_one_give_what_it_gives(method):
-    kernel = composed(REFLECTION, INCIDENCE, 9).by_method(method)
-    points = at_angle(0.7)
-    full = kernel.made_for(FLOAT)(1.0, 1.5, 0.0, *points)
-    for less in cheaper(kernel):
-        assert less.made_for(FLOAT)(1.0, 1.5, *points) == pytest.approx(full, abs=1e-15)
-    if kernel.powers is not None:
-        *powers, over = kernel.powers.without[1].made_for(FLOAT)(1.0, 1.5, *points)
-        *expected, whole = kernel.powers.made_for(FLOAT)(1.0, 1.5, 0.0, *points)
-        assert [p / over for p in powers] == pytest.approx([p / whole for p in expected])
-
-
-def test_equal_compositions_are_one():
-    assert Composed(INCIDENCE, PointsByAngles(2, 0, 2), 6) == Composed(
-        INCIDENCE, PointsByAngles(2, 0, 2), 6
-    )

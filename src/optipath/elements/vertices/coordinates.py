@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.elements.coupling import Operation
 from optipath.elements.vertices.by_angles import VerticesByAngles
-from optipath.kernels import Composed, PointsByAngles, composed
+from optipath.kernels import Kernel, PointsByAngles
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
-    from optipath.kernels import KernelFamily, OfPlanes
-    from optipath.kernels.carriers.kernel import Factory
+    from optipath.elements.coupling import ResultOf
 
 
 class Coordinates(NamedTuple):
-    """Points of a chain: what a kernel is given, and what makes coordinates of it.
+    """Points of a chain: what is given of them, and what makes coordinates of it.
 
     Attributes
     ----------
@@ -28,25 +28,25 @@ class Coordinates(NamedTuple):
     arguments: tuple[Operand, ...]
     points: PointsByAngles | None
 
-    def factory(self, of_coordinates: Factory) -> Factory:
-        """Return a factory of coordinates as one of the arguments."""
-        if self.points is None:
-            return of_coordinates
-        return Composed(of_coordinates, self.points, self.points.takes)
+    def given_to(self, kernel: Kernel) -> Operation:
+        """Return the operation of a kernel of coordinates."""
+        return Operation(kernel, self._coordinates(self.points))
 
-    def planes(self, of_planes: OfPlanes) -> Factory:
-        """Return a factory of planes of incidence as one of the arguments.
+    def planes(self, kernel: Kernel) -> Operation:
+        """Return the operation of a kernel of planes of incidence, by `OfPlanes`.
 
         Angles tell a plane where points do not; the points are to be all from the start.
         """
         if self.points is None:
-            return of_planes
-        known = replace(of_planes, known=True)
-        return Composed(known, replace(self.points, axes=True), self.points.takes)
+            return Operation(kernel, self.arguments)
+        known: Any = replace(kernel.factory, known=True)  # type: ignore[type-var]
+        points = replace(self.points, axes=True)
+        return Operation(replace(kernel, factory=known), self._coordinates(points))
 
-    def family(self, kernels: KernelFamily, geometry: Factory) -> KernelFamily:
-        """Return kernels whose last arguments a geometry makes of coordinates."""
-        return composed(kernels, self.factory(geometry), len(self.arguments))
+    def _coordinates(self, points: PointsByAngles | None) -> tuple[Operand | ResultOf, ...]:
+        if points is None:
+            return self.arguments
+        return Operation(Kernel("points", None, points), self.arguments).results(points.gives)
 
 
 def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates:

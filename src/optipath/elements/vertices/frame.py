@@ -75,11 +75,12 @@ class VertexFrame:
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        points = [cut(_doubles(operand, given)) for operand in self.points.arguments]
+        points = {id(o): cut(_doubles(o, given)) for o in self.points.arguments}
         turns = [cut(_doubles(operand, given)) for operand in self.turns]
-        shape = joint_shape(*(number.shape for number in (*points, *turns)))
+        shape = joint_shape(*(number.shape for number in (*points.values(), *turns)))
         with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
-            axes = self.points.planes(REFLECTED if self.leaves else ARRIVING)(NUMPY)(*points)
+            planes = self.points.planes(REFLECTED if self.leaves else ARRIVING)
+            axes = planes.numbers(NUMPY, lambda operand: points[id(operand)])
             x, z = (_vectors(axes[start : start + 3], shape) for start in (0, 3))
             y = np.cross(z, x)
             if turns:

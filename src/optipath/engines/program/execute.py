@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.program.loops import LoopSolver
+from optipath.engines.program.program import Result
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
-    from optipath.engines.program.program import Evaluation, Loop, Program
+    from optipath.engines.program.program import Loop, Program
     from optipath.kernels import Carrier, Components
     from optipath.kernels.carriers.structures import Numbers
 
@@ -67,10 +68,11 @@ def execute(
     states_left = list(program.light_uses)
     numbers: dict[int, Numbers] = dict(shared or {})
     numbers_left = list(program.evaluation_uses)
+    results: dict[int, Numbers] = {}
 
     def numbers_of(index: int) -> Numbers:
         if index not in numbers:
-            numbers[index] = evaluated(program.evaluations[index], operands, carrier, number)
+            numbers[index] = evaluated(program, index, operands, carrier, number, results)
         return numbers[index]
 
     for light, step in enumerate(program.steps):
@@ -111,8 +113,7 @@ def whole_matrices(
     program, operands, carrier, number
         As `execute` takes them.
     """
-    evaluations = program.evaluations
-    return {i: evaluated(evaluations[i], operands, carrier, number) for i in program.matrices}
+    return {i: evaluated(program, i, operands, carrier, number) for i in program.matrices}
 
 
 def _behind(
@@ -151,22 +152,55 @@ def _together(lights: list[Any], carrier: Carrier) -> Any:
 
 
 def evaluated(
-    evaluation: Evaluation, operands: Sequence[Any], carrier: Carrier, number: Callable[[Any], Any]
+    program: Program,
+    index: int,
+    operands: Sequence[Any],
+    carrier: Carrier,
+    number: Callable[[Any], Any] = itself,
+    results: dict[int, Numbers] | None = None,
 ) -> tuple[Any, ...]:
     """Return the numbers that an evaluation comes to.
 
     Parameters
     ----------
-    evaluation : Evaluation
-        The kernel, and which operands it is given.
+    program : Program
+        The evaluations.
+    index : int
+        Which of them is wanted.
     operands, carrier, number
         As `execute` takes them.
+    results : dict, optional
+        What evaluations come to whose results several others take; it is added to.
+
+    Returns
+    -------
+    tuple
+        As many numbers as the structure of the kernel has.
     """
-    return tuple(map(number, _evaluated(evaluation, operands, carrier)))
+    found = _evaluated(program, index, operands, carrier, {} if results is None else results)
+    return tuple(map(number, found))
 
 
-def _evaluated(evaluation: Evaluation, operands: Sequence[Any], carrier: Carrier) -> Numbers:
-    given = [operands[operand] for operand in evaluation.arguments]
+def _evaluated(
+    program: Program,
+    index: int,
+    operands: Sequence[Any],
+    carrier: Carrier,
+    results: dict[int, Numbers],
+) -> Numbers:
+    evaluation, takes = program.evaluations[index], program.takes[index]
+    for taken in takes:
+        if taken not in results:
+            results[taken] = _evaluated(program, taken, operands, carrier, results)
+    given = [
+        results[argument.evaluation][argument.place]
+        if type(argument) is Result
+        else operands[argument]  # type: ignore[index]
+        for argument in evaluation.arguments
+    ]
+    for taken in takes:
+        if taken not in program.taken_by_several:
+            del results[taken]
     kernel, left = evaluation.kernel.specialised(given, _vanishes)
     numbers = kernel.made_for(carrier.xp)(*left)
     structure = evaluation.kernel.structure

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
+from optipath.elements.coupling import Operation, ResultOf
 from optipath.kernels import FULL
 
 if TYPE_CHECKING:
@@ -22,22 +23,29 @@ if TYPE_CHECKING:
     from optipath.values.operands import Operand
 
 
+class Result(NamedTuple):
+    """One of the numbers that an earlier evaluation comes to."""
+
+    evaluation: int
+    place: int
+
+
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """A kernel called on operands.
+    """A kernel called on operands, and on what other evaluations come to.
 
     Attributes
     ----------
     kernel : Kernel
         What is computed.
-    arguments : tuple of int
-        The operands it is given.
+    arguments : tuple of int or Result
+        The operands it is given, and results of evaluations before it.
     presence : int or None
         The operand that says where the element is there at all; None where it always is.
     """
 
     kernel: Kernel
-    arguments: tuple[int, ...]
+    arguments: tuple[int | Result, ...]
     presence: int | None = None
 
 
@@ -119,7 +127,7 @@ class Program:
     operands : tuple of Operand
         The numbers that kernels are given, constants and parameters alike.
     evaluations : tuple of Evaluation
-        What is computed from the operands.
+        What is computed from the operands; each takes results of those before it alone.
     steps : tuple of Step
         In the order of travel.
     sources : mapping of str to (int, frame)
@@ -134,6 +142,8 @@ class Program:
         steps have inputs before them.
     links : mapping of str to Reading
         Light on its way that is kept, and light that leaves the path, by link or out-port.
+    live : tuple of tuple of int
+        Which components of each light are alive; empty where nobody has looked.
     """
 
     operands: tuple[Operand, ...]
@@ -145,16 +155,52 @@ class Program:
     counts: tuple[int, ...] = ()
     loops: tuple[Loop, ...] = ()
     links: Mapping[str, Reading] = field(default_factory=dict)
+    live: tuple[tuple[int, ...], ...] = ()
 
     def count(self, light: int) -> int:
         """Return by how many components a light is carried."""
         return self.counts[light] if self.counts else 4
 
-    def parts(self, evaluation: int) -> tuple[Kernel, tuple[Operand, ...], Operand | None]:
-        """Return the kernel of an evaluation, what it is given, and where it is there at all."""
-        found = self.evaluations[evaluation]
-        there = None if found.presence is None else self.operands[found.presence]
-        return found.kernel, tuple(self.operands[operand] for operand in found.arguments), there
+    @cached_property
+    def operations(self) -> tuple[Operation, ...]:
+        """The evaluations as operations of operands."""
+        found: list[Operation] = []
+        for evaluation in self.evaluations:
+            arguments = [
+                ResultOf(found[argument.evaluation], argument.place)
+                if type(argument) is Result
+                else self.operands[argument]  # type: ignore[index]
+                for argument in evaluation.arguments
+            ]
+            found.append(Operation(evaluation.kernel, tuple(arguments)))
+        return tuple(found)
+
+    def presence(self, evaluation: int) -> Operand | None:
+        """Return the operand that says where the element of an evaluation is there at all."""
+        place = self.evaluations[evaluation].presence
+        return None if place is None else self.operands[place]
+
+    @cached_property
+    def takes(self) -> tuple[tuple[int, ...], ...]:
+        """The evaluations whose results each evaluation is given."""
+        results = ([a for a in e.arguments if type(a) is Result] for e in self.evaluations)
+        return tuple([tuple(dict.fromkeys([r.evaluation for r in several])) for several in results])
+
+    @cached_property
+    def given_to(self) -> tuple[tuple[int, ...], ...]:
+        """The operands of each evaluation, and of those whose results it is given."""
+        found: list[tuple[int, ...]] = []
+        for evaluation, takes in zip(self.evaluations, self.takes, strict=True):
+            own = [argument for argument in evaluation.arguments if type(argument) is int]
+            behind = [operand for taken in takes for operand in found[taken]]
+            found.append(tuple(dict.fromkeys([*own, *behind])))
+        return tuple(found)
+
+    @cached_property
+    def taken_by_several(self) -> frozenset[int]:
+        """The evaluations whose results several others are given."""
+        uses = Counter(taken for takes in self.takes for taken in takes)
+        return frozenset(taken for taken, count in uses.items() if count > 1)
 
     @cached_property
     def for_powers(self) -> Program | None:
@@ -183,7 +229,7 @@ class Program:
 
     @cached_property
     def evaluation_uses(self) -> tuple[int, ...]:
-        """How often each evaluation is needed."""
+        """How many steps need each evaluation."""
         uses = Counter(step.evaluation for step in self.steps)
         return tuple(uses[evaluation] for evaluation in range(len(self.evaluations)))
 

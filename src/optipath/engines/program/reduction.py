@@ -24,8 +24,6 @@ class Reduction:
         The model of which the light of every step is a part.
     reason : str
         Why this model.
-    live : tuple of tuple of int
-        For each light of the program, the components that are alive.
     folded : tuple of str
         What was merged, left out, or made cheaper, a sentence each.
     unreduced : bool
@@ -35,9 +33,13 @@ class Reduction:
     program: Program
     model: str
     reason: str
-    live: tuple[tuple[int, ...], ...]
     folded: tuple[str, ...] = ()
     unreduced: bool = False
+
+    @property
+    def live(self) -> tuple[tuple[int, ...], ...]:
+        """For each light of the program, the components that are alive."""
+        return self.program.live
 
     def by(self, model: str) -> Reduction:
         """Return the same carried by another model, exact or not."""

@@ -43,9 +43,10 @@ class PointsByAngles:
     axes: bool = False
 
     @property
-    def takes(self) -> int:
-        """How many numbers it is given."""
-        return 2 * self.reflections + 2 * max(self.reflections - 1, 0)
+    def gives(self) -> int:
+        """How many numbers it makes."""
+        points = self.last - self.first + 1
+        return 3 * (points + (points - 2) * self.axes)
 
     def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
         """Return the function of cosines and sines."""

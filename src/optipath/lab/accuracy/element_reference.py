@@ -156,7 +156,7 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
 def _(element: SpecularVertex, way: Coupling, read: Reader) -> Jones:
     del way
     points = element.in_chain.points_around()
-    cos, sin = points.factory(INCIDENCE)(MANY_DIGITS)(*map(read.exact, points.arguments))
+    cos, sin = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     m = read.index(element.index) / read.index(element.outside).real
     return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
 

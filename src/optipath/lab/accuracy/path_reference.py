@@ -10,7 +10,6 @@ from optipath.composer import Wiring
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.errors import ParameterError, PathError, shown
-from optipath.kernels import REFLECTION
 from optipath.lab.accuracy.element_reference import Reader, jones, mueller, times, turn
 from optipath.lab.accuracy.many_digits import (
     DIGITS,
@@ -221,8 +220,7 @@ class _Walk:
     def _between_vertices(self, link: Link) -> Any:
         turning = alignment(self.wiring, link)
         assert turning is not None  # noqa: S101 - vertices always turn
-        kernel = turning.kernel.by_method(next(iter(REFLECTION.methods)))
-        c, s = kernel.made_for(MANY_DIGITS)(*map(self.read.exact, turning.arguments))
+        c, s = turning.numbers(MANY_DIGITS, self.read.exact)
         return self.read.move(mpmath.atan2(s, c) / 2, 2)
 
     def _emitted(self, coupling: Coupling) -> Jones:

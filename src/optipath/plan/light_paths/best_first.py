@@ -57,8 +57,8 @@ class Search:
         operands = whole.interpreter.operands(given)
         with np.errstate(all="ignore"):
             self.numbers = [
-                evaluated(evaluation, operands, self.carrier, whole.interpreter.number)
-                for evaluation in self.program.evaluations
+                evaluated(self.program, index, operands, self.carrier, whole.interpreter.number)
+                for index in range(len(self.program.evaluations))
             ]
         self._ends: dict[int, list[str]] = {}
         for name, reading in self.program.readings.items():

@@ -66,12 +66,12 @@ class CloserLook:
     def _evaluated(self, index: int) -> Numbers:
         evaluation = self.program.evaluations[index]
         operands = list(self.plain)
-        for place in evaluation.arguments:
+        for place in self.program.given_to[index]:
             operands[place] = self._operand(place)
         try:
-            numbers = evaluated(evaluation, operands, StokesCarrier(_TWICE), _longer)
+            numbers = evaluated(self.program, index, operands, StokesCarrier(_TWICE), _longer)
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            numbers = evaluated(evaluation, self.plain, StokesCarrier(NUMPY), _longer)
+            numbers = evaluated(self.program, index, self.plain, StokesCarrier(NUMPY), _longer)
         if evaluation.kernel.structure is ROTATION:
             # A cosine and a sine that are rounded belong to no angle; their ratio does.
             numbers = _of_an_angle(*numbers)

@@ -53,7 +53,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
         if step.evaluation is None:
             continue
         shapes: list[tuple[int, ...]] = [given.batch] if runner.unreduced else []
-        for place in program.evaluations[step.evaluation].arguments:
+        for place in program.given_to[step.evaluation]:
             operand = program.operands[place]
             if operand.known:
                 array = runner.known_arrays.get(f".{place}")

@@ -124,13 +124,14 @@ class Interpreter:
         left, found = 4 * given.paths, {}
         with np.errstate(all="ignore"):
             for index, evaluation in enumerate(self.program.evaluations):
-                shapes = [operands[operand].shape for operand in evaluation.arguments]
+                shapes = [operands[operand].shape for operand in self.program.given_to[index]]
                 shapes += (
                     [] if evaluation.presence is None else [operands[evaluation.presence].shape]
                 )
                 size = 16 * prod(joint_shape(*shapes))
-                if size <= min(left, given.paths):
-                    found[index] = evaluated(evaluation, operands, carrier, self.number)
+                needed = self.program.evaluation_uses[index]
+                if needed and size <= min(left, given.paths):
+                    found[index] = evaluated(self.program, index, operands, carrier, self.number)
                     left -= size
         return found
 

@@ -1,0 +1,111 @@
+"""Multiplying: steps whose numbers are all known are done once, or left out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from optipath.composer.chains import Item, along_chains, label_of
+from optipath.composer.constants import Constant, multiplied
+from optipath.composer.entries import numbers_of
+from optipath.elements.coupling import Operation
+from optipath.kernels import FULL
+from optipath.values.operands import Operand
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.engines.program.program import Program
+
+_MOST = 16
+"""How many constants are multiplied, lest their roundings gather."""
+
+
+def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, list[str]]:
+    """Return a program whose neighbouring constants are one, in float64.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    matrices : bool
+        Whether the product may be a whole matrix.
+
+    Returns
+    -------
+    program : Program
+        The same light.
+    notes : list of str
+        What was multiplied, and what changes nothing.
+    """
+    known = {
+        id(operation): constant
+        for place, operation in enumerate(program.operations)
+        if program.evaluations[place].presence is None and (constant := _constant(operation))
+    }
+    if not known:
+        return program, []
+    multiplying = _Multiplying(known, matrices=matrices)
+    return along_chains(program, multiplying.done_to), multiplying.notes
+
+
+def _constant(operation: Operation) -> Constant | None:
+    structure = operation.kernel.structure  # type: ignore[union-attr]
+    numbers = None if structure is None else numbers_of(operation)
+    return None if numbers is None else Constant(structure, numbers)
+
+
+class _Multiplying:
+    """Multiplies the constants of chains, and notes which."""
+
+    def __init__(self, known: dict[int, Constant], *, matrices: bool) -> None:
+        self.known = known
+        self.matrices = matrices
+        self.notes: list[str] = []
+
+    def done_to(self, items: list[Item], once: bool) -> list[Item]:  # noqa: FBT001
+        found: list[Item] = []
+        run: list[tuple[Item, Constant]] = []
+        for item in items:
+            constant = self.known.get(id(item.operation))
+            if constant is None:
+                found += self._as_one(run, once=once)
+                run = []
+                found.append(item)
+            elif constant.is_identity:
+                self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
+            elif run and once and (both := run[-1][1].then(constant)):
+                run[-1] = self._joined([run[-1][0], item], both), both
+            else:
+                run.append((item, constant))
+        return found + self._as_one(run, once=once)
+
+    def _as_one(self, run: Sequence[tuple[Item, Constant]], *, once: bool) -> list[Item]:
+        """Return neighbours as one matrix where that is less work and loses no digit."""
+        items = [item for item, _ in run]
+        if not (self.matrices and once and len(run) > 1):
+            return items
+        constants = [constant for _, constant in run]
+        cost = sum(constant.cost for constant in constants)
+        dear = cost > Constant(FULL, ()).cost
+        if not (dear and all(constant.lets_through for constant in constants)):
+            return items
+        found: list[Item] = []
+        for start in range(0, len(run), _MOST):
+            found += self._multiplied_out(run[start : start + _MOST])
+        return found
+
+    def _multiplied_out(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
+        found: list[tuple[Item, Constant]] = []
+        for item, constant in run:
+            both = multiplied(found[-1][1], constant) if found else None
+            if both:
+                found[-1] = self._joined([found[-1][0], item], both), both
+            else:
+                found.append((item, constant))
+        return [item for item, _ in found]
+
+    def _joined(self, items: Sequence[Item], constant: Constant) -> Item:
+        names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
+        self.notes.append(f"constant, and multiplied: {' and '.join(names)}")
+        operation = Operation(constant.kernel, tuple(map(Operand, constant.numbers)))
+        return Item(label_of(items), operation)
