@@ -13,6 +13,7 @@ import signal
 import sys
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
+from copyreg import __newobj__  # type: ignore[attr-defined]
 from difflib import get_close_matches
 from numbers import Integral
 from reprlib import Repr
@@ -56,7 +57,7 @@ class OptipathError(Exception):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its sentences are what it is.
-        return _of_faults, (type(self), self.faults), self.__dict__
+        return __newobj__, (type(self), *self.faults), self.__dict__
 
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
@@ -133,8 +134,7 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     Returns
     -------
     str
-        ``"; did you mean 'x'?"``, or the list of what there is; nothing where `few_suggestions`
-        has no look left.
+        ``"; did you mean 'x'?"``, or what there is; nothing where no look is left.
 
     Examples
     --------
@@ -150,18 +150,13 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     names = list(known)
     text = word if isinstance(word, str) else shown(word)
     # The time of a comparison grows with the product of the lengths.
-    by_lower = {
-        name.lower(): name
-        for name in reversed(names[:_MOST_NAMES])
-        if len(name) <= _LONGEST_NAME >= len(text)
-    }
+    near = [n for n in reversed(names[:_MOST_NAMES]) if len(n) <= _LONGEST_NAME >= len(text)]
+    by_lower = {name.lower(): name for name in near}
     close = get_close_matches(text.lower(), by_lower, n=1)
     if close:
         return f"; did you mean '{by_lower[close[0]]}'?"
-    if len(names) > _MOST_LISTED:
-        return (
-            f"; there are: {', '.join(names[:_MOST_LISTED])} and {len(names) - _MOST_LISTED} more"
-        )
+    if (more := len(names) - _MOST_LISTED) > 0:
+        return f"; there are: {', '.join(names[:_MOST_LISTED])} and {more} more"
     return f"; there are: {', '.join(names)}" if names else "; there are none"
 
 
@@ -187,10 +182,8 @@ def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
 
     Parameters
     ----------
-    what : str
-        The kind of thing that the word names.
-    word : object
-        What was written.
+    what, word : str, object
+        The kind of thing, and what was written for it.
     known : collection of str
         The words that there are.
 
@@ -214,10 +207,8 @@ def whole_number(what: str, number: object, least: int = 1) -> list[str]:
 
     Parameters
     ----------
-    what : str
-        What the number counts.
-    number : object
-        What was given; any integer type serves, but no bool.
+    what, number : str, object
+        What is counted, and what was given; any integer type serves, but no bool.
     least : int
         The smallest that serves.
 
@@ -247,12 +238,6 @@ def listed(words: Sequence[str]) -> str:
     """
     *others, last = words
     return f"{', '.join(others)} and {last}" if others else last
-
-
-def _of_faults(kind: type[OptipathError], faults: tuple[str, ...]) -> OptipathError:
-    error = kind.__new__(kind, *faults)
-    OptipathError.__init__(error, *faults)
-    return error
 
 
 def _shortened(fault: str) -> str:
@@ -285,9 +270,7 @@ class _Short(Repr):
         super().__init__()
         self.maxlevel = 4
         self.maxlist = self.maxtuple = self.maxset = self.maxdict = 12
-        self.maxstring = 200
-        self.maxlong = 60
-        self.maxother = 300
+        self.maxstring, self.maxlong, self.maxother = 200, 60, 300
 
     def repr_int(self, x: int, level: int) -> str:
         """Return its digits, or how many bits it has where Python refuses to write them."""
@@ -295,6 +278,9 @@ class _Short(Repr):
             return super().repr_int(x, level)
         except ValueError:
             return f"an integer of {x.bit_length()} bits"
+
+
+_SHORT = _Short()
 
 
 def shown(value: object) -> str:
@@ -312,9 +298,6 @@ def shown(value: object) -> str:
         return printable(re.sub(r"\n\s*", " ", _SHORT.repr(value)))
     except Exception:  # noqa: BLE001 - somebody else's repr may raise anything
         return f"something of type {type(value).__name__}"
-
-
-_SHORT = _Short()
 
 
 def stop(*_: object) -> None:

@@ -15,7 +15,6 @@ from optipath.kernels.carriers.carried import (
     Components,
     add,
     carry,
-    not_above_rounding,
     stokes_of,
 )
 from optipath.kernels.carriers.carrier import Carrier
@@ -79,6 +78,7 @@ from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.elimination import Elimination, is_zero
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY, Primitives
 from optipath.kernels.numbers.twice import twice
+from optipath.kernels.numbers.vanishing import not_above_rounding
 
 __all__ = [
     "ABSORPTION_ALONG",

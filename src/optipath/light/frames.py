@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels import ALIGN, NUMPY
 from optipath.values.arrays.array_likes import array_of, as_given
-from optipath.values.arrays.read_only import read_only
+from optipath.values.arrays.read_only import Unchanging, read_only
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.roundings import as_doubles, rounding_of
 
@@ -20,7 +20,7 @@ _TOLERANCE = 1e-8
 _PARALLEL = 1e-12
 
 
-class Frame:
+class Frame(Unchanging):
     """A right-handed frame (x, y, z) whose z is the direction in which light travels.
 
     Parameters
@@ -206,9 +206,6 @@ class Frame:
         return all(np.array_equal(first, second) for first, second in pairs)
 
     __hash__ = None  # type: ignore[assignment]
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"a Frame cannot change; make a new one instead of setting '{name}'")
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Frame, (self.x, self.y, self.z)

@@ -23,7 +23,7 @@ from optipath.light.polarization_state import (
 from optipath.light.underflow import times_two_to
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
-from optipath.values.arrays.read_only import same
+from optipath.values.arrays.read_only import Unchanging, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _LARGEST = 2.0**40
 
 
-class Light:
+class Light(Unchanging):
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
 
     Parameters
@@ -136,9 +136,6 @@ class Light:
             stokes = own["_stokes"]
             own["stokes"] = own["mantissa"] = _stacked(stokes) if type(stokes) is tuple else stokes
         return own[name]
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"a Light cannot change; make a new one instead of setting '{name}'")
 
     def __repr__(self) -> str:
         faint = f", exponent={self.exponent!r}" if self.exponent.any() else ""

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Array = npt.NDArray[Any]
 
 UNDERFLOW = 2.0**60
 """How many times the smallest normal number light must be, lest what underflows is seen in it."""
 
 
 @np.errstate(under="ignore", over="ignore")
-def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any]:
+def times_two_to(parts: Array, power: Any) -> Array:
     """Return vectors times two to a power.
 
     Parameters
@@ -34,9 +39,7 @@ def times_two_to(parts: np.ndarray[Any, Any], power: Any) -> np.ndarray[Any, Any
     return np.asarray(np.ldexp(parts, np.asarray(power)[..., np.newaxis]))
 
 
-def normalise_exponent(
-    parts: np.ndarray[Any, Any], exponent: Any
-) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+def normalise_exponent(parts: Array, exponent: Any) -> tuple[Array, Array]:
     """Return the same vectors with their largest parts near 1, and the exponent for it.
 
     Nothing is rounded; NaN is not looked at.
@@ -65,9 +68,7 @@ def normalise_exponent(
     return times_two_to(parts, -shift), np.asarray(exponent + shift)
 
 
-def folded(
-    stokes: np.ndarray[Any, Any], exponent: Any
-) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
+def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
     """Return the same light without an exponent wherever floats can hold it.
 
     Parameters
@@ -94,7 +95,7 @@ def folded(
     return np.where(faint[..., np.newaxis], stokes, plain), np.where(faint, exponent, 0)
 
 
-def underflows(intensity: np.ndarray[Any, Any]) -> np.ndarray[Any, np.dtype[np.bool_]]:
+def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     """Tell where light is so weak that what underflows on the way may be seen in it.
 
     Examples

@@ -10,7 +10,7 @@ from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_jax, is_traced, namespace
 from optipath.values.arrays.memory import refuse_too_large
-from optipath.values.arrays.read_only import same
+from optipath.values.arrays.read_only import Unchanging, same
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.roundings import doubles, rounding_of
 
@@ -19,7 +19,7 @@ _ANGLE = 8
 """How many bytes an angle has."""
 
 
-class CosSin:
+class CosSin(Unchanging):
     """An angle by its cosine and sine, as scenes in space have it.
 
     May be given for any angle when a plan runs: next to the normal and at grazing incidence it
@@ -100,9 +100,6 @@ class CosSin:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return CosSin, (self.cos, self.sin)
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        raise AttributeError(f"a CosSin cannot change; make a new one instead of setting '{name}'")
 
     def __repr__(self) -> str:
         return f"CosSin({self.cos!r}, {self.sin!r})"

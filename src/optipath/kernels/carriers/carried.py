@@ -13,6 +13,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from optipath.kernels.numbers.vanishing import not_below_rounding, products, vanishes
+
 if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Primitives
 
@@ -22,8 +24,8 @@ Components: TypeAlias = tuple[Any, Any, Any, Any]
 Carried: TypeAlias = tuple[Any, ...]
 """(weak, S1, S2, S3), or the first few of them; those left out are 0, or matter to nobody."""
 
-_SEVERAL, _MANY = 64.0, 1024.0
-"""How many roundings a negative intensity, and a DoP above 1, may come from."""
+_MANY = 1024.0
+"""How many roundings a DoP above 1 may come from."""
 
 
 def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
@@ -96,87 +98,6 @@ def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
     return (carried[0] + 0.5 * xp.absolute(carried[1]),)
 
 
-def products(*pairs: tuple[Any, Any]) -> Any:
-    """Return the sum of products, without those that have a plain 0 for a factor.
-
-    Examples
-    --------
-    >>> products((2.0, 3.0), (1.0, 0.0), (1.0, 4.0))
-    10.0
-    """
-    terms = [a * b for a, b in pairs if not (_is_plain_zero(a) or _is_plain_zero(b))]
-    return sum(terms[1:], start=terms[0]) if terms else 0.0 * pairs[0][0] * pairs[0][1]
-
-
-def _is_plain_zero(number: Any) -> bool:
-    return type(number) is float and number == 0.0
-
-
-def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
-    """Return an intensity, 0 where it is negative by no more than the roundings of a size.
-
-    Matrices of one's own may make light that cannot be; its negative intensities stay.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    weak : float or array_like
-        The intensity.
-    size : float or array_like
-        What it may have been rounded with, not negative.
-
-    Returns
-    -------
-    float or array_like
-        The intensity, or 0.
-
-    Examples
-    --------
-    >>> from optipath.kernels import FLOAT
-    >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
-    (0.0, -0.1)
-    """
-    return _taken_as_0(xp, (weak < 0.0) & _vanishes(weak, _SEVERAL * size), weak)
-
-
-def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
-    """Return a number, 0 where it is no more than the roundings of a size.
-
-    Parameters
-    ----------
-    xp : Primitives
-        What it is computed with.
-    number : float or array_like
-        The number, of any sign.
-    size : float or array_like
-        What it may have been rounded with, not negative.
-
-    Returns
-    -------
-    float or array_like
-        The number, or 0.
-
-    Examples
-    --------
-    >>> from optipath.kernels import FLOAT
-    >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
-    (0.0, 1e-06)
-    """
-    return _taken_as_0(xp, _vanishes(number, _SEVERAL * size), number)
-
-
-def _taken_as_0(xp: Primitives, condition: Any, number: Any) -> Any:
-    """Return a number, 0 where a condition holds; its slope stays."""
-    if xp.within:
-        return number - xp.where(condition, xp.fixed(number), 0.0)
-    return xp.where(condition, 0.0, number)
-
-
-def _vanishes(number: Any, beside: Any) -> Any:
-    return beside + number == beside
-
-
 def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     """Return light whose S1, S2, S3 are shortened where roundings made them longer than S0.
 
@@ -208,7 +129,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
     # |S|^2 - S0^2, where S0 = 2 weak + |S1|.
     excess = products((s2, s2), (s3, s3)) - 4.0 * weak * (weak + size)
     square = s0 * s0
-    rounding = (excess > 0.0) & _vanishes(excess, _MANY * square)
+    rounding = (excess > 0.0) & vanishes(excess, _MANY * square)
     gap = xp.where(rounding, 0.5 * excess / xp.where(square > 0.0, square, 1.0), 0.0)
     rest = (number - number * gap for number in carried[1:])
     return weak + 0.5 * size * gap, *rest

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.carriers.carried import products
 from optipath.kernels.carriers.carrier import Carrier
+from optipath.kernels.numbers.vanishing import products
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -13,9 +13,9 @@ from optipath.kernels.carriers.carried import (
     all_four,
     along_axes,
     leaving,
-    not_below_rounding,
     stokes_of,
 )
+from optipath.kernels.numbers.vanishing import not_below_rounding
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -16,8 +16,6 @@ from optipath.kernels.carriers.carried import (
     along_axes,
     carry,
     leaving,
-    not_below_rounding,
-    products,
     stokes_of,
 )
 from optipath.kernels.carriers.jones_actions import (
@@ -35,6 +33,7 @@ from optipath.kernels.carriers.powers_actions import (
     scale_powers,
 )
 from optipath.kernels.numbers.primitives import made
+from optipath.kernels.numbers.vanishing import not_below_rounding, products
 
 if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Primitives

@@ -112,20 +112,16 @@ class DoubleDouble:
         return abs((self - other).high) <= _ALIKE * abs(self.high)
 
     def __lt__(self, other: Any) -> Any:
-        difference = self - other
-        return difference.high < 0.0
+        return (self - other).high < 0.0
 
     def __gt__(self, other: Any) -> Any:
-        difference = self - other
-        return difference.high > 0.0
+        return (self - other).high > 0.0
 
     def __ge__(self, other: Any) -> Any:
-        difference = self - other
-        return difference.high >= 0.0
+        return (self - other).high >= 0.0
 
     def __le__(self, other: Any) -> Any:
-        difference = self - other
-        return difference.high <= 0.0
+        return (self - other).high <= 0.0
 
     def sqrt(self) -> DoubleDouble:
         """Return the square root of a number that is not negative."""

@@ -16,6 +16,16 @@ from optipath.values.roundings import ENDLESS, doubles, within
 _SCALARS = (str, bytes, int, float, complex, NoneType)
 
 
+class Unchanging:
+    """An object that is made once and never changes."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        kind = type(self).__name__
+        raise AttributeError(f"a {kind} cannot change; make a new one instead of setting '{name}'")
+
+
 def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
     """Return a value that nobody can change: whatever is an array becomes a read-only copy.
 

@@ -1,16 +1,9 @@
 """Domains: which values a quantity of an element may take."""
 
-from optipath.values.domains.choice import (
-    Choice,
-)
-from optipath.values.domains.domain import (
-    Domain,
-    in_unit_of,
-)
+from optipath.values.domains.choice import Choice
+from optipath.values.domains.domain import Domain, in_unit_of
 from optipath.values.domains.indices import (
     INDEX,
-    INDICES,
-    INNER,
     LIT_BEHIND,
     OUTSIDE,
     IndexDomain,
@@ -42,25 +35,18 @@ from optipath.values.domains.quantities import (
     RotatoryPower,
     StokesState,
 )
-from optipath.values.domains.states import (
-    AmplitudeDomain,
-    StokesDomain,
-)
 
 __all__ = [
     "AMPLITUDE",
     "ANGLE",
     "INCIDENCE",
     "INDEX",
-    "INDICES",
-    "INNER",
     "LIT_BEHIND",
     "OUTSIDE",
     "READINGS",
     "REAL",
     "Absorption",
     "Amplitude",
-    "AmplitudeDomain",
     "Angle",
     "AnglePerLength",
     "Choice",
@@ -81,7 +67,6 @@ __all__ = [
     "Reads",
     "Real",
     "RotatoryPower",
-    "StokesDomain",
     "StokesState",
     "in_unit_of",
 ]

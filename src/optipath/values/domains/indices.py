@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -63,13 +63,15 @@ class IndexDomain(Domain):
 class OutsideDomain(Domain):
     """Positive real numbers: the medium that light comes from does not absorb."""
 
+    of_k: ClassVar[Domain] = _NO_K
+
     def described(self) -> str:
         return "a real index of refraction above 0, since light comes from there"
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
             return super().parts(name, value)
-        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K)]
+        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, self.of_k)]
 
 
 class OptionalOutside(OutsideDomain):
@@ -82,10 +84,7 @@ class OptionalOutside(OutsideDomain):
 class LitBehind(OutsideDomain):
     """Indices of a medium behind a boundary from which light comes as well."""
 
-    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        if not isinstance(value, Material):
-            return [(name, value, self)]
-        return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, _NO_K_BEHIND)]
+    of_k = _NO_K_BEHIND
 
     def described(self) -> str:
         return (
