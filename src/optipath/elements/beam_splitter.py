@@ -53,11 +53,9 @@ class BeamSplitter(FourPort, kind="beam-splitter"):
         return self._ways(both, both)
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
-        """Return the world frame of a port: its own, or that of light which passes straight."""
         return frames.get(port) or frames.get(_THROUGH[port])
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that transmitted light keeps its frame and reflected light its x."""
         found = []
         for enters, passes, turns in (
             ("in", "transmitted", "reflected"),

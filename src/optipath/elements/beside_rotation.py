@@ -30,25 +30,11 @@ class Beside(Domain):
         return f"0 beside {self.why}"
 
     def check(self, owner: str, value: Any) -> Any:
-        """Return the value as an array of numbers, or say what is wrong with it.
-
-        Raises
-        ------
-        ValueFault
-            If it is not known to be 0.
-        """
         if is_traced(value):
             raise ValueFault(f"{owner} is traced by JAX; give {self.described()}")
         return super().check(owner, value)
 
     def check_parameter(self, owner: str, parameter: Parameter) -> None:
-        """Refuse a parameter whose value is not known yet.
-
-        Raises
-        ------
-        ValueFault
-            Naming the parameter.
-        """
         if not parameter.bound:
             raise ValueFault(f"{owner} is parameter '{parameter.name}'; give {self.described()}")
 

@@ -6,53 +6,60 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from optipath.elements.four_port import FourPort
 from optipath.elements.frame_checks import angle_between, incidence_between, share_x
 from optipath.elements.fresnel import refraction_angle
 from optipath.light.frames import Frame
 from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.domains import LIT_BEHIND
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from optipath.values.domains import Domain
+
 
 _TOLERANCE = 1e-7
 
 
-class BoundaryElement(Protocol):
-    """An element with a medium in front and one behind."""
+class _HasTwoMedia(Protocol):
+    """An element that says the media on both sides, and the incidence from the front."""
 
     @property
-    def incidence(self) -> Any:
-        """The angle of incidence of light from the front."""
-
+    def incidence(self) -> Any: ...
     @property
-    def index(self) -> Any:
-        """The index of the medium behind."""
-
+    def index(self) -> Any: ...
     @property
-    def outside(self) -> Any:
-        """The index of the medium in front."""
-
-    def faults(self, owner: str) -> list[str]:
-        """Return what is wrong with the values."""
+    def outside(self) -> Any: ...
+    def faults(self, owner: str) -> list[str]: ...
 
 
-def boundary_faults(owner: str, element: BoundaryElement, frames: Mapping[str, Frame]) -> list[str]:
-    """Return what is wrong with the frames of an interface's ports, a sentence each."""
-    placed = list(frames.items())
-    apart = [f"'{owner}.{port}'" for port, frame in placed[1:] if not share_x(frame, placed[0][1])]
-    if apart:
-        ports = " and ".join([f"'{owner}.{placed[0][0]}'", *apart])
-        problem = f"the frames of {ports} must share one x"
-        return [f"{problem}, perpendicular to the plane of incidence"]
-    return [*_meeting_faults(owner, element, frames), *_passing_faults(owner, element, frames)]
+class BoundaryElement(FourPort):
+    """An element between the media in front, ``outside``, and behind, ``index``.
+
+    All its ports share x = s; directions obey the laws of reflection and of Snell.
+    """
+
+    def domains_entered(self, port: str) -> Mapping[str, Domain]:
+        """Return that the medium behind must not absorb where light comes from there."""
+        return {"index": LIT_BEHIND} if port == "back" else {}
+
+    def frame_of(self: _HasTwoMedia, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+        return frames.get(port) or _refracted_frame(self, port, frames)
+
+    def frame_faults(self: _HasTwoMedia, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+        placed = list(frames.items())
+        faulty = [port for port, frame in placed if not share_x(frame, placed[0][1])]
+        if faulty:
+            ports = " and ".join(f"'{owner}.{port}'" for port in (placed[0][0], *faulty))
+            problem = f"the frames of {ports} must share one x"
+            return [f"{problem}, perpendicular to the plane of incidence"]
+        return [*_meeting_faults(owner, self, frames), *_passing_faults(owner, self, frames)]
 
 
-def refracted_frame(
-    element: BoundaryElement, port: str, frames: Mapping[str, Frame]
-) -> Frame | None:
+def _refracted_frame(element: _HasTwoMedia, port: str, frames: Mapping[str, Frame]) -> Frame | None:
     """Return the frame of refracted light, of that of the other; None where it is not known."""
     if port != "transmitted" or not {"in", "reflected"} <= frames.keys():
         return None
@@ -74,7 +81,7 @@ def _unit(vector: Any) -> Any:
 
 
 def _meeting_faults(
-    owner: str, element: BoundaryElement, frames: Mapping[str, Frame]
+    owner: str, element: _HasTwoMedia, frames: Mapping[str, Frame]
 ) -> Iterator[str]:
     if not {"in", "reflected"} <= frames.keys():
         return
@@ -89,7 +96,7 @@ def _meeting_faults(
 
 
 def _passing_faults(
-    owner: str, element: BoundaryElement, frames: Mapping[str, Frame]
+    owner: str, element: _HasTwoMedia, frames: Mapping[str, Frame]
 ) -> Iterator[str]:
     angles = _angles(owner, element) if len(frames) > 1 else None
     if not angles:
@@ -113,7 +120,7 @@ def _passing_faults(
                 )
 
 
-def _angles(owner: str, element: BoundaryElement) -> tuple[Any, Any] | None:
+def _angles(owner: str, element: _HasTwoMedia) -> tuple[Any, Any] | None:
     """Return the angles in front and behind, if they are known and allowed."""
     before = getattr(element, "incidence_in", None)
     values = [element.incidence, element.index, element.outside, before]

@@ -105,7 +105,16 @@ class ResultOf:
 class Coupling:
     """One way through an element: from an in-port to an out-port, in order of travel.
 
-    `enters` is None where light begins (a source); `reflects` tells a bounce from a passage.
+    Attributes
+    ----------
+    enters : str or None
+        The in-port; None where light begins (a source).
+    leaves : str
+        The out-port.
+    operations : tuple of Operation
+        What is done to light, in order.
+    reflects : bool
+        Whether it is a bounce, and no passage.
     """
 
     enters: str | None
@@ -134,6 +143,18 @@ class Coupling:
 def turned(angle: Any, *operations: Operation) -> tuple[Operation, ...]:
     """Return operations whose axes stand at an angle to the frame, right-handed from x.
 
+    Parameters
+    ----------
+    angle : float, array, Parameter or Operand
+        In radians.
+    *operations : Operation
+        As they are where the axes are those of the frame.
+
+    Returns
+    -------
+    tuple of Operation
+        Between a turn and the turn back; those alone where the angle is 0.
+
     Examples
     --------
     >>> turned(0.0, Operation(TURN, (0.3,)))[0].kernel.name
@@ -151,6 +172,18 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
 
     An index of refraction is two numbers (n, k), and so is any complex number; a Stokes
     vector is four, a matrix sixteen, anything else one.
+
+    Parameters
+    ----------
+    value : float, complex, array, Material or Parameter
+        What a field of an element holds.
+    domain : Domain
+        That of the field.
+
+    Returns
+    -------
+    tuple
+        Of floats, arrays, parameters and operands.
 
     Examples
     --------

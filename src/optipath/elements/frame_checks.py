@@ -17,6 +17,16 @@ _TOLERANCE = 1e-8
 def same_frame(first: Frame, second: Frame) -> bool:
     """Tell whether two frames are one, to rounding.
 
+    Parameters
+    ----------
+    first, second : Frame
+        Those of two ports.
+
+    Returns
+    -------
+    bool
+        Whether they are for all of a batch.
+
     Examples
     --------
     >>> from optipath.light.frames import Frame
@@ -30,6 +40,16 @@ def same_frame(first: Frame, second: Frame) -> bool:
 def share_x(first: Frame, second: Frame) -> bool:
     """Tell whether two frames have x along one line, as s is before and after a reflection.
 
+    Parameters
+    ----------
+    first, second : Frame
+        Those of two ports.
+
+    Returns
+    -------
+    bool
+        Whether they have for all of a batch.
+
     Examples
     --------
     >>> from optipath.light.frames import Frame
@@ -42,6 +62,16 @@ def share_x(first: Frame, second: Frame) -> bool:
 
 def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float64]:
     """Return the angle of incidence at which light is turned from one direction to another.
+
+    Parameters
+    ----------
+    arriving, reflected : Frame
+        Before and behind.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        In radians, 0 to pi/2.
 
     Examples
     --------
@@ -57,6 +87,16 @@ def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float
 
 def angle_between(first: Frame, second: Frame) -> npt.NDArray[np.float64]:
     """Return the angle between the directions of two frames.
+
+    Parameters
+    ----------
+    first, second : Frame
+        Those of two ports.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        In radians, 0 to pi.
 
     Examples
     --------

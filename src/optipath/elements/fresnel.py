@@ -151,6 +151,11 @@ def refraction_angle(
     outside : array_like, optional
         The index of the medium in front, real and above 0.
 
+    Returns
+    -------
+    ndarray
+        In radians, of the broadcast shape.
+
     Raises
     ------
     ValueFault

@@ -4,23 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.boundary_frames import boundary_faults, refracted_frame
+from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
-from optipath.elements.four_port import FourPort
 from optipath.kernels import REFLECTION, TRANSMISSION
-from optipath.values.domains import LIT_BEHIND, Angle, Incidence, Index, OptionalIndex, OutsideIndex
+from optipath.values.domains import Angle, Incidence, Index, OptionalIndex, OutsideIndex
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from optipath.elements.coupling import Coupling
-    from optipath.light.frames import Frame
-    from optipath.values.domains import Domain
 
 
-class Interface(FourPort, kind="interface"):
+class Interface(BoundaryElement, kind="interface"):
     """A smooth boundary; its frames have x = s, perpendicular to the plane of incidence.
 
     Light from the front enters at ``in``; what is reflected leaves at ``reflected``, and what
@@ -78,18 +73,6 @@ class Interface(FourPort, kind="interface"):
         behind = (n, media[0], 0.0) if before else media
         reflect_back = Operation(REFLECTION, (*behind, *before, *angle))
         return self._ways((reflect, transmit), (reflect_back, transmit))
-
-    def domains_entered(self, port: str) -> Mapping[str, Domain]:
-        """Return that the medium behind must not absorb where light comes from there."""
-        return {"index": LIT_BEHIND} if port == "back" else {}
-
-    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
-        """Return the world frame of a port: its own, or what Snell's law makes of others."""
-        return frames.get(port) or refracted_frame(self, port, frames)
-
-    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that x = s at all ports and that the directions obey reflection and Snell."""
-        return boundary_faults(owner, self, frames)
 
 
 def _real(index: Any) -> Any:

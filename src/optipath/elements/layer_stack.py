@@ -4,27 +4,22 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.boundary_frames import boundary_faults, refracted_frame
+from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
-from optipath.elements.four_port import FourPort
 from optipath.kernels import (
     STACK_REFLECTION,
     STACK_REFLECTION_BACK,
     STACK_TRANSMISSION,
     STACK_TRANSMISSION_BACK,
 )
-from optipath.values.domains import INDEX, LIT_BEHIND, Angle, Incidence, Indices
+from optipath.values.domains import INDEX, Angle, Incidence, Indices
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from optipath.elements.coupling import Coupling
-    from optipath.light.frames import Frame
-    from optipath.values.domains import Domain
 
 
-class LayerStack(FourPort, kind="layer-stack"):
+class LayerStack(BoundaryElement, kind="layer-stack"):
     """Smooth parallel layers on a substrate, with the ports of an `Interface`.
 
     Light goes to and fro between the boundaries; intensities add up, as they do in layers much
@@ -64,10 +59,6 @@ class LayerStack(FourPort, kind="layer-stack"):
             (Operation(STACK_REFLECTION_BACK, back), Operation(STACK_TRANSMISSION_BACK, back)),
         )
 
-    def domains_entered(self, port: str) -> Mapping[str, Domain]:
-        """Return that the substrate must not absorb where light comes from there."""
-        return {"index": LIT_BEHIND} if port == "back" else {}
-
     @property
     def outside(self) -> Any:
         """The index of the medium in front."""
@@ -83,11 +74,3 @@ class LayerStack(FourPort, kind="layer-stack"):
         """The indices; two of air where they are no list, which is told as a fault."""
         several: Any = self.indices
         return several if isinstance(several, tuple) and len(several) > 1 else (1.0, 1.0)
-
-    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
-        """Return the world frame of a port: its own, or what Snell's law makes of others."""
-        return frames.get(port) or refracted_frame(self, port, frames)
-
-    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that x = s at all ports and that the directions obey reflection and Snell."""
-        return boundary_faults(owner, self, frames)

@@ -113,6 +113,10 @@ class Medium(Element, kind="medium"):
             The rotation or dextrorotation, the retardance, the angle and the azimuth, as in
             `Medium`.
 
+        Returns
+        -------
+        Medium
+
         Raises
         ------
         ValueFault

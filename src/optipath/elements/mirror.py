@@ -59,7 +59,6 @@ class Mirror(Element, kind="mirror"):
         )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that x = s at both ports."""
         if not {"in", "reflected"} <= frames.keys() or share_x(frames["in"], frames["reflected"]):
             return []
         problem = f"the frames of '{owner}.in' and '{owner}.reflected' must share one x"

@@ -12,6 +12,13 @@ _KINDS: dict[str, type[Any]] = {}
 def register(kind: str, element_class: type[Any]) -> None:
     """Enter a class under its kind; defining the same class again replaces it.
 
+    Parameters
+    ----------
+    kind : str
+        The name in preset files.
+    element_class : type
+        Its class.
+
     Raises
     ------
     PathError

@@ -16,7 +16,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RowsFactory:
-    """Makes the function of a kernel; a class, so that plans can be pickled."""
+    """Makes the function of a kernel; a class, so that plans can be pickled.
+
+    Parameters
+    ----------
+    name : str
+        Of the element.
+    rows_of : callable
+        ``rows_of(xp, *values)``, the rows of its Mueller matrix.
+    """
 
     name: str
     rows_of: Callable[..., Any]
@@ -36,7 +44,18 @@ class RowsFactory:
 
 
 def rows_kernel(name: str, rows_of: Any) -> Kernel:
-    """Return the kernel of ``rows_of(xp, *values)``, a function or a static method.
+    """Return the kernel of an element that gives the rows of its Mueller matrix.
+
+    Parameters
+    ----------
+    name : str
+        Of the element.
+    rows_of : callable or staticmethod
+        ``rows_of(xp, *values)``, the rows.
+
+    Returns
+    -------
+    Kernel
 
     Raises
     ------

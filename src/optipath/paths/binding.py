@@ -22,6 +22,17 @@ if TYPE_CHECKING:
 def bind(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
     """Return a copy of a graph of elements in which parameters are bound to values.
 
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links.
+    values : mapping
+        The value of each parameter, by name.
+
+    Returns
+    -------
+    networkx.MultiDiGraph
+
     Raises
     ------
     ParameterError

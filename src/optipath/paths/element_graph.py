@@ -25,7 +25,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Node:
-    """A named element in its path; ``a >> b`` links the natural way out of a to b."""
+    """A named element in its path; ``a >> b`` links the natural way out of a to b.
+
+    Parameters
+    ----------
+    path : ElementGraph
+        Where it stands.
+    name : str
+        What it is called there.
+    """
 
     path: ElementGraph
     name: str

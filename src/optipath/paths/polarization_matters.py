@@ -85,6 +85,10 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     **parameters : float or array_like
         As in `Plan.run`.
 
+    Returns
+    -------
+    Polarization
+
     Raises
     ------
     PathError, ParameterError

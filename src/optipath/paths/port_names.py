@@ -17,6 +17,17 @@ if TYPE_CHECKING:
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
     """Raise unless a port of a node is one of those given.
 
+    Parameters
+    ----------
+    element : Element
+        That of the node.
+    owner : str
+        The name of the node.
+    port : str
+        What is asked for.
+    ports : sequence of str
+        Those that will do.
+
     Raises
     ------
     PathError
@@ -42,35 +53,31 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
     raise PathError(f"port '{owner}.{port}' does not exist{cure}")
 
 
-def split_port(text: Any, *, out: bool) -> tuple[str, str]:
-    """Return the node and the port of ``"node.port"``.
+def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
+    """Return the node and the port that a text names in a graph of elements.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links.
+    text : str
+        Such as ``"node.port"``.
+    out : bool
+        Whether it must be an out-port, and else an in-port.
+
+    Returns
+    -------
+    tuple of two str
 
     Raises
     ------
     PathError
-        If it is no such text.
-
-    Examples
-    --------
-    >>> split_port("lamp.out", out=True)
-    ('lamp', 'out')
+        If it is no such text, there is no such node, or it has no such port.
     """
     if not isinstance(text, str) or text.count(".") != 1:
         way = "out" if out else "in"
         raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
     name, _, port = text.partition(".")
-    return name, port
-
-
-def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
-    """Return the node and the port that a text names in a graph of elements.
-
-    Raises
-    ------
-    PathError
-        If there is no such node, or it has no such port.
-    """
-    name, port = split_port(text, out=out)
     element = element_at(graph, name)
     check_port(element, name, port, element.outputs if out else element.inputs)
     return name, port
@@ -78,6 +85,17 @@ def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str
 
 def element_at(graph: nx.MultiDiGraph, name: Any) -> Element:
     """Return the element of a node.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links.
+    name : str
+        That of the node.
+
+    Returns
+    -------
+    Element
 
     Raises
     ------

@@ -61,6 +61,10 @@ def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates
     first, last : int
         Which are wanted; 0 is where light starts.
 
+    Returns
+    -------
+    Coordinates
+
     Examples
     --------
     >>> import numpy as np

@@ -61,7 +61,17 @@ class VertexFrame:
     def frame(self, given: Mapping[str, Resolved], cut: Callable[[Any], Any] = np.asarray) -> Frame:
         """Return the frame: x across the plane of incidence, and turned from there.
 
-        Of a part of a batch, `cut` returns what belongs to it of numbers for the whole.
+        Parameters
+        ----------
+        given : mapping of str to Resolved
+            The values of the open parameters.
+        cut : callable, optional
+            Of a part of a batch: returns what belongs to it of numbers for the whole.
+
+        Returns
+        -------
+        Frame
+            With axes of shape (..., 3).
 
         Raises
         ------

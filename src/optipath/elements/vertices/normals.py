@@ -37,6 +37,11 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     count : int
         The number of reflections.
 
+    Returns
+    -------
+    list of str
+        A sentence for the first normal of each fault.
+
     Examples
     --------
     >>> chain = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.0], [0.0, 1.0, 0.0]])

@@ -27,7 +27,6 @@ class VerticesDomain(Domain):
     """Points from the light to the eye, in the unit of any length."""
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
-        """Return the angles of a chain that is given by them, or the value itself."""
         if isinstance(value, VerticesByAngles):
             return list(value.parts(name))
         return super().parts(name, value)
@@ -54,13 +53,6 @@ class VerticesDomain(Domain):
         return read_only(kept.astype(np.float64)) if whole else kept
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
-        """Return the value as an array of numbers, or say which vertex is wrong.
-
-        Raises
-        ------
-        ValueFault
-            Naming the owner, the vertex and its chain, and what is asked for.
-        """
         try:
             return super().check(owner, value)
         except ValueFault:

@@ -25,6 +25,18 @@ def chart_text(chart: Mapping[str, Any]) -> str:
 def read_chart(text: str, name: str) -> dict[str, Any]:
     """Return a chart that was written as JSON.
 
+    Parameters
+    ----------
+    text : str
+        The JSON.
+    name : str
+        What it is called where it is refused.
+
+    Returns
+    -------
+    dict
+        As `path_chart` returns it.
+
     Raises
     ------
     OptipathError

@@ -50,6 +50,10 @@ def errors(
         Take the error of a component that is exactly 0 in ulp of the first, rather than
         in ulp of nothing.
 
+    Returns
+    -------
+    Errors
+
     Examples
     --------
     >>> off = errors(np.array([[1.0 + 2e-16, 0, 0, 0]]), [((1, 0, 0, 0), (0, 0, 0, 0))], "float64")
@@ -77,7 +81,19 @@ def _distance(number: Any, value: Any) -> Any:
 
 
 def in_ulp(distance: Any, value: Any, dtype: str) -> float:
-    """Return a distance in units in the last place of a value."""
+    """Return a distance in units in the last place of a value.
+
+    Parameters
+    ----------
+    distance, value : mpf
+        Any numbers; a value of 0 has the unit of the smallest one.
+    dtype : str
+        The precision.
+
+    Returns
+    -------
+    float
+    """
     if not distance:
         return 0.0
     kind = np.finfo(dtype)

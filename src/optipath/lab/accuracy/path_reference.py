@@ -10,14 +10,9 @@ from optipath.composer import Wiring
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.errors import ParameterError, PathError, shown
-from optipath.lab.accuracy.element_reference import Reader, jones, mueller, times, turn
-from optipath.lab.accuracy.many_digits import (
-    DIGITS,
-    MANY_DIGITS,
-    WORKING_DIGITS,
-    exactly,
-    mpmath,
-)
+from optipath.lab.accuracy.coherency_matrices import added, coherency, passed, stokes_of
+from optipath.lab.accuracy.element_reference import Reader, jones, mueller, turn
+from optipath.lab.accuracy.many_digits import DIGITS, MANY_DIGITS, WORKING_DIGITS, exactly, mpmath
 from optipath.paths.path_graph import PathGraph
 
 if TYPE_CHECKING:
@@ -59,6 +54,10 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     **parameters : float
         Single values; `exact_batch` takes arrays.
 
+    Returns
+    -------
+    dict of str to ExactLight
+
     Raises
     ------
     ParameterError
@@ -80,6 +79,15 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
 
     It takes one passage of light, and not one for each angle of the path.
 
+    Parameters
+    ----------
+    path, **parameters
+        As in `exact_lights`.
+
+    Returns
+    -------
+    dict of str to tuple of four mpf
+
     Examples
     --------
     >>> import optipath as op
@@ -88,9 +96,7 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
     """
     given = _single(path, parameters)
     wiring = Wiring(path.graph)
-    scout = Reader(given, (), ())
-    _Walk(wiring, scout).stokes()
-    with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):
+    with mpmath.workdps(_digits(wiring, Reader(given, (), ()))):
         return _Walk(wiring, Reader(given, (), ())).stokes()
 
 
@@ -112,6 +118,10 @@ def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str,
         The elements and links of a path.
     **parameters : float or array_like
         Values of the open parameters.
+
+    Yields
+    ------
+    dict of str to ExactLight
     """
     given, batch = Values(graph).inputs().resolve(parameters)
     wiring = Wiring(graph)
@@ -123,9 +133,7 @@ def _exact(
     wiring: Wiring, given: Mapping[str, Resolved], batch: tuple[int, ...], at: tuple[int, ...]
 ) -> dict[str, ExactLight]:
     scout = Reader(given, batch, at)
-    _Walk(wiring, scout).stokes()
-    # Numbers far from 1 need digits for what they leave of each other.
-    with mpmath.workdps(WORKING_DIGITS + 4 * scout.decades):
+    with mpmath.workdps(_digits(wiring, scout)):
         reader = Reader(given, batch, at)
         values = _Walk(wiring, reader).stokes()
         step = mpmath.mpf(10) ** -(DIGITS // 2 + scout.decades)
@@ -136,6 +144,12 @@ def _exact(
                 for i, (old, new) in enumerate(zip(before, moved[name], strict=True)):
                     conditions[name][i] += abs(float((new / old - 1) / step)) if old else 0.0
         return {name: ExactLight(s, tuple(conditions[name])) for name, s in values.items()}
+
+
+def _digits(wiring: Wiring, scout: Reader) -> int:
+    """Return how many digits are needed: numbers far from 1 leave little of each other."""
+    _Walk(wiring, scout).stokes()
+    return WORKING_DIGITS + 4 * scout.decades
 
 
 class _Walk:
@@ -154,13 +168,13 @@ class _Walk:
                 self._go_round(stretch)
             else:
                 (port,) = stretch.ports
-                self.at[port] = _sum(self._lights(port))
+                self.at[port] = added(self._lights(port))
         return {name: _stokes(self.at[name, port]) for name, port in self.wiring.ends}
 
     def _go_round(self, loop: Stretch) -> None:
         """Solve for the light where it meets, in all four components."""
-        arriving = [_sum(self._lights(junction)) for junction in loop.junctions]
-        given = mpmath.matrix([part for light in arriving for part in _all_of(light)])
+        arriving = [added(self._lights(junction)) for junction in loop.junctions]
+        given = mpmath.matrix([part for light in arriving for part in stokes_of(light)])
         size = 4 * len(loop.junctions)
         system = mpmath.eye(size)
         for column in range(size):
@@ -173,22 +187,22 @@ class _Walk:
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
         """Return what the light at the junctions brings back to them."""
         for place, junction in enumerate(loop.junctions):
-            self.at[junction] = _coherency(parts[4 * place : 4 * place + 4])
+            self.at[junction] = coherency(parts[4 * place : 4 * place + 4])
         members = set(loop.ports)
         for port in loop.ports[len(loop.junctions) :]:
-            self.at[port] = _sum(self._lights(port, members))
-        back = (_sum(self._lights(junction, members)) for junction in loop.junctions)
-        return [part for light in back for part in _all_of(light)]
+            self.at[port] = added(self._lights(port, members))
+        back = (added(self._lights(junction, members)) for junction in loop.junctions)
+        return [part for light in back for part in stokes_of(light)]
 
     def _lights(self, port: Port, within: set[Port] | None = None) -> list[Jones]:
         """Return what arrives at a port, from ports within some alone."""
         name, way = port
         if way in self.wiring.elements[name].inputs:
-            links = self.wiring.links_to[port]
+            before = [(link, (link[0], link[2][0])) for link in self.wiring.links_to[port]]
             return [
-                _passed(self._turn(link), self.at[link[0], link[2][0]])
-                for link in links
-                if self._is_there((link[0], link[2][0]), within)
+                passed(self._turn(link), self.at[start])
+                for link, start in before
+                if self._is_there(start, within)
             ]
         found = []
         for coupling in self.wiring.couplings[name]:
@@ -225,7 +239,7 @@ class _Walk:
 
     def _emitted(self, coupling: Coupling) -> Jones:
         intensity, *state = map(self.read.real, coupling.operations[0].arguments)
-        return _coherency([intensity * part for part in state or (1, 0, 0, 0)])
+        return coherency([intensity * part for part in state or (1, 0, 0, 0)])
 
     def _through(self, name: str, coupling: Coupling) -> Jones:
         """Return the light behind a way through an element."""
@@ -240,9 +254,9 @@ class _Walk:
             self._known[key] = matrix, rows
         matrix, rows = self._known[key]
         if matrix is not None:
-            return _passed(matrix, light)
-        stokes = _all_of(light)
-        return _coherency([sum(m * s for m, s in zip(row, stokes, strict=True)) for row in rows])
+            return passed(matrix, light)
+        stokes = stokes_of(light)
+        return coherency([sum(m * s for m, s in zip(row, stokes, strict=True)) for row in rows])
 
     def _absent(self, element: Element) -> bool:
         optional = [p for p in element.parameters() if p.optional]
@@ -271,33 +285,8 @@ def _angle_between(frame: Frame, other: Frame) -> Any:
     return mpmath.atan2(sum(a * b for a, b in zip(z, across, strict=True)), d)
 
 
-def _passed(matrix: Jones, light: Jones) -> Jones:
-    (a, b), (c, d) = matrix
-    conj = mpmath.conj
-    return times(times(matrix, light), ((conj(a), conj(c)), (conj(b), conj(d))))
-
-
-def _sum(lights: list[Jones]) -> Jones:
-    (a, b), (c, d) = ((0, 0), (0, 0)) if not lights else lights[0]
-    for (e, f), (g, h) in lights[1:]:
-        a, b, c, d = a + e, b + f, c + g, d + h
-    return (a, b), (c, d)
-
-
-def _coherency(stokes: Any) -> Jones:
-    s0, s1, s2, s3 = stokes
-    # <E conj(E)>, where S2 + i S3 = 2 conj(Ex) Ey.
-    return ((s0 + s1) / 2, mpmath.mpc(s2, -s3) / 2), (mpmath.mpc(s2, s3) / 2, (s0 - s1) / 2)
-
-
-def _all_of(light: Jones) -> tuple[Any, ...]:
-    (xx, _), (yx, yy) = light
-    xx, yy, yx = (mpmath.mpmathify(part) for part in (xx, yy, yx))
-    return xx.real + yy.real, xx.real - yy.real, 2 * yx.real, 2 * yx.imag
-
-
 def _stokes(light: Jones) -> tuple[Any, ...]:
-    values = _all_of(light)
+    values = stokes_of(light)
     # What cancels exactly leaves the rounding of the last digit.
     least = values[0] * mpmath.mpf(10) ** -(mpmath.mp.dps - 10)
     return tuple(value if abs(value) > least else mpmath.mpf(0) for value in values)

@@ -31,6 +31,10 @@ def in_region(path: PathGraph, region: Region, count: int, dtype: str) -> nx.Mul
     dtype : str
         The precision that they are rounded to.
 
+    Returns
+    -------
+    networkx.MultiDiGraph
+
     Examples
     --------
     >>> import optipath as op
