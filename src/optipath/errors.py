@@ -1,7 +1,6 @@
 """Every exception of the library: one sentence a fault, all under `OptipathError`.
 
-The package imports this before all else, so that Ctrl-C ends the command ``optipath`` in one line
-while NumPy, which takes longer than a user to change their mind, is still being imported.
+The package imports this first, so that Ctrl-C ends the command in one line while NumPy is imported.
 """
 
 from __future__ import annotations
@@ -50,13 +49,14 @@ class OptipathError(Exception):
     """
 
     def __init__(self, *faults: str) -> None:
-        short = tuple(printable(_shortened(fault)) for fault in faults)
-        super().__init__(*short)
-        self.faults = short
+        # A sentence may quote what was given, which may be of any length.
+        short = (f if len(f) <= _LONGEST else f"{f[:300]} ... {f[-150:]}" for f in faults)
+        self.faults = tuple(map(printable, short))
+        super().__init__(*self.faults)
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its sentences are what it is.
-        return _of_faults, (type(self), self.faults), self.__dict__
+        return OptipathError.__new__, (type(self), *self.faults), self.__dict__
 
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
@@ -249,17 +249,6 @@ def listed(words: Sequence[str]) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-def _of_faults(kind: type[OptipathError], faults: tuple[str, ...]) -> OptipathError:
-    error = kind.__new__(kind, *faults)
-    OptipathError.__init__(error, *faults)
-    return error
-
-
-def _shortened(fault: str) -> str:
-    # A sentence may quote what was given, which may be of any length.
-    return fault if len(fault) <= _LONGEST else f"{fault[:300]} ... {fault[-150:]}"
-
-
 # Control characters but for the end of a line and the tabulator, what turns the direction of
 # writing, other ends of lines, and halves of characters, which no file in UTF-8 can hold.
 _UNSEEN = re.compile(
@@ -280,14 +269,6 @@ def printable(text: str) -> str:
 
 class _Short(Repr):
     """Representations that stop where they become long or deep."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.maxlevel = 4
-        self.maxlist = self.maxtuple = self.maxset = self.maxdict = 12
-        self.maxstring = 200
-        self.maxlong = 60
-        self.maxother = 300
 
     def repr_int(self, x: int, level: int) -> str:
         """Return its digits, or how many bits it has where Python refuses to write them."""
@@ -315,14 +296,15 @@ def shown(value: object) -> str:
 
 
 _SHORT = _Short()
+_SHORT.maxlevel, _SHORT.maxstring, _SHORT.maxlong, _SHORT.maxother = 4, 200, 60, 300
+_SHORT.maxlist = _SHORT.maxtuple = _SHORT.maxset = _SHORT.maxdict = 12
 
 
 def stop(*_: object) -> None:
     """End at once: what is being imported could swallow an exception."""
-    try:
+    with suppress(OSError):
         os.write(2, b"optipath: interrupted\n")
-    finally:
-        os._exit(INTERRUPTED)
+    os._exit(INTERRUPTED)
 
 
 def _is_command() -> bool:
