@@ -3,6 +3,7 @@ import os
 import subprocess
 import sys
 import sysconfig
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -74,6 +75,32 @@ def test_a_case_with_other_values_has_no_published_value(capsys):
 def test_run_by_another_method_says_so(capsys):
     _, out, _ = run(capsys, "run", "npgr026", "--method", "textbook", "--json")
     assert json.loads(out)["method"] == "textbook"
+
+
+def test_run_names_what_ran_one_path(capsys):
+    assert json.loads(run(capsys, "run", "malus", "--json")[1])["engine"] == "float"
+    assert run(capsys, "run", "malus")[1].splitlines()[-1].endswith("engine float")
+
+
+@pytest.mark.parametrize("count", [3, 2000])
+def test_run_names_what_ran_a_batch(count, capsys, tmp_path):
+    file = tmp_path / "arrays.toml"
+    angles = ", ".join(f'"{90 * place / count} deg"' for place in range(count))
+    text = op.load_preset("malus").to_toml().replace('default = "30 deg"', f"default = [{angles}]")
+    file.write_text(text, "utf-8")
+    named = op.load_preset(file).compose().engine_for(count)
+    assert json.loads(run(capsys, "run", str(file), "--json")[1])["engine"] == named
+    assert run(capsys, "run", str(file))[1].splitlines()[-1].endswith(f"engine {named}")
+
+
+def test_the_file_of_a_preset_is_read_once(capsys, monkeypatch):
+    read = []
+    parse = tomllib.loads
+    monkeypatch.setattr(tomllib, "loads", lambda text: read.append(text) or parse(text))
+    for command in ("run", "explain", "polarization"):
+        read.clear()
+        assert run(capsys, command, "npgr026", "--case", "7", "--delta", "40", "--json")[0] == 0
+        assert len(read) == 1
 
 
 def test_help_lists_every_parameter_with_its_help(capsys):

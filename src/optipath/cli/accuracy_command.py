@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from rich.table import Table
 
-from optipath.cli.console import PlainConsole, cell, say
+from optipath.cli.console import PlainConsole, cell, headed, say
 from optipath.cli.text_files import read_text, write
 
 if TYPE_CHECKING:
@@ -19,29 +18,27 @@ def _style(word: str) -> str:
     return "bold red" if word.startswith("**") else ""
 
 
-@click.command()
-@click.option(
-    "--samples",
+SAMPLES = click.Option(
+    ["--samples"],
     type=click.IntRange(1, 100_000),
     default=200,
     show_default=True,
     help="How many boundaries and angles are drawn in each region.",
 )
-@click.option(
-    "--search",
-    "generations",
+SEARCH = click.Option(
+    ["--search", "generations"],
     type=click.IntRange(1, 100_000),
     help="Search for the worst cases instead: so many generations of 1000 boundaries and angles "
     "for each component in each region; 20 take some five minutes.",
 )
-@click.option(
-    "--write",
-    "file",
+WRITE = click.Option(
+    ["--write", "file"],
     type=click.Path(dir_okay=False, exists=True, path_type=Path),
     help="Put the tables into this file, between the lines that mark their place.",
 )
-def accuracy(samples: int, generations: int | None, file: Path | None) -> None:
-    """Tell how far each method is from 50-digit references, region by region."""
+
+
+def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
     from optipath.lab.accuracy.tables import (  # noqa: PLC0415 - an extra
         SAMPLED,
         SEARCHED,
@@ -61,7 +58,15 @@ def accuracy(samples: int, generations: int | None, file: Path | None) -> None:
         return
     console = PlainConsole()
     for table in found():
-        shown = Table(*table.header, title=table.title, box=None, header_style="bold")
+        shown = headed(*table.header, title=table.title, box=None)
         for row in table.rows:
             shown.add_row(*(cell(word.strip("*"), _style(word)) for word in row))
         console.print(shown)
+
+
+accuracy = click.Command(
+    "accuracy",
+    callback=_accuracy,
+    params=[SAMPLES, SEARCH, WRITE],
+    help="Tell how far each method is from 50-digit references, region by region.",
+)

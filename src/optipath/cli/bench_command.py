@@ -12,11 +12,13 @@ from rich.table import Table
 from optipath.cli.console import PlainConsole
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.cli.progress_bar import progress_bar
-from optipath.paths.presets.loader import load_preset
+from optipath.paths.presets.loader import load_preset, with_values
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
+    from optipath.cli.preset_command import Chosen
     from optipath.lab.bench import Report
+    from optipath.paths.path_graph import PathGraph
 
 ENGINES = ("numpy", "numba", "jax")
 LARGEST = click.Option(
@@ -42,9 +44,7 @@ THREADS = click.Option(
 
 
 def _bench(
-    preset: str,
-    case: str | None,
-    values: dict[str, Any],
+    chosen: Chosen,
     *,
     largest: int,
     engines: tuple[str, ...],
@@ -54,12 +54,12 @@ def _bench(
     from optipath.lab.bench import bench  # noqa: PLC0415 - not for every command
 
     def load() -> Any:
-        return load_preset(preset, case=case, **values)
+        return load_preset(chosen.preset, case=chosen.case, **chosen.values)
 
     steps = 5 + len(engines or ENGINES) * (4 * len(str(largest)) + 4)
     with progress_bar(steps) as tell:
         report = bench(
-            _opened(preset, case, values),
+            _opened(chosen),
             load,
             largest=largest,
             engines=engines,
@@ -67,26 +67,24 @@ def _bench(
             progress=lambda what: tell(what, advance=1),
         )
     if as_json:
-        click.echo(json.dumps({"preset": preset, **asdict(report)}))
+        click.echo(json.dumps({"preset": chosen.preset, **asdict(report)}))
         return
     for table in _tables(report):
         PlainConsole().print(table)
 
 
-def _opened(preset: str, case: str | None, values: dict[str, Any]) -> Any:
+def _opened(chosen: Chosen) -> PathGraph:
     """Return the path with what was given, the angles of a case left open."""
-    if case is None:
-        return load_preset(preset, **values)
-    path = load_preset(preset)
+    path, case = chosen.opened, chosen.case
     if case not in path.cases:
-        return load_preset(preset, case=case)
+        return chosen.path()  # None is given, or one that is refused.
     angles = [
         name
         for name, p in path.parameters.items()
         if dimension_of(p.unit) == "angle" and not p.optional
     ]
     kept = {name: value for name, value in path.cases[case].values.items() if name not in angles}
-    return load_preset(preset, **{**kept, **values})
+    return with_values(path, chosen.preset, None, {**kept, **chosen.values})
 
 
 def _tables(report: Report) -> list[Table]:

@@ -6,14 +6,13 @@ import json
 
 import click
 
+from optipath.cli.preset_command import JSON
 from optipath.engines.code_cache import CODE
 
+CLEAR = click.Option(["--clear"], is_flag=True, help="Remove all that is kept.")
 
-@click.command()
-@click.option("--clear", is_flag=True, help="Remove all that is kept.")
-@click.option("--json", "as_json", is_flag=True, help="Print one JSON object.")
-def cache(*, clear: bool, as_json: bool) -> None:
-    """Show the folder of compiled code and how much it holds, or clear it."""
+
+def _cache(*, clear: bool, as_json: bool) -> None:
     removed = CODE.clear() if clear else 0
     entries = CODE.entries()
     found = {
@@ -29,3 +28,11 @@ def cache(*, clear: bool, as_json: bool) -> None:
     else:
         for name, value in found.items():
             click.echo(f"{name:8} {value if isinstance(value, str) else f'{value:,}'}")
+
+
+cache = click.Command(
+    "cache",
+    callback=_cache,
+    params=[CLEAR, JSON],
+    help="Show the folder of compiled code and how much it holds, or clear it.",
+)

@@ -12,10 +12,12 @@ from optipath.cli.console import say
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress_bar import progress_bar
 from optipath.cli.text_files import NewFile, read_text, told_of, write
-from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.paths.presets.loader import preset_names
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+
+    from optipath.cli.preset_command import Chosen
 
 OUT = click.Option(
     ["--out"],
@@ -45,23 +47,14 @@ REDRAW = click.Option(
 )
 
 
-def _chart(
-    preset: str,
-    case: str | None,
-    values: dict[str, Any],
-    *,
-    out: Path,
-    data: Path | None,
-    engines: tuple[str, ...],
-) -> None:
-    path = load_preset(preset, case=case, **values)
-    title = preset + (f", case {case}" if case else "")
+def _chart(chosen: Chosen, *, out: Path, data: Path | None, engines: tuple[str, ...]) -> None:
+    path = chosen.path()
 
     def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
         from optipath.lab.accuracy.chart import Effort, path_chart  # noqa: PLC0415 - an extra
 
         effort = Effort(engines=engines) if engines else Effort()
-        return path_chart(path, title, effort, progress)
+        return path_chart(path, chosen.title, effort, progress)
 
     _measure_and_draw(measure, out, data)
 

@@ -29,24 +29,17 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-@click.group(invoke_without_command=True, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(
+    invoke_without_command=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    commands=[presets, show, run, explain, polarization, bench, cache, chart, accuracy],
+)
 @click.version_option(version("optipath"), prog_name="optipath")
 @click.pass_context
 def cli(context: click.Context) -> None:
     """Trace polarised light along optical paths; angles are in degrees."""
     if context.invoked_subcommand is None:
         click.echo(context.get_help())
-
-
-cli.add_command(presets)
-cli.add_command(show)
-cli.add_command(run)
-cli.add_command(explain)
-cli.add_command(polarization)
-cli.add_command(bench)
-cli.add_command(cache)
-cli.add_command(chart)
-cli.add_command(accuracy)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -23,12 +23,38 @@ def say(text: str) -> None:
 
 
 def cell(text: str, style: str = "") -> Text:
-    """Return a text for tables and paragraphs, without markup and control characters."""
+    """Return a text for tables and paragraphs, without markup and control characters.
+
+    Parameters
+    ----------
+    text : str
+        What anybody may have written.
+    style : str, optional
+        As rich writes it, such as ``"bold"``.
+
+    Returns
+    -------
+    rich.text.Text
+        What rich prints as it is.
+    """
     return Text(printable(text), style=style)
 
 
 def headed(*headers: str, **keywords: Any) -> Table:
-    """Return a table whose columns have these headers."""
+    """Return a table whose columns have these headers.
+
+    Parameters
+    ----------
+    *headers : str
+        What anybody may have written.
+    **keywords : Any
+        As rich's `Table` takes them.
+
+    Returns
+    -------
+    rich.table.Table
+        Without rows.
+    """
     made = Table(header_style="bold", **keywords)
     for header in headers:
         made.add_column(cell(header))
@@ -44,7 +70,13 @@ class PlainConsole(Console):
         super().__init__(width=width, height=25, highlight=False, **keywords)
 
     def print(self, *objects: Any, **keywords: Any) -> None:
-        """Print; what is too long for a line goes on in the next."""
+        """Print; what is too long for a line goes on in the next.
+
+        Parameters
+        ----------
+        *objects, **keywords : Any
+            As rich's `Console` takes them.
+        """
         for shown in (thing for thing in objects if isinstance(thing, Table)):
             for column in shown.columns:
                 column.overflow = "fold"

@@ -3,30 +3,22 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from optipath.cli.console import say
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer import Composer
-from optipath.paths.presets.loader import load_preset
+
+if TYPE_CHECKING:
+    from optipath.cli.preset_command import Chosen
 
 
-def _explain(
-    preset: str,
-    case: str | None,
-    values: dict[str, Any],
-    *,
-    reads: str | None,
-    as_json: bool,
-    **options: Any,
-) -> None:
-    path = load_preset(preset, case=case, **values)
-    path = path if reads is None else path.reading(reads)
-    found = Composer(**options).compose(path).explanation()
+def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
+    found = Composer(**options).compose(chosen.path(reads)).explanation()
     if as_json:
-        click.echo(json.dumps({"preset": preset, **found.as_dict()}, allow_nan=False))
+        click.echo(json.dumps({"preset": chosen.preset, **found.as_dict()}, allow_nan=False))
     else:
         say(str(found))
 

@@ -17,7 +17,19 @@ def plain(
 ) -> Any:
     """Return a value as JSON can hold it, in a unit; what is not finite is None.
 
-    Complex numbers are told by their two parts, which may be called by names of their own.
+    Parameters
+    ----------
+    value : Any
+        A number, an array, a word or None.
+    unit : str, optional
+        The unit of numbers.
+    complex_parts : tuple of str, optional
+        What the two parts of complex numbers are called.
+
+    Returns
+    -------
+    Any
+        A number, a list of them, a dict of two parts, or what was no number.
 
     Examples
     --------

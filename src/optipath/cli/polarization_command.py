@@ -13,13 +13,13 @@ from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.errors import listed
 from optipath.paths.polarization_matters import polarization as found_for
-from optipath.paths.presets.loader import load_preset
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rich.table import Table
 
+    from optipath.cli.preset_command import Chosen
     from optipath.paths.polarization_matters import Polarization
 
 _PATHS = 5
@@ -28,8 +28,8 @@ _SMALL = 1e-12
 """Which share of the intensity is no more than rounding."""
 
 
-def _polarization(preset: str, case: str | None, values: dict[str, Any], *, as_json: bool) -> None:
-    path = load_preset(preset, case=case, **values)
+def _polarization(chosen: Chosen, *, as_json: bool) -> None:
+    path, preset = chosen.path(), chosen.preset
     ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
     found = {name: found_for(path, name) for name in ends}
     if as_json:

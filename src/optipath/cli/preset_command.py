@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -9,11 +10,11 @@ import click
 from optipath.composer import CHOICES
 from optipath.errors import OptipathError, ParameterError, PresetError, printable
 from optipath.kernels import METHODS
-from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.paths.presets.loader import load_preset, preset_names, with_values
 from optipath.values.domains import READINGS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
     from optipath.values.parameters import Parameter
@@ -45,15 +46,51 @@ READS = click.Option(
 JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
 
 
+@dataclass(frozen=True)
+class Chosen:
+    """What a command line is about.
+
+    Attributes
+    ----------
+    preset : str
+        The name of a preset, or a file.
+    opened : PathGraph
+        The path that it describes, which is read once.
+    case : str, optional
+        A named set of its values.
+    values : mapping of str to Any
+        Values that take precedence over the case.
+    """
+
+    preset: str
+    opened: PathGraph
+    case: str | None
+    values: Mapping[str, Any]
+
+    @property
+    def title(self) -> str:
+        """The preset and the case."""
+        return self.preset + (f", case {self.case}" if self.case else "")
+
+    def path(self, reads: str | None = None) -> PathGraph:
+        """Return the path, bound to what is given, and with other readings if they are."""
+        bound = with_values(self.opened, self.preset, self.case, self.values)
+        return bound if reads is None else bound.reading(reads)
+
+
 class PresetGroup(click.Group):
     """A group whose subcommands are the presets, and files of the user's own.
 
     Parameters
     ----------
+    name : str
+        Its name.
     action : callable
-        ``action(preset, case, values, **options)``.
+        ``action(chosen, **options)``.
     options : sequence of click.Option, optional
         What can be given besides the parameters and the case.
+    **keywords : Any
+        As `click.Group` takes them.
     """
 
     def __init__(
@@ -69,7 +106,18 @@ class PresetGroup(click.Group):
         self.options = tuple(options)
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Refuse a command without a preset."""
+        """Refuse a command without a preset.
+
+        Parameters
+        ----------
+        ctx, args
+            As `click.Group` takes them.
+
+        Returns
+        -------
+        list of str
+            What is left of the arguments.
+        """
         if not args and not ctx.resilient_parsing and not self.invoke_without_command:
             names = ", ".join(preset_names())
             raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
@@ -81,70 +129,89 @@ class PresetGroup(click.Group):
         return preset_names()
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command:
-        """Return the command of a preset, with its parameters as options."""
+        """Return the command of a preset, with its parameters as options.
+
+        Parameters
+        ----------
+        ctx : click.Context
+            Of the group.
+        cmd_name : str
+            The preset.
+
+        Returns
+        -------
+        click.Command
+            What calls the action.
+        """
         del ctx
         path = load_preset(cmd_name)
-        taken = sorted(set(path.parameters) & self._reserved())
-        if taken:
+        parameters = path.parameters
+        names = {option.name or "" for option in self.options}
+        flags = {flag.lstrip("-") for option in self.options for flag in option.opts}
+        if taken := sorted(parameters.keys() & {*names, *flags, "case", "help", "h"}):
             raise PresetError(
                 f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
                 f"command line; rename it in the file"
             )
 
-        names = {option.name for option in self.options}
-
         def callback(*, case: str | None, **given: Any) -> None:
-            texts = {name: text for name, text in given.items() if name not in names}
-            chosen = {name: value for name, value in given.items() if name in names}
-            self.action(cmd_name, case, _parsed(path, cmd_name, case, texts), **chosen)
+            options = {name: given.pop(name) for name in names}
+            self.action(_chosen(cmd_name, path, case, given, parameters), **options)
 
-        options: list[click.Parameter] = [
-            _option(parameter) for parameter in path.parameters.values() if not parameter.bound
-        ]
         cases = printable(", ".join(path.cases)) or "none in this preset"
-        help_ = f"Named set of values: {cases}."
-        options += [click.Option(["--case"], metavar="NAME", help=help_), *self.options]
+        case = click.Option(["--case"], metavar="NAME", help=f"Named set of values: {cases}.")
+        options = [_option(parameter) for parameter in parameters.values() if not parameter.bound]
         return click.Command(
             cmd_name,
             callback=callback,
-            params=options,
+            params=[*options, case, *self.options],
             help=printable(path.description),
         )
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the command of a preset, by a name that help may print."""
+        """Return the command of a preset, by a name that help may print.
+
+        Parameters
+        ----------
+        ctx, args
+            As `click.Group` takes them.
+
+        Returns
+        -------
+        tuple
+            The name, the command, and the arguments behind it.
+        """
         name, command, rest = super().resolve_command(ctx, args)
         return printable(name or ""), command, rest
 
-    def _reserved(self) -> set[str]:
-        flags = {flag.lstrip("-") for option in self.options for flag in option.opts}
-        names = {option.name or "" for option in self.options}
-        return flags | names | {"case", "help", "h"}
 
-
-def _parsed(
-    path: PathGraph, preset: str, case: str | None, texts: dict[str, str | None]
-) -> dict[str, Any]:
-    """Return the values that the options give; all that is wrong with them at once."""
+def _chosen(
+    preset: str,
+    path: PathGraph,
+    case: str | None,
+    texts: Mapping[str, str | None],
+    parameters: Mapping[str, Parameter],
+) -> Chosen:
+    """Return what the options give; all that is wrong with them at once."""
     values: dict[str, Any] = {}
     faults: list[str] = []
     for name, text in texts.items():
         if text is None:
             continue
-        parameter = path.parameters[name]
         try:
-            values[name] = parameter.parse(text, parameter.unit)
+            values[name] = parameters[name].parse(text, parameters[name].unit)
         except OptipathError as error:
             faults += error.faults
+    chosen = Chosen(preset, path, case, values)
     if faults:
         try:
-            load_preset(preset, case=case, **values)
+            chosen.path()
         except OptipathError as error:
             faults += error.faults
         raise ParameterError(*faults)
-    return values
+    return chosen
 
 
 def _option(parameter: Parameter) -> click.Option:

@@ -17,14 +17,17 @@ from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer import Composer
 from optipath.paths.format import complex_parts_of
-from optipath.paths.presets.loader import load_preset
+from optipath.values.cases import Case
 from optipath.values.domains import AMPLITUDE
 
 if TYPE_CHECKING:
+    from optipath.cli.preset_command import Chosen
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
 
+_FLOAT = "float"
+"""What runs one path: plain numbers of Python."""
 
 _ROWS = 20
 
@@ -40,19 +43,36 @@ _TOLD = {
 
 @dataclass(frozen=True)
 class Result:
-    """What a run has found, and what it was given."""
+    """What a run was given, and what it has found.
 
-    preset: str
-    case: str | None
+    Attributes
+    ----------
+    chosen : Chosen
+        The preset, and what is given for it.
+    path : PathGraph
+        What was run.
+    plan : Plan
+        By which it was run.
+    lights : dict of str to Light
+        The light at every end.
+    """
+
+    chosen: Chosen
     path: PathGraph
     plan: Plan
     lights: dict[str, Light]
-    is_published_case: bool
+
+    @cached_property
+    def case(self) -> Case:
+        """The case, or an empty one."""
+        name = self.chosen.case
+        return Case({}) if name is None else self.path.cases[name]
 
     @property
-    def note(self) -> str:
-        """What a reader should know about the case."""
-        return self.path.cases[self.case].note if self.case else ""
+    def engine(self) -> str:
+        """What ran: plain floats for one path, and an engine for a batch."""
+        batch = np.broadcast_shapes(*(light.intensity.shape for light in self.lights.values()))
+        return self.plan.engine_for(math.prod(batch)) if batch else _FLOAT
 
     @property
     def model(self) -> str:
@@ -81,24 +101,13 @@ class Result:
 
     def published(self, detector: str) -> tuple[float, ...] | None:
         """Return the published Stokes vector, if these are the values it belongs to."""
-        if self.case is None or not self.is_published_case:
-            return None
-        return self.path.cases[self.case].published.get(detector)
+        return None if self.chosen.values else self.case.published.get(detector)
 
 
-def _run(
-    preset: str,
-    case: str | None,
-    values: dict[str, Any],
-    *,
-    reads: str | None,
-    as_json: bool,
-    **options: Any,
-) -> None:
-    path = load_preset(preset, case=case, **values)
-    path = path if reads is None else path.reading(reads)
+def _run(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
+    path = chosen.path(reads)
     plan = Composer(**options).compose(path)
-    result = Result(preset, case, path, plan, plan.run_all(), is_published_case=not values)
+    result = Result(chosen, path, plan, plan.run_all())
     if as_json:
         click.echo(json.dumps(_as_json(result)))
     else:
@@ -112,7 +121,7 @@ def _as_json(result: Result) -> dict[str, Any]:
     plan, parameters = result.plan, result.path.parameters
     parts = complex_parts_of(result.path.graph)
     found: dict[str, Any] = {
-        "preset": result.preset,
+        "preset": result.chosen.preset,
         "parameters": {
             name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
             for name, p in parameters.items()
@@ -120,14 +129,14 @@ def _as_json(result: Result) -> dict[str, Any]:
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": result.model,
         "method": plan.method,
-        "engine": plan.engine,
+        "engine": result.engine,
     }
     if plan.instead is not None:
         found["tolerance"] = result.tolerance()
-    if result.case:
-        found["case"] = result.case
-    if result.note:
-        found["note"] = result.note
+    if result.chosen.case:
+        found["case"] = result.chosen.case
+    if result.case.note:
+        found["note"] = result.case.note
     for section, readings in (
         ("detectors", plan.program.detectors),
         ("dumps", plan.program.dumps),
@@ -154,15 +163,14 @@ def _polarization(light: Light) -> dict[str, Any]:
 
 def _print(result: Result) -> None:
     console = PlainConsole()
-    title = result.preset + (f", case {result.case}" if result.case else "")
-    console.print(cell(title, style="bold"), cell(result.path.description))
+    console.print(cell(result.chosen.title, style="bold"), cell(result.path.description))
     console.print(_parameter_table(result))
     for name in result.lights:
         console.print(_light_table(result, name))
-    if result.note:
-        console.print(cell(f"note: {result.note}"))
-    plan = result.plan
-    console.print(cell(f"method {plan.method}, model {result.model}, engine {plan.engine}"))
+    if result.case.note:
+        console.print(cell(f"note: {result.case.note}"))
+    ran = f"method {result.plan.method}, model {result.model}, engine {result.engine}"
+    console.print(cell(ran))
 
 
 def _parameter_table(result: Result) -> Table:

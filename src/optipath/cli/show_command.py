@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 from rich.cells import cell_len
-from rich.table import Table
 
-from optipath.cli.console import PlainConsole, cell
+from optipath.cli.console import PlainConsole, cell, headed
 from optipath.cli.text_files import NewFile, write
 from optipath.errors import printable
 from optipath.paths.drawing import draw
@@ -21,22 +20,26 @@ if TYPE_CHECKING:
 
     from optipath.paths.path_graph import PathGraph
     from optipath.values.parameters import Parameter
-
+CASE = click.Option(["--case"], metavar="NAME", help="Named set of values.")
+SVG = click.Option(["--svg"], type=NewFile(), help="Draw into this file as well.")
 
 # What rich would load from the net: a typeface, in place of which one that is there will do.
 _FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
 
 
-@click.command()
-@click.argument("preset")
-@click.option("--case", metavar="NAME", help="Named set of values.")
-@click.option("--svg", type=NewFile(), help="Draw into this file as well.")
-def show(preset: str, case: str | None, svg: Path | None) -> None:
-    """Show the parameters, elements and links of a preset, or of a TOML file."""
+def _show(preset: str, case: str | None, svg: Path | None) -> None:
     path = load_preset(preset, case=case)
     if svg is not None:
         write(svg, _picture(path, f"optipath show {preset}").encode())
     _print(PlainConsole(), path)
+
+
+show = click.Command(
+    "show",
+    callback=_show,
+    params=[click.Argument(["preset"]), CASE, SVG],
+    help="Show the parameters, elements and links of a preset, or of a TOML file.",
+)
 
 
 def _picture(path: PathGraph, title: str) -> str:
@@ -52,7 +55,7 @@ def _picture(path: PathGraph, title: str) -> str:
 def _print(console: PlainConsole, path: PathGraph) -> None:
     console.print(cell(path.description, style="bold"), end="\n\n")
     if path.parameters:
-        table = Table("parameter", "default", "range", "what it is", box=None, header_style="bold")
+        table = headed("parameter", "default", "range", "what it is", box=None)
         for parameter in path.parameters.values():
             table.add_row(*map(cell, _row(parameter)))
         console.print(table)

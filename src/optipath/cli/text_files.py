@@ -22,7 +22,18 @@ class NewFile(click.Path):
         super().__init__(dir_okay=False, path_type=Path)
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        """Return the path; refuse an empty one, which would be the folder one stands in."""
+        """Return the path; refuse an empty one, which would be the folder one stands in.
+
+        Parameters
+        ----------
+        value, param, ctx
+            As `click.Path` takes them.
+
+        Returns
+        -------
+        Path
+            What may be written.
+        """
         if not str(value) or "\0" in str(value):
             self.fail(f"{shown(str(value))} is no name of a file.", param, ctx)
         return super().convert(value, param, ctx)
@@ -46,6 +57,13 @@ def read_text(file: Path) -> str:
 
 def write(file: Path, content: bytes) -> None:
     """Write a file, whole or not at all.
+
+    Parameters
+    ----------
+    file : Path
+        Where.
+    content : bytes
+        What.
 
     Raises
     ------

@@ -102,10 +102,13 @@ class Use:
                 f"parameter '{name}' is in {unit}, but {self.owner} takes "
                 f"{self.domain.described()}; change its unit or where it is used"
             )
-        if self.value.default is not None:
-            self.check_given(self.value.resolve(self.value.default).value)
+        default = self.value.default
+        if default is not None:
+            # Whether a number is in the range was asked when the parameter was made.
+            number = type(default) is float
+            self.check_given(default if number else self.value.resolve(default).value)
 
-    def check_given(self, numbers: np.ndarray[Any, Any]) -> None:
+    def check_given(self, numbers: float | np.ndarray[Any, Any]) -> None:
         """Check numbers given for the parameter that stands here.
 
         Raises

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+import math
+from copy import copy
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -92,7 +94,7 @@ class Parameter:
             )
         dimension_of(self.unit)
         self._check_types()
-        low, high = (self._limit(limit) for limit in (self.minimum, self.maximum))
+        low, high = self._limit(self.minimum), self._limit(self.maximum)
         if not low <= high:
             raise ParameterError(
                 f"parameter '{self.name}' has the range {low} .. {high}; begin with the lower end"
@@ -128,6 +130,8 @@ class Parameter:
                 )
 
     def _limit(self, value: Any) -> float:
+        if type(value) is float:
+            return value
         array = array_of(f"the range of parameter '{self.name}'", value, ParameterError)
         if array.ndim or array.dtype.kind not in "iuf":
             raise ParameterError(
@@ -160,12 +164,24 @@ class Parameter:
         return np.array(read, object).reshape(array.shape).tolist()
 
     def __neg__(self) -> Parameter:
-        return replace(self, negative=not self.negative)
+        return self._with("negative", not self.negative)
+
+    def in_unit(self, unit: str) -> Parameter:
+        """Return a parameter without a unit in one, and any other as it is."""
+        return self if self.unit else self._with("unit", unit)
+
+    def _with(self, name: str, value: Any) -> Parameter:
+        """Return a copy with another value that is sound, whose others need no second check."""
+        changed = copy(self)
+        object.__setattr__(changed, name, value)
+        return changed
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same, its sign aside."""
-        names = (f.name for f in fields(self) if f.name != "negative")
-        return all(same(getattr(self, name), getattr(other, name)) for name in names)
+        if self is other:
+            return True
+        mine, others = vars(self), vars(other)
+        return all(same(mine[name], others[name]) for name in mine if name != "negative")
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
@@ -196,6 +212,8 @@ class Parameter:
         ParameterError
             If it is no number or word, not finite, or outside the range.
         """
+        if type(raw) is float and self.minimum <= raw <= self.maximum and math.isfinite(raw):
+            return Resolved(np.array(raw), np.ones((), dtype=bool))
         if isinstance(raw, CosSin):
             raw = self._angle(raw)
         limits = limits or (self.minimum, self.maximum)

@@ -186,20 +186,19 @@ def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngle
 
 
 def _number(raw: Any, unit: str) -> Any:
-    dimension = dimension_of(unit)
     if isinstance(raw, list) and not raw:
         raise UnitError("an empty list is no value; give at least one number")
     if isinstance(raw, list):
         return [_number(entry, unit) for entry in raw]
     if isinstance(raw, str):
-        return parse_quantity(raw, dimension)
+        return parse_quantity(raw, dimension_of(unit))
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
         raise UnitError(f"{shown(raw)} is not a number")
     try:
         number = float(raw)
     except OverflowError:
         raise UnitError(f"{shown(raw)} is too large a number") from None
-    if dimension and np.isfinite(number):
-        asked = with_article(dimension)
+    if unit and np.isfinite(number):
+        asked = with_article(dimension_of(unit))
         raise UnitError(f"{shown(raw)} has no unit, but {asked} is asked for; write '{raw} {unit}'")
     return number

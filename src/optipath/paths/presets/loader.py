@@ -17,6 +17,7 @@ from optipath.errors import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
     from os import PathLike
 
     from optipath.paths.path_graph import PathGraph
@@ -51,6 +52,11 @@ def load_preset(
         Parameters that are bound to these values, in radians and metres; they take
         precedence over the case. The others stay open, with their defaults.
 
+    Returns
+    -------
+    PathGraph
+        Elements, links and cases, as the file has them.
+
     Raises
     ------
     PresetError
@@ -65,7 +71,38 @@ def load_preset(
     >>> load_preset("npgr026", case="8").trace().stokes.round(4)
     array([ 19.1245,  10.9873, -13.0076,  -8.7079])
     """
-    path = read_preset(locate(preset))
+    return with_values(read_preset(locate(preset)), preset, case, values)
+
+
+def with_values(
+    path: PathGraph,
+    preset: str | PathLike[str],
+    case: str | int | None,
+    values: Mapping[str, Any],
+) -> PathGraph:
+    """Return the path of a preset, bound to the values of a case and to others.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What the preset describes.
+    preset : str or path
+        Its name, for what is said of it.
+    case : str or int, optional
+        A named set of its values.
+    values : mapping of str to float, str or array_like
+        Values that take precedence over the case.
+
+    Returns
+    -------
+    PathGraph
+        The same path where nothing is given.
+
+    Raises
+    ------
+    PresetError, ParameterError
+        As `load_preset` does.
+    """
     given = dict(values)
     faults: list[str] = []
     name = case if isinstance(case, str) else _number_of(case)

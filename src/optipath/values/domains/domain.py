@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -139,6 +139,8 @@ class Domain:
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
+        if isinstance(value, Parameter):
+            return value
         return read_only(value, (self.minimum, self.maximum))
 
     @property
@@ -209,6 +211,4 @@ def in_unit_of(value: Any, domain: Domain) -> Any:
     >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
     'deg'
     """
-    if isinstance(value, Parameter) and not value.unit:
-        return replace(value, unit=domain.unit)
-    return value
+    return value.in_unit(domain.unit) if isinstance(value, Parameter) else value
