@@ -14,7 +14,7 @@ from optipath.light.light import Light
 from optipath.light.mueller import cloude
 from optipath.light.mueller.figures import MatrixFigures
 from optipath.light.mueller.polar_decomposition import polar_parts
-from optipath.light.mueller.turns import turn_of
+from optipath.light.mueller.sphere_rotations import turn_of
 from optipath.light.underflow import folded, normalise_exponent
 from optipath.values.arrays.jax_values import is_traced, known
 from optipath.values.arrays.read_only import same

@@ -20,7 +20,7 @@ import numpy as np
 
 from optipath.light.mueller.normalised import rounding_of, scaled, unscaled
 from optipath.light.mueller.pure import jones_parts
-from optipath.light.mueller.turns import least_turn, outer, size_and_direction
+from optipath.light.mueller.sphere_rotations import least_turn, outer, size_and_direction
 from optipath.light.underflow import times_two_to
 
 if TYPE_CHECKING:

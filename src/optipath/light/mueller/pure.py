@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.light.mueller.cloude import gathered
-from optipath.light.mueller.turns import rotation
+from optipath.light.mueller.sphere_rotations import rotation
 
 if TYPE_CHECKING:
     import numpy.typing as npt
