@@ -37,7 +37,7 @@ def compiled(formula: Formula) -> ArrayPath:
 
     Where the user has forbidden Numba to compile (``NUMBA_DISABLE_JIT``), it is NumPy's.
     """
-    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+    if _is_forbidden():
         CODE.tell("NUMBA_DISABLE_JIT is set, so that NumPy runs what Numba would compile")
         return numpy_engine.compiled(formula)
     function = CODE.function(source(formula), compiled_text)
@@ -55,6 +55,15 @@ def compiled(formula: Formula) -> ArrayPath:
         return function(*rows, *columns, *places, first, last, out.shape[1], at) != 0
 
     return path
+
+
+def is_kept(formula: Formula) -> bool:
+    """Tell whether the code of a formula is on disk, compiled before."""
+    return not _is_forbidden() and CODE.load(source(formula)) is not None
+
+
+def _is_forbidden() -> bool:
+    return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 
 def source(formula: Formula) -> str:
