@@ -327,10 +327,13 @@ def test_engines_and_threads_that_cannot_be_are_refused(options, message):
 
 def test_what_runs_a_batch_can_be_asked():
     plan = op.load_preset("npgr026").compose()
-    assert plan.engine_for(1) == "numpy, step by step"
-    assert plan.engine_for(5000) == "numpy"
-    assert plan.engine_for(100_000) == plan.engine == "numba"
-    assert "from 65,536 by numba" in plan.explain()
+    assert plan.engine_for(1) == plan.engine_for(10) == "floats"
+    assert plan.engine_for(100) == plan.engine_for(100_000) == "numpy"
+    assert plan.engine_for(10**8) == plan.engine == "numba"
+    assert "all by numba where it has compiled the path before" in plan.explain()
+    stepped = op.Composer(engine="numpy").compose(op.load_preset("npgr026"))
+    assert stepped.engine_for(10) == "numpy, step by step"
+    assert stepped.engine_for(5000) == "numpy"
     turning = [op.Polarizer(op.Parameter("a")), op.Retarder(op.Parameter("b"), 0.3)]
     long = chain(turning * 110, [1.0, 0, 0, 0])
     assert op.Composer(engine="numba").compose(long).engine == "numpy"
@@ -341,7 +344,7 @@ def test_a_formula_that_would_be_compiled_for_a_minute_is_run_by_numpy():
     angles = [op.Parameter(f"a{i}") for i in range(20)]
     path = chain([op.Interface(0.2 + 3j, angle, azimuth=0.3) for angle in angles], [1.0, 0, 0, 0])
     plan = path.compose()
-    assert plan.engine_for(100_000) == plan.engine == "numpy"
+    assert plan.engine_for(10**8) == plan.engine == "numpy"
     assert "take Numba too long to compile" in plan.explain()
     given = {f"a{i}": np.linspace(0.1, 1.0, 70_000) for i in range(20)}
     few = {name: values[:5] for name, values in given.items()}

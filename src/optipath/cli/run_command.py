@@ -94,10 +94,7 @@ class Result:
 
     @cached_property
     def _errors(self) -> Any:
-        instead = self.plan.instead
-        assert instead is not None  # noqa: S101 - asked for by who knows
-        whole = self.plan.whole_path
-        return whole.errors(instead.model, whole.given({}), {})[1]
+        return self.plan.errors({})
 
     def published(self, detector: str) -> tuple[float, ...] | None:
         """Return the published Stokes vector, if these are the values it belongs to."""

@@ -2,28 +2,32 @@
 
 from optipath.engines.array_path import ArrayPath
 from optipath.engines.automatic import (
-    COMPILED,
     ENGINES,
+    FLOATS,
     LARGE,
     NUMPY_STEPS,
+    EngineChoice,
     batches,
     compile_array_path,
     engine_for,
     is_installed,
+    is_kept,
     jax_path,
     missing,
 )
 
 __all__ = [
-    "COMPILED",
     "ENGINES",
+    "FLOATS",
     "LARGE",
     "NUMPY_STEPS",
     "ArrayPath",
+    "EngineChoice",
     "batches",
     "compile_array_path",
     "engine_for",
     "is_installed",
+    "is_kept",
     "jax_path",
     "missing",
 ]

@@ -6,15 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.plan.running.found import Found
 from optipath.plan.running.pieces import pieces
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.plan.execution import Execution
+    from optipath.plan.running.questions import Question
     from optipath.plan.running.reading import ResolvedInputs
-    from optipath.plan.whole_path import WholePath
+    from optipath.plan.running.runner import Runner
 
     Array = np.ndarray[Any, Any]
 
@@ -25,73 +24,103 @@ _MOST = 0.5
 class Approximation:
     """Runs a model that is not exact, path by path, as far as a tolerance allows.
 
+    Two questions in turn: how large the errors are, and what the light is.
+
     Parameters
     ----------
-    whole : WholePath
-        Computes the bounds.
-    exact : Execution
+    whole : Runner
+        Runs the path as it stands.
+    errors : Question
+        Asks it for the errors of the cheaper model.
+    exact : Runner
         Runs the exact model.
-    cheap : Execution or None
-        Runs the cheaper model; None for the scalar one, which comes with the bounds.
-    model : str
-        The name of the cheaper model.
+    cheap : Runner or None
+        Runs the cheaper model; None for the scalar one, which comes with the errors.
     tolerance : float
-        How large its error may be, as a share of the intensity.
+        How large an error may be, as a share of the intensity.
     """
 
     def __init__(
         self,
-        whole: WholePath,
-        exact: Execution,
-        cheap: Execution | None,
-        model: str,
+        whole: Runner,
+        errors: Question,
+        exact: Runner,
+        cheap: Runner | None,
         tolerance: float,
     ) -> None:
         self.whole = whole
+        self.errors = errors
         self.exact = exact
         self.cheap = cheap
-        self.model = model
         self.tolerance = tolerance
 
-    def lights(self, parameters: Mapping[str, Any]) -> dict[str, Found]:
-        """Return the light at every detector."""
+    def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        """Return the light at every end."""
         if self.exact.is_for_jax(parameters):
-            return self.exact.lights(parameters)
-        return self._of(self.whole.given(parameters), parameters)
+            return self.exact.answer(question, parameters)
+        return self._of(question, self.whole.read_for_bounds(parameters), parameters)
 
     def stream(
-        self, size: int, parameters: Mapping[str, Any]
-    ) -> Iterator[tuple[Any, dict[str, Found]]]:
+        self, question: Question, size: int, parameters: Mapping[str, Any]
+    ) -> Iterator[tuple[Any, Any]]:
         """Yield the index of a part of the batch, and the light at every end for it."""
         if self.exact.is_for_jax(parameters):
-            yield from self.exact.stream(size, parameters)
+            yield from self.exact.stream(question, size, parameters)
             return
-        given = self.whole.given(parameters)
+        given = self.whole.read_for_bounds(parameters)
         for piece in pieces(given.batch, size):
-            yield piece.where, self._of(given.part(piece.where), parameters)
+            part = given.part(piece.where)
+            yield piece.where, self._of(question, part, parameters, given.paths)
 
-    def _of(self, given: ResolvedInputs, parameters: Mapping[str, Any]) -> dict[str, Found]:
-        scalar, error = self.whole.errors(self.model, given, parameters)
+    def errors_for(self, parameters: Mapping[str, Any]) -> Array:
+        """Return the largest error of the cheaper model, as a share of the intensity."""
+        given = self.whole.read_for_bounds(parameters)
+        _, errors = self.whole.answer_for(self.errors, given, parameters)
+        return errors  # type: ignore[no-any-return]
+
+    def _of(
+        self,
+        question: Question,
+        given: ResolvedInputs,
+        parameters: Mapping[str, Any],
+        ahead: int = 0,
+    ) -> dict[str, Any]:
+        def run(runner: Runner, numbers: ResolvedInputs) -> dict[str, Any]:
+            answer = runner.answer_for(question, numbers, parameters, ahead=ahead)
+            return dict(answer)
+
+        scalar, error = self.whole.answer_for(self.errors, given, parameters, ahead=ahead)
         beyond = ~(error <= self.tolerance)
         share = np.count_nonzero(beyond) / max(beyond.size, 1)
         if share == 1.0:
-            return self.exact.lights_of(given, parameters)
+            return run(self.exact, given)
         if self.cheap is None:
-            cheap = {n: Found((total, np.nan, np.nan, np.nan), 0) for n, total in scalar.items()}
+            cheap = {n: ((total, np.nan, np.nan, np.nan), 0) for n, total in scalar.items()}
         else:
-            cheap = self.cheap.lights_of(given, parameters)
+            cheap = run(self.cheap, given)
         if not share:
             return cheap
         if share > _MOST:
-            whole = self.exact.lights_of(given, parameters)
+            whole = run(self.exact, given)
             return {n: _mixed(cheap[n], whole[n], beyond, beyond) for n in cheap}
-        some = self.exact.lights_of(given.part((beyond,)), parameters)
+        some = run(self.exact, given.part((beyond,)))
         return {n: _mixed(cheap[n], some[n], beyond, ...) for n in cheap}
 
 
-def _mixed(cheap: Found, exact: Found, beyond: Array, of_exact: Any) -> Found:
+def _mixed(cheap: Any, exact: Any, beyond: Array, of_exact: Any) -> tuple[Array, Array]:
     """Return one light with that of another in some places."""
-    stokes, exponent = (np.array(part) for part in cheap.whole(beyond.shape))
-    other, power = exact.whole(beyond.shape if of_exact is beyond else (beyond.sum(),))
+    stokes, exponent = (np.array(part) for part in _whole(cheap, beyond.shape))
+    batch = beyond.shape if of_exact is beyond else (int(beyond.sum()),)
+    other, power = _whole(exact, batch)
     stokes[beyond], exponent[beyond] = other[of_exact], power[of_exact]
-    return Found(stokes, exponent)
+    return stokes, exponent
+
+
+def _whole(light: Any, batch: tuple[int, ...]) -> tuple[Array, Array]:
+    """Return the Stokes vectors (..., 4) and the exponents (...) of light as arrays."""
+    stokes, exponent = light
+    if isinstance(stokes, tuple):
+        kind = np.result_type(stokes[0])
+        parts = [np.broadcast_to(np.asarray(part, kind), batch) for part in stokes]
+        stokes = np.stack(parts, axis=-1)
+    return stokes, np.broadcast_to(exponent, batch)

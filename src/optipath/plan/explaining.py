@@ -11,6 +11,7 @@ from optipath.errors import ParameterError
 from optipath.kernels import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.plan.running.counts import operations
+from optipath.plan.running.runner import LONGEST
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -54,8 +55,8 @@ def explanation_of(plan: Any) -> Explanation:
 
 
 def _operations(plan: Any) -> dict[str, dict[str, int]] | None:
-    own = operations(plan.execution, unreduced=plan.reduction.unreduced)
-    full = operations(plan.whole_path, unreduced=True, carrier=StokesCarrier)
+    own = operations(plan.light_runner, unreduced=plan.reduction.unreduced)
+    full = operations(plan.whole_runner, unreduced=True, carrier=StokesCarrier)
     return None if own is None or full is None else {"plan": own, "full": full}
 
 
@@ -88,11 +89,10 @@ def _certified(plan: Any) -> dict[str, Any] | None:
         return {"text": f"depends on {_first_few(missing)}; see plan.certificate(...)"}
     if plan.whole.loops:
         return {"text": "none, since light goes round"}
-    whole = plan.whole_path
-    if whole.has_traced:
+    if plan.whole_runner.has_traced:
         return {"text": "depends on values that JAX traces"}
     try:
-        found = whole.certificates(whole.given({}), {})
+        found = plan.certificates({})
     except ParameterError as fault:
         return {"text": f"none, since {fault}"}
     bounds = {name: _extremes(one) for name, one in found.items()}
@@ -121,18 +121,19 @@ def _extremes(certificate: Certificate) -> dict[str, float] | None:
 
 def _notes(plan: Any) -> Iterator[str]:
     yield from _each(plan.outlets, "has no link: its light leaves the path")
+    runner, engine = plan.light_runner, plan.chosen
     if plan.engine_for(LARGE) != plan.engine:
         yield (
-            f"all batches are run step by step: paths of at most {plan.execution.longest} "
+            f"all batches are run step by step: paths of at most {LONGEST} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
         )
-    elif plan.execution.is_too_long and plan.chosen != "jax":
+    elif engine in ("auto", "numba") and (runner.operations or 0) > runner.most_operations:
         yield (
             f"large batches are run by numpy: formulas of more than "
-            f"{plan.execution.most_operations:,} operations take Numba too long to compile"
+            f"{runner.most_operations:,} operations take Numba too long to compile"
         )
-    elif plan.chosen != "jax":
-        yield batches(plan.chosen)
+    elif engine != "jax":
+        yield batches(engine, runner.operations)
     yield from _each(plan.copied, "feeds several links: each takes all its light")
 
 

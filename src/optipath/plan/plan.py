@@ -20,16 +20,13 @@ if TYPE_CHECKING:
     from optipath.engines.program.reduction import Reduction, Tolerance
     from optipath.plan.approximation import Approximation
     from optipath.plan.certificate import Certificate
-    from optipath.plan.execution import Execution
     from optipath.plan.explanation import Explanation
     from optipath.plan.light_paths import LightPath
-    from optipath.plan.running.found import Found
-    from optipath.plan.running.runner import RunOptions
-    from optipath.plan.whole_path import WholePath
+    from optipath.plan.running.runner import Runner, RunOptions
     from optipath.values.inputs import Inputs
 
 
-_MADE = ("_approximation", "_detector", "execution", "whole_path")
+_MADE = ("_approximation", "_detector", "_light", "light_runner", "whole_runner")
 
 
 class Part(NamedTuple):
@@ -111,7 +108,7 @@ class Plan:
         """
         if faults := whole_number("the number of paths", count, 0):
             raise ParameterError(*faults)
-        return self.execution.engine_for(count)
+        return self.light_runner.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
         """Return the light at the only detector.
@@ -136,14 +133,14 @@ class Plan:
         name, place, frame = self._detector
         if self.instead is not None:
             return self.run_all(**parameters)[name]
-        execution = self.execution
-        fast_path = execution.single.fast_path(parameters)
+        runner = self.light_runner
+        fast_path = runner.single.fast_path(parameters)
         if type(frame) is not Frame:
             frame = self._made(frame, parameters)
         if fast_path is not None:
             return Light.of(fast_path[place][:4], frame, fast_path[place][4])
-        light = execution.lights(parameters)[name]
-        return Light.of(light.stokes, frame, light.exponent)
+        stokes, exponent = runner.answer(self._light, parameters)[name]
+        return Light.of(stokes, frame, exponent)
 
     def run_all(self, /, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.
@@ -156,7 +153,7 @@ class Plan:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        return self._in_frames(self._runner.lights(parameters), parameters)
+        return self._in_frames(self._runner.answer(self._light, parameters), parameters)
 
     def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
         """Yield the light of a batch part by part, in memory that the parts need.
@@ -189,16 +186,17 @@ class Plan:
         name, _, _ = self._detector
         if faults := whole_number("the size of a part", size):
             raise ParameterError(*faults)
-        for where, lights in self._runner.stream(size, parameters):
+        for where, lights in self._runner.stream(self._light, size, parameters):
             yield Part(where, self._in_frames(lights, parameters, where)[name])
 
     def _in_frames(
-        self, lights: Mapping[str, Found], parameters: Mapping[str, Any], where: Any = ()
+        self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()
     ) -> dict[str, Light]:
         found = {}
         for name, reading in self.program.readings.items():
             frame = self._made(reading.frame, parameters, where)
-            found[name] = Light.of(lights[name].stokes, frame, lights[name].exponent)
+            stokes, exponent = lights[name]
+            found[name] = Light.of(stokes, frame, exponent)
         return found
 
     def _made(
@@ -235,7 +233,10 @@ class Plan:
         ends = tuple(program.readings if detector is not None else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
-        matrix = self.whole_path.matrix(begin, reading, parameters)
+        from optipath.plan.running.questions import MatrixQuestion  # noqa: PLC0415 - not for every import
+
+        question = MatrixQuestion(program, begin, reading)
+        matrix = self.whole_runner.answer(question, parameters)
         frames = (self._made(f, parameters) for f in (program.sources[begin][1], reading.frame))
         return Mueller(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
 
@@ -266,8 +267,19 @@ class Plan:
         """
         ends = tuple(self.whole.readings if detector is not None else self.whole.detectors)
         end = self._only("detector", ends, "certificate(detector)", detector)
-        whole = self.whole_path
-        return whole.certificates(whole.given(parameters), parameters)[end]
+        return self.certificates(parameters)[end]
+
+    def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
+        """Return the certificate of every end, for parameters by name; as `certificate`."""
+        from optipath.plan.running.questions import BoundsQuestion  # noqa: PLC0415 - as above
+
+        whole = self.whole_runner
+        given = whole.read_for_bounds(parameters)
+        return dict(whole.answer_for(BoundsQuestion(self.whole), given, parameters))
+
+    def errors(self, parameters: Mapping[str, Any]) -> Any:
+        """Return the largest error of the cheaper model of each path, as its certificates say."""
+        return self._approximation and self._approximation.errors_for(parameters)
 
     def paths(
         self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
@@ -304,7 +316,7 @@ class Plan:
         def framed(frame: Any) -> Any:
             return self._made(frame, parameters)
 
-        return light_paths(self.whole_path, limit, bounces, parameters, framed)
+        return light_paths(self.whole_runner, limit, bounces, parameters, framed)
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.
@@ -349,7 +361,7 @@ class Plan:
         """
         from optipath.plan.running.counts import evaluations  # noqa: PLC0415 - not for every import
 
-        return evaluations(self.execution, parameters)
+        return evaluations(self.light_runner, parameters)
 
     @cached_property
     def _detector(self) -> tuple[str, int, Any]:
@@ -359,9 +371,21 @@ class Plan:
         return name, place, self.program.detectors[name].frame
 
     @cached_property
-    def execution(self) -> Execution:
+    def _light(self) -> Any:
+        """What is asked for light."""
+        from optipath.plan.running.questions import LightQuestion  # noqa: PLC0415 - as below
+
+        return LightQuestion(self.program)
+
+    @cached_property
+    def light_runner(self) -> Runner:
         """What gives light."""
-        return self._executed(self.reduction)
+        return self._run_by(self.program, unreduced=self.reduction.unreduced)
+
+    @cached_property
+    def whole_runner(self) -> Runner:
+        """What gives matrices, and bounds of intensities."""
+        return self._run_by(self.whole)
 
     @cached_property
     def _approximation(self) -> Approximation | None:
@@ -369,27 +393,22 @@ class Plan:
             return None
         # Imported where it is needed, so that the library itself is there quickly.
         from optipath.plan.approximation import Approximation  # noqa: PLC0415
+        from optipath.plan.running.questions import ErrorsQuestion  # noqa: PLC0415
 
         model = self.instead.model
-        cheap = None if model == "scalar" else self._executed(self.reduction.by(model))
-        return Approximation(self.whole_path, self.execution, cheap, model, self.instead.most)
+        cheap = None if model == "scalar" else self._run_by(self.reduction.by(model).program)
+        errors = ErrorsQuestion(self.whole, model)
+        return Approximation(self.whole_runner, errors, self.light_runner, cheap, self.instead.most)
 
     @property
-    def _runner(self) -> Execution | Approximation:
-        return self._approximation or self.execution
+    def _runner(self) -> Runner | Approximation:
+        return self._approximation or self.light_runner
 
-    def _executed(self, reduction: Reduction) -> Execution:
+    def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
         # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.execution import Execution  # noqa: PLC0415
+        from optipath.plan.running.runner import Runner  # noqa: PLC0415
 
-        return Execution(reduction, self.inputs, self._manner)
-
-    @cached_property
-    def whole_path(self) -> WholePath:
-        """What gives matrices, and bounds of intensities."""
-        from optipath.plan.whole_path import WholePath  # noqa: PLC0415 - not for every import
-
-        return WholePath(self.whole, self.inputs, self._manner)
+        return Runner(program, self.inputs, self._manner, unreduced=unreduced)
 
     @property
     def _manner(self) -> RunOptions:

@@ -7,20 +7,21 @@ from functools import cached_property, reduce
 from operator import and_
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
-from optipath.values.parameters import Parameter
+from optipath.values.parameters import Parameter, Resolved
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    import numpy as np
+    from collections.abc import Callable, Mapping
 
     from optipath.values.domains import Domain
-    from optipath.values.parameters import Resolved
+
+_THERE = np.ones((), dtype=bool)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,8 +145,24 @@ class Inputs:
     shapes: Mapping[str, tuple[int, ...]]
     known: tuple[Use, ...] = ()
 
-    def resolve(self, given: Mapping[str, Any]) -> tuple[dict[str, Resolved], tuple[int, ...]]:
+    def resolve(
+        self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
+    ) -> tuple[dict[str, Resolved], tuple[int, ...]]:
         """Return the numbers of every open parameter, and the shape of the batch.
+
+        Parameters
+        ----------
+        given : mapping of str to Any
+            What is given, by name; defaults stand in for the rest.
+        plain : callable, optional
+            Tells of a name and a value whether it is taken as it stands, its range unchecked.
+
+        Returns
+        -------
+        resolved : dict of str to Resolved
+            The numbers by name.
+        batch : tuple of int
+            The shape that they and all known arrays broadcast to.
 
         Raises
         ------
@@ -154,33 +171,47 @@ class Inputs:
         """
         faults = [self._unknown(name) for name in given if name not in self.open]
         resolved: dict[str, Resolved] = {}
+        unchecked = set()
         for name, parameter in self.open.items():
             value = given.get(name, parameter.default)
             if value is None:
                 faults.append(f"parameter '{name}' has no value; give one, {name}=...")
-                continue
-            try:
-                resolved[name] = parameter.resolve(value, self.limits[name])
-            except OptipathError as fault:
-                faults += fault.faults
+            elif plain is not None and plain(name, value):
+                resolved[name] = Resolved(value, _THERE)
+                unchecked.add(name)
+            else:
+                try:
+                    resolved[name] = parameter.resolve(value, self.limits[name])
+                except OptipathError as fault:
+                    faults += fault.faults
         shapes = dict(self.shapes)
-        looked_at = set()
-        for use in self.uses:
+        for use in self.distinct_uses:
             name = use.value.name
-            if name not in resolved or (use.value, use.domain) in looked_at:
+            if name not in resolved:
                 continue
-            looked_at.add((use.value, use.domain))
             numbers = resolved[name].value
             try:
-                use.check_given(numbers)
+                if name not in unchecked:
+                    use.check_given(numbers)
             except OptipathError as fault:
                 faults += fault.faults
             else:
-                shapes[name] = use.batch_shape(numbers)
+                shape = getattr(numbers, "shape", ())
+                shapes[name] = shape[: len(shape) - len(use.domain.tail)]
         faults += broadcast_fault(shapes)
+        if faults and unchecked:
+            return self.resolve(given)  # Tells of ranges, too.
         if faults:
             raise ParameterError(*faults)
         return resolved, joint_shape(*shapes.values())
+
+    @cached_property
+    def distinct_uses(self) -> tuple[Use, ...]:
+        """The uses that ask different things of a parameter."""
+        found: dict[Any, Use] = {}
+        for use in self.uses:
+            found.setdefault((use.value, use.domain), use)
+        return tuple(found.values())
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths all values that JAX traces are allowed; True where it has none."""

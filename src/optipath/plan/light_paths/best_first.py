@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from optipath.kernels import Carried
-    from optipath.plan.whole_path import WholePath
+    from optipath.plan.running.runner import Runner
 
 _FAINTEST = 1e-200
 """What is not followed any further, as a share of what a source emits."""
@@ -47,12 +47,12 @@ class Search:
     """Goes along all ways at once, always on from where most may come of it."""
 
     def __init__(
-        self, whole: WholePath, parameters: Mapping[str, Any], framed: Callable[[Any], Any]
+        self, whole: Runner, parameters: Mapping[str, Any], framed: Callable[[Any], Any]
     ) -> None:
         self.framed = framed
         self.program = whole.program
         self.carrier = StokesCarrier(NUMPY)
-        given = whole.sorter.sort(parameters)
+        given = whole.reader.read(parameters)
         self.batch = given.batch
         operands = whole.interpreter.operands(given)
         with np.errstate(all="ignore"):

@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from optipath.plan.light_paths.light_path import LightPath
-    from optipath.plan.whole_path import WholePath
+    from optipath.plan.running.runner import Runner
 
 
 def light_paths(
-    whole: WholePath,
+    whole: Runner,
     limit: int | None,
     bounces: int | None,
     parameters: Mapping[str, Any],
@@ -26,7 +26,7 @@ def light_paths(
 
     Parameters
     ----------
-    whole : WholePath
+    whole : Runner
         The path as it stands.
     limit : int or None
         How many at most.
@@ -52,9 +52,9 @@ def light_paths(
     whole.refuse_traced(parameters, "light paths are listed")
     _, batch = whole.inputs.resolve(parameters)
     found: list[LightPath] = []
-    with whole.enough_for(batch, 2 * len(whole.program.readings) + 8, twice=True):
+    with whole.enough_for(batch, 4 * len(whole.program.readings) + 16):
         # Refuses light that never fades.
-        whole.interpreter.lights(whole.sorter.sort(parameters))
+        whole.interpreter.lights(whole.reader.read(parameters))
         for path in Search(whole, parameters, framed).paths(bounces):
             if len(found) == limit:
                 break

@@ -62,6 +62,11 @@ class Layout:
         }
 
     @property
+    def paths(self) -> int:
+        """The number of paths."""
+        return prod(self.batch)
+
+    @property
     def all_axes(self) -> frozenset[int]:
         """The axes that are left."""
         return frozenset(range(len(self.shape)))

@@ -4,26 +4,21 @@ from __future__ import annotations
 
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from optipath.engines.formulas import Symbol, stages
-from optipath.plan.running.grid import Grid
+from optipath.plan.running.grid import Grid, Stage
 from optipath.plan.running.pieces import pieces
-from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Mapping
 
-    from optipath.engines import ArrayPath
     from optipath.engines.formulas import Formula
-    from optipath.engines.program.program import Program
     from optipath.plan.running.batch import Layout
     from optipath.plan.running.pieces import Piece
-    from optipath.plan.running.reading import ResolvedInputs
 
     Array = np.ndarray[Any, Any]
 
@@ -48,6 +43,12 @@ class Results(NamedTuple):
     out: Array
     rows: list[int | None]
 
+    @classmethod
+    def of(cls, rows: Array, read: int, dtype: np.dtype[Any]) -> Results:
+        """Return results that stand in rows, so many of them read in the precision of a plan."""
+        out = rows if rows.dtype == dtype else rows[:read].astype(dtype)
+        return cls([*out[:read], *rows[read:]], out, [*range(read), *[None] * (len(rows) - read)])
+
     def together(self, start: int, stop: int) -> Array | None:
         """Return some results as rows of one array, if they stand there one after the other."""
         first = self.rows[start]
@@ -55,10 +56,22 @@ class Results(NamedTuple):
             return None
         return self.out[first : first + stop - start]
 
+    def block(self, start: int, stop: int) -> Array:
+        """Return some results as rows of one array, copied if need be."""
+        together = self.together(start, stop)
+        if together is not None:
+            return together
+        rows = np.empty((stop - start, self.out.shape[1]), self.out.dtype)
+        for row, result in zip(rows, self.each[start:stop], strict=True):
+            row[...] = result
+        return rows
 
-class _Stage(NamedTuple):
-    formula: Formula
-    path: ArrayPath
+    def array(self, place: int) -> Array:
+        """Return one result as an array over paths."""
+        found = self.each[place]
+        if isinstance(found, np.ndarray):
+            return found
+        return np.full(self.out.shape[1], found, self.out.dtype)
 
 
 class BatchRunner:
@@ -68,8 +81,6 @@ class BatchRunner:
     ----------
     formula : Formula
         What is done.
-    compiled : callable
-        Compiles a formula.
     layout : Layout
         The axes of a batch, its own or one like it.
     threads : int
@@ -81,146 +92,139 @@ class BatchRunner:
     """
 
     def __init__(
-        self,
-        formula: Formula,
-        compiled: Callable[[Formula], ArrayPath],
-        layout: Layout,
-        *,
-        threads: int,
-        read: int,
-        staged: bool,
+        self, formula: Formula, layout: Layout, *, threads: int, read: int, staged: bool
     ) -> None:
         self.formula = formula
-        self.compiled = compiled
         self.threads = threads
         self.read = read
-        parts = stages(formula, layout.all_axes, layout.last) if staged else (formula,)
-        self._stages = [_Stage(part, compiled(part)) for part in parts]
-
-    @property
-    def has_exponents(self) -> bool:
-        """Whether light comes with exponents that are not known."""
-        return any(isinstance(result, Symbol) for result in self.formula.results[self.read :])
-
-    @cached_property
-    def _in_one(self) -> _Stage:
-        """The formula in one stage, which tells in which part of a batch it does not hold."""
-        if len(self._stages) == 1:
-            return self._stages[0]
-        whole = replace(self.formula, last=None)
-        return _Stage(whole, self.compiled(whole))
+        self.parts = stages(formula, layout.all_axes, layout.last) if staged else (formula,)
+        self._compiled: dict[Any, _Compiled] = {}
 
     def results(
         self,
-        given: ResolvedInputs,
+        engine: str,
+        numbers: Mapping[str, Any],
         layout: Layout,
-        known: Mapping[str, Array],
         refused: Callable[[], object],
-        fallback: Callable[[ResolvedInputs], Array],
-    ) -> tuple[Results, bool]:
-        """Return the results, an array over paths or a number each, and whether care was needed.
+        fallback: Callable[[Piece], Array],
+    ) -> Results:
+        """Return the results, an array over paths or a number each.
 
         Parameters
         ----------
-        given : ResolvedInputs
-            The numbers.
+        engine : str
+            What compiles the formula.
+        numbers : mapping of str to float or ndarray
+            What is given, and the arrays that are known beforehand.
         layout : Layout
-            The axes of its batch.
-        known : mapping of str to ndarray
-            The arrays that are known beforehand.
+            The axes of the batch.
         refused : callable
             Called once where the formula does not hold; it raises if that is because of
             what is given.
         fallback : callable
-            Gives the results for a part of what is given, where the formula does not hold.
+            Gives the results for a piece of the batch, where the formula does not hold.
         """
-        numbers = {str(key): number for key, number in given.numbers.items()}
-        numbers |= {**self.formula.constants, **known}
-        found, failed = self._found(self._stages, numbers, layout)
-        if failed and len(self._stages) > 1:
-            found, failed = self._found([self._in_one], numbers, layout)
+        if self.formula.unread:
+            refused()
+        found, failed = self._found(self._stages(engine), numbers, layout)
+        if failed and len(self.parts) > 1:
+            found, failed = self._found(self._stages(engine, in_one=True), numbers, layout)
         if failed:
             refused()
-            out = np.empty((len(found.each), given.paths), self.formula.dtype)
+            out = np.empty((len(found.each), found.out.shape[1]), self.formula.dtype)
             for row, result in zip(out, found.each, strict=True):
                 row[...] = result
             for piece in failed:
-                out[:, piece.start : piece.stop] = fallback(given.part(piece.where))
+                out[:, piece.start : piece.stop] = fallback(piece)
             found = Results([*out], out, [*range(len(out))])
-        return found, bool(failed)
+        return found
+
+    def _stages(self, engine: str, *, in_one: bool = False) -> _Compiled:
+        """Return the formula compiled; in one stage, it tells in which part of a batch it fails."""
+        key = engine, in_one
+        if key not in self._compiled:
+            parts = (replace(self.formula, last=None),) if in_one else self.parts
+            several = [Stage.of(engine, part) for part in parts]
+            self._compiled[key] = _Compiled.of(several, self.formula.results, self.read)
+        return self._compiled[key]
 
     def _found(
-        self, several: Sequence[_Stage], numbers: Mapping[str, Any], layout: Layout
+        self, compiled: _Compiled, numbers: Mapping[str, Any], layout: Layout
     ) -> tuple[Results, list[Piece]]:
         """Return the results, and the pieces for which they do not hold."""
-        arrays: dict[str, tuple[Array, frozenset[int]]] = {
-            name: (number, layout.axes[name])
-            for name, number in numbers.items()
-            if isinstance(number, np.ndarray)
-        }
-        for formula, path in several[:-1]:
-            shape = layout.lengths(formula.axes)
-            own = {
-                name: layout.among(array, axes, formula.axes)
-                for name, (array, axes) in arrays.items()
-                if axes <= formula.axes
-            }
-            grid = Grid(formula, path, shape, own, shape, own, numbers)
+        axes = layout.axes
+        for stage in compiled.stages[:-1]:
+            formula, shape = stage.formula, layout.lengths(stage.formula.axes)
             out = np.empty((len(formula.computed), prod(shape)), formula.dtype)
-            failed = list(self._failures(grid, shape, out))
+            failed = self._failures(Grid(stage, layout, numbers, axes, last=False), out)
             if failed:
                 return Results([], out, []), failed
-            for symbol, row in zip(formula.computed, out, strict=True):
-                kept = row if symbol.kind == "float" else row.astype(symbol.kind)
-                arrays[f"#{symbol.index}"] = kept.reshape(shape), symbol.axes
-        formula, path = several[-1]
-        across = {n: layout.among(a, x, layout.all_axes) for n, (a, x) in arrays.items()}
-        cells = {n: layout.in_batch(a, x) for n, (a, x) in arrays.items()}
-        grid = Grid(formula, path, layout.shape, across, layout.batch, cells, numbers)
-        results, count = self.formula.results, len(formula.computed)
-        # Numbers that are known follow, so that all of a light may stand together.
-        known = [i for i in range(self.read) if _is_read_number(results[i])]
-        out = np.empty((count + len(known), prod(layout.batch)), formula.dtype)
-        failed = list(self._failures(grid, layout.batch, out))
-        place = {symbol.index: row for row, symbol in reversed([*enumerate(formula.computed)])}
-        rows = [place.get(r.index) if isinstance(r, Symbol) else None for r in results]
-        for row, i in enumerate(known, count):
-            out[row], rows[i] = results[i], row
-        each = [
-            self._result(result, cells, layout) if row is None else out[row]
-            for result, row in zip(results, rows, strict=True)
-        ]
+            names = [f"#{symbol.index}" for symbol in formula.computed]
+            kept = (
+                (row if symbol.kind == "float" else row.astype(symbol.kind)).reshape(shape)
+                for symbol, row in zip(formula.computed, out, strict=True)
+            )
+            numbers = {**numbers, **dict(zip(names, kept, strict=True))}
+            axes = {**axes, **dict.fromkeys(names, formula.axes)}
+        stage, rows = compiled.stages[-1], compiled.rows
+        out = np.empty((compiled.room, layout.paths), stage.formula.dtype)
+        failed = self._failures(Grid(stage, layout, numbers, axes, last=True), out)
+        for row, number in compiled.known:
+            out[row] = number
+        each = list(compiled.results)
+        for place, row in enumerate(rows):
+            if row is not None:
+                each[place] = out[row]
+            elif isinstance(each[place], Symbol):
+                name = f"#{each[place].index}"
+                cells = layout.in_batch(numbers[name], axes[name])
+                each[place] = np.broadcast_to(cells, layout.batch).reshape(-1)
         return Results(each, out, rows), failed
 
-    @staticmethod
-    def _result(result: Any, cells: Mapping[str, Array], layout: Layout) -> Any:
-        """Return a result that the last stage has not computed."""
-        if not isinstance(result, Symbol):
-            return result
-        return np.broadcast_to(cells[f"#{result.index}"], layout.batch).reshape(-1)
-
-    def _failures(self, grid: Grid, batch: tuple[int, ...], out: Array) -> Iterator[Piece]:
-        """Fill the results; yield the pieces for which the formula does not hold."""
-        parts = pieces(batch, _AT_ONCE)
+    def _failures(self, grid: Grid, out: Array) -> list[Piece]:
+        """Fill the results; return the pieces for which the formula does not hold."""
+        several = pieces(grid.batch, _AT_ONCE)
         if self.threads == 1:
-            yield from (piece for piece in parts if not grid.fill(piece, out))
-            return
-        several = list(parts)
+            return [piece for piece in several if not grid.fill(piece, out)]
+        several = list(several)
         with ThreadPoolExecutor(self.threads) as pool:
             held = pool.map(lambda piece: grid.fill(piece, out), several)
-            yield from (piece for piece, holds in zip(several, held, strict=True) if not holds)
+            return [piece for piece, holds in zip(several, held, strict=True) if not holds]
 
 
-def _is_read_number(result: Any) -> bool:
-    return not (isinstance(result, Symbol) or np.isnan(result))
+class _Compiled(NamedTuple):
+    """A formula compiled, stage after stage, and where its results are written.
 
+    Attributes
+    ----------
+    stages : list of Stage
+        One after the other.
+    results : tuple
+        Symbols, or numbers that are known.
+    rows : list of int or None
+        In which row each is written, if it is.
+    known : list of (int, float)
+        The rows of numbers that are known, behind the others.
+    room : int
+        How many rows there are.
+    """
 
-def known_arrays(program: Program, dtype: np.dtype[Any]) -> dict[str, Array]:
-    """Return the numbers of a program that are known, as formulas name them."""
-    return {
-        f".{place}": operand.numbers(kind=wide(dtype)).astype(
-            bool if operand.part == "present" else dtype, copy=False
-        )
-        for place, operand in enumerate(program.operands)
-        if operand.known and operand.numbers().ndim
-    }
+    stages: list[Stage]
+    results: tuple[Any, ...]
+    rows: list[int | None]
+    known: list[tuple[int, Any]]
+    room: int
+
+    @classmethod
+    def of(cls, several: list[Stage], results: tuple[Any, ...], read: int) -> _Compiled:
+        """Return what has been compiled, with rows for its results, so many of them read."""
+        computed = several[-1].formula.computed
+        place = {symbol.index: row for row, symbol in reversed([*enumerate(computed)])}
+        rows = [place.get(r.index) if isinstance(r, Symbol) else None for r in results]
+        # Numbers that are known follow, so that all of a light may stand together.
+        known = []
+        for at, result in enumerate(results[:read]):
+            if not (isinstance(result, Symbol) or np.isnan(result)):
+                rows[at] = len(computed) + len(known)
+                known.append((rows[at], result))
+        return cls(several, results, rows, known, len(computed) + len(known))

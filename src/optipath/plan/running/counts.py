@@ -26,7 +26,7 @@ def operations(
 
     None for what cannot be compiled, and so not counted.
     """
-    if not runner.compilable:
+    if not runner.may_compile:
         return None
     options: dict[str, Any] = {"polynomials": False, "unreduced": unreduced}
     try:
@@ -47,7 +47,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     """
     runner.refuse_traced(parameters, "evaluations are counted")
     runner.inputs.resolve(parameters)
-    given, program = runner.sorter.sort(parameters), runner.program
+    given, program = runner.reader.read(parameters), runner.program
     found: dict[str, int] = {}
     for step in program.steps:
         if step.evaluation is None:

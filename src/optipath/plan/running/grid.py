@@ -2,18 +2,45 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+
+from optipath.engines import compile_array_path
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.engines import ArrayPath
     from optipath.engines.formulas import Formula
+    from optipath.plan.running.batch import Layout
     from optipath.plan.running.pieces import Piece
 
     Array = np.ndarray[Any, Any]
+
+
+class Stage(NamedTuple):
+    """A formula, compiled.
+
+    Attributes
+    ----------
+    formula : Formula
+        What is done.
+    path : ArrayPath
+        What does it.
+    inputs : tuple of (str, str)
+        What it takes: a name, and the place as `Formula.place_of` has it.
+    """
+
+    formula: Formula
+    path: ArrayPath
+    inputs: tuple[tuple[str, str], ...]
+
+    @classmethod
+    def of(cls, engine: str, formula: Formula) -> Stage:
+        """Return a formula compiled by an engine."""
+        inputs = tuple((formula.name_of(s), formula.place_of(s)) for s in formula.inputs)
+        return cls(formula, compile_array_path(engine, formula), inputs)
 
 
 class Grid:
@@ -21,56 +48,62 @@ class Grid:
 
     Parameters
     ----------
-    formula : Formula
-        What is done.
-    path : ArrayPath
-        The formula, compiled.
-    shape : tuple of int
-        The lengths of the axes that the formula knows.
-    across : mapping of str to ndarray
-        The arrays, with an axis for each of these.
-    batch : tuple of int
-        The shape that pieces are parts of.
-    cells : mapping of str to ndarray
-        The arrays, with an axis for each of the batch.
-    numbers : mapping of str to float
-        What is not an array.
+    stage : Stage
+        The formula.
+    layout : Layout
+        The axes of the batch, of which the stage may know a few only.
+    numbers : mapping of str to float or ndarray
+        What is given, by the names of the formula's inputs.
+    axes : mapping of str to frozenset of int
+        Along which axes the arrays among them differ.
+    last : bool
+        Whether pieces are parts of the batch itself, and not of the axes that the stage knows.
     """
 
     def __init__(
         self,
-        formula: Formula,
-        path: ArrayPath,
-        shape: tuple[int, ...],
-        across: Mapping[str, Array],
-        batch: tuple[int, ...],
-        cells: Mapping[str, Array],
+        stage: Stage,
+        layout: Layout,
         numbers: Mapping[str, Any],
+        axes: Mapping[str, frozenset[int]],
+        *,
+        last: bool,
     ) -> None:
-        self.path = path
-        self.batch = batch
+        formula, own = stage.formula, stage.formula.axes
+        self.path = stage.path
+        shape = layout.shape if last else layout.lengths(own)
+        self.batch = layout.batch if last else shape
         self.width = shape[-1] if formula.last is not None else 0
         self.given: list[Any] = []
-        self.cells: list[tuple[int, Array]] = []
-        for symbol in formula.inputs:
-            name, place = formula.name_of(symbol), formula.place_of(symbol)
-            if place == "one":
-                array = across.get(name)
-                self.given.append(numbers[name] if array is None else array.item())
-            elif place == "row":
-                rows = np.broadcast_to(across[name], (*shape[:-1], 1))
-                self.given.append(np.ascontiguousarray(rows).reshape(-1))
-            elif place == "column":
-                self.given.append(np.ascontiguousarray(across[name]).reshape(-1))
+        self.cells: list[int] = []
+        for name, place in stage.inputs:
+            number = numbers[name] if name in numbers else formula.constants[name]
+            if not isinstance(number, np.ndarray):
+                pass
+            elif place == "one":
+                number = number.item()
+            elif place == "cell":
+                self.cells.append(len(self.given))
+                if number.shape != self.batch:
+                    laid = (
+                        layout.in_batch(number, axes[name])
+                        if last
+                        else layout.among(number, axes[name], own)
+                    )
+                    number = np.broadcast_to(laid, self.batch)
             else:
-                self.cells.append((len(self.given), cells[name]))
-                self.given.append(None)
+                number = layout.among(number, axes[name], own)
+                if place == "row":
+                    number = np.broadcast_to(number, (*shape[:-1], 1))
+                number = np.ascontiguousarray(number).reshape(-1)
+            self.given.append(number)
 
     def fill(self, piece: Piece, out: Array) -> bool:
         """Fill a piece of the results; return whether the formula holds for all of it."""
         given, count = list(self.given), piece.stop - piece.start
-        for place, array in self.cells:
-            given[place] = self._cut(array, piece)
+        for place in self.cells:
+            # One number after the other.
+            given[place] = np.ascontiguousarray(given[place][piece.where]).reshape(-1)
         if not self.width:
             rows, columns = (0, 1), (0, count)
         elif count < self.width:
@@ -79,8 +112,3 @@ class Grid:
         else:
             rows, columns = (piece.start // self.width, piece.stop // self.width), (0, self.width)
         return self.path(rows, columns, given, out, piece.start)
-
-    def _cut(self, array: Array, piece: Piece) -> Array:
-        """Return the numbers of a piece, one after the other."""
-        whole = array if array.shape == self.batch else np.broadcast_to(array, self.batch)
-        return np.ascontiguousarray(whole[piece.where]).reshape(-1)

@@ -1,4 +1,4 @@
-"""What is given to a plan, sorted into numbers and arrays."""
+"""Reading: what is given to a plan, as numbers and arrays."""
 
 from __future__ import annotations
 
@@ -6,10 +6,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import OptipathError, ParameterError, shown
 from optipath.plan.running.batch import sliced
 from optipath.values.angles import CosSin
-from optipath.values.arrays.shapes import joint_shape
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, InputKey, part_of
 from optipath.values.roundings import is_beyond
 
@@ -18,9 +16,9 @@ if TYPE_CHECKING:
 
     from optipath.engines.program.program import Program
     from optipath.values.inputs import Inputs
-    from optipath.values.parameters import Resolved
 
 _PAIR = ("cos", "sin")
+_DOUBLE = np.dtype(np.float64)
 
 
 class ResolvedInputs(NamedTuple):
@@ -72,20 +70,22 @@ class ResolvedInputs(NamedTuple):
         )
 
     @property
-    def is_single(self) -> bool:
-        """Whether everything is one plain number."""
+    def is_of_floats(self) -> bool:
+        """Whether every number of a path is a plain float, or says that an element is there."""
         return all(
-            (type(number) is float or number is True or number is False) and key.part not in _PAIR
+            number is True
+            or number is False
+            or (key.part not in _PAIR and getattr(number, "dtype", _DOUBLE) == _DOUBLE)
             for key, number in self.numbers.items()
         )
 
     def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[InputKey, str], ...]:
         """Return in which form each number is given."""
-        return tuple((key, _form(key, number, dtype)) for key, number in self.numbers.items())
+        return tuple([(key, _form(key, number, dtype)) for key, number in self.numbers.items()])
 
 
-class Sorter:
-    """Sorts what is given to a program.
+class InputReader:
+    """Reads what is given to a program.
 
     Parameters
     ----------
@@ -100,9 +100,7 @@ class Sorter:
     def __init__(self, program: Program, inputs: Inputs, dtype: np.dtype[Any]) -> None:
         self.inputs = inputs
         self._widest = np.result_type(dtype, np.float64)
-        found = dict.fromkeys(
-            operand.input_key for operand in program.operands if not operand.known
-        )
+        found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         self.keys = {name: [r for r in found if r.name == name] for name in inputs.open}
         # A formula checks the range of a number that it reads, and of no other.
         self._plain = {
@@ -114,9 +112,28 @@ class Sorter:
         self._plain |= {name for name, keys in self.keys.items() if keys and shows[name]}
         self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
         self._angles -= {name for name, p in inputs.open.items() if p.optional}
-        self._known = joint_shape(*inputs.shapes.values())
 
-    def sort(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
+    def key(self, parameters: Mapping[str, Any]) -> tuple[Any, ...] | None:
+        """Return what the names, shapes and types of what is given say of how it is run.
+
+        A word stands for itself, and 0 is a case of its own. None for what must be looked at.
+        """
+        found: list[Any] = []
+        for name, value in parameters.items():
+            kind = type(value)
+            if kind is np.ndarray:
+                if value.dtype is not _DOUBLE or value.size == 1:
+                    return None
+                found.append((name, value.shape))
+            elif kind is float:
+                found.append((name, value == 0.0))
+            elif kind is str:
+                found.append((name, value))
+            else:
+                return None
+        return tuple(found)
+
+    def read(self, parameters: Mapping[str, Any]) -> ResolvedInputs:
         """Return the numbers that are given.
 
         Ranges of plain floats and arrays of floats are left to be checked by who uses them.
@@ -126,40 +143,36 @@ class Sorter:
         ParameterError
             With every fault of what is given.
         """
-        opened = self.inputs.open
+        resolved, batch = self.inputs.resolve(parameters, self.is_plain)
         numbers: dict[InputKey, Any] = {}
-        shapes = [self._known]
-        if parameters.keys() <= opened.keys():
-            try:
-                for name, parameter in opened.items():
-                    value = parameters.get(name, parameter.default)
-                    if type(value) is int:
-                        value = float(value)
-                    present: Any = True
-                    if type(value) is CosSin and name in self._angles:
-                        shapes.append(value.shape)
-                        numbers |= {
-                            InputKey(name, part): self._number(getattr(value, part))
-                            for part in _PAIR
-                        }
-                        continue
-                    if name in self._plain and self._is_plain(name, value):
-                        real = value
-                    else:
-                        real, present = self._resolved(name, value)
-                    if type(real) is not float:
-                        shape = np.shape(real)
-                        shapes.append(shape[: len(shape) - len(self.inputs.tails[name])])
-                    for key in self.keys[name]:
-                        numbers[key] = self._number(self._part(key, real, present))
-                return ResolvedInputs(numbers, joint_shape(*shapes))
-            except (OptipathError, ArithmeticError, ValueError, TypeError) as fault:
-                self.inputs.resolve(parameters)  # Tells all faults.
-                raise ParameterError(*getattr(fault, "faults", [shown(fault)])) from None
-        self.inputs.resolve(parameters)
-        raise AssertionError("parameters that are unknown are refused")
+        for name, (value, present) in resolved.items():
+            if type(value) is CosSin:
+                for part in _PAIR:
+                    numbers[InputKey(name, part)] = self._number(getattr(value, part))
+                continue
+            for key in self.keys[name]:
+                numbers[key] = self._number(self.part(key, value, present))
+        return ResolvedInputs(numbers, batch)
 
-    def _part(self, key: InputKey, value: Any, present: Any) -> Any:
+    def is_plain(self, name: str, value: Any) -> bool:
+        """Tell whether a value is taken as it stands: a float, an array of them, or an angle."""
+        if name not in self._plain:
+            return False
+        tail = self.inputs.tails[name]
+        if type(value) is float:
+            return not tail
+        if type(value) is CosSin:
+            return name in self._angles
+        if type(value) is not np.ndarray or not value.dtype.isnative:
+            return False
+        if value.dtype.char != "d" and (
+            value.dtype.char != "f" or is_beyond(value, self.inputs.limits[name])
+        ):
+            return False
+        return bool(value.shape[value.ndim - len(tail) :] == tail)
+
+    def part(self, key: InputKey, value: Any, present: Any = True) -> Any:  # noqa: FBT002
+        """Return a part of a value that has been read."""
         if key.part == "present":
             return True if np.all(present) else present
         if type(value) is float:
@@ -174,26 +187,6 @@ class Sorter:
         if array.dtype.char not in "fd?" or not array.dtype.isnative:
             array = array.astype(self._widest)
         return _one_number(array)
-
-    def _is_plain(self, name: str, value: Any) -> bool:
-        """Tell whether a value may be used as it is: a float, or an array of them."""
-        tail = self.inputs.tails[name]
-        if type(value) is float:
-            return not tail
-        if type(value) is not np.ndarray or not value.dtype.isnative:
-            return False
-        if value.dtype.char != "d" and (
-            value.dtype.char != "f" or is_beyond(value, self.inputs.limits[name])
-        ):
-            return False
-        return bool(value.shape[value.ndim - len(tail) :] == tail)
-
-    def _resolved(self, name: str, value: Any) -> Resolved:
-        resolved = self.inputs.open[name].resolve(value, self.inputs.limits[name])
-        for use in self.inputs.uses:
-            if use.value.name == name:
-                use.check_given(resolved.value)
-        return resolved
 
 
 def _one_number(array: np.ndarray[Any, Any]) -> Any:

@@ -1,28 +1,53 @@
-"""One path of plain floats: no arrays, and after a few runs a function of its own."""
+"""Plain floats: one path, or a handful, and after a few runs a function of their own."""
 
 from __future__ import annotations
 
 from collections import Counter
+from itertools import islice, repeat
 from types import NoneType
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
 
 from optipath.engines.float_engine import FLOATS
-from optipath.engines.formulas import lights_formula
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
+    from optipath.plan.running.batch import Layout
     from optipath.plan.running.interpreter import Interpreter
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
+    from optipath.values.operands import InputKey
 
 Lights: TypeAlias = list[tuple[Any, ...]]
 
 _SEVERAL, _SHORT = 3, 64
 """After how many runs a function is worth its while, and up to how many steps."""
+
+_REFUSED = (ArithmeticError, TypeError, ValueError)
+
+
+class FloatFunction(NamedTuple):
+    """A function of floats.
+
+    Attributes
+    ----------
+    path : callable
+        Gives the four components at every end, and then the exponents.
+    names : tuple of str
+        What it takes, as formulas name it.
+    operations : int
+        How many it has.
+    """
+
+    path: Callable[..., tuple[Any, ...] | None]
+    names: tuple[str, ...]
+    operations: int
 
 
 class ScalarRunner:
@@ -36,8 +61,8 @@ class ScalarRunner:
         What may be given.
     interpreter : Interpreter
         Runs it until a function is made.
-    compilable : callable
-        Tells whether a function may be made.
+    formula : callable
+        Gives the formula of the function for what is given in some forms; None where none is.
     """
 
     def __init__(
@@ -45,18 +70,18 @@ class ScalarRunner:
         program: Program,
         inputs: Inputs,
         interpreter: Interpreter,
-        compilable: Callable[[], bool],
+        formula: Callable[[dict[InputKey, str]], Formula | None],
     ) -> None:
         self.program = program
         self.inputs = inputs
         self.interpreter = interpreter
-        self.compilable = compilable
-        self._paths: dict[Any, tuple[Any, list[int]]] = {}
+        self.formula = formula
+        self.functions: dict[frozenset[str], FloatFunction | None] = {}
         self._runs = 0
         self._usual: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
     def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
-        """Return what `lights` gives for plain floats beside defaults, without sorting them.
+        """Return what `lights` gives for plain floats beside defaults, without reading them.
 
         None where no function has been made, or where it takes more care.
         """
@@ -71,37 +96,68 @@ class ScalarRunner:
 
     def lights(self, given: ResolvedInputs) -> Lights | None:
         """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
-        numbers = list(given.numbers.values())
-        # Which optional elements are there.
-        key = tuple(number for number in numbers if number is True or number is False)
-        if key not in self._paths:
+        absent = _absent(given.numbers)
+        if absent not in self.functions:
             self._runs += 1
-            if (
-                self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT)
-                or not self.compilable()
-            ):
+            if self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT):
                 return self._stepped(given)
-            self._paths[key] = self._made(given)
-            if self._is_usual(given):
-                self._usual = self._unsorted(given, *self._paths[key])
-        path, places = self._paths[key]
-        return _called(path, [numbers[place] for place in places])
+        function = self.function(absent)
+        if function is None:
+            return self._stepped(given)
+        if self._usual is None and self._is_usual(given):
+            self._usual = self._unread(given, function)
+        numbers = {str(key): number for key, number in given.numbers.items()}
+        return _called(function.path, [numbers[name] for name in function.names])
+
+    def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
+        """Return the results of a few paths, shape (results, paths); None where it takes care.
+
+        Parameters
+        ----------
+        numbers : mapping of str to float or ndarray
+            What is given, as formulas name it.
+        layout : Layout
+            The axes of the batch.
+        """
+        function = self.function(_absent(numbers))
+        if function is None:
+            return None
+        columns: list[Any] = []
+        for name in function.names:
+            number = numbers[name]
+            if isinstance(number, np.ndarray):
+                if number.shape != layout.batch:
+                    number = np.broadcast_to(number, layout.batch)
+                columns.append(number.ravel().tolist())
+            else:
+                columns.append(repeat(number))
+        try:
+            found = [function.path(*row) for row in islice(zip(*columns), layout.paths)]  # noqa: B905
+        except _REFUSED:
+            return None
+        if None in found or not found or len(found) < layout.paths:
+            return None
+        return np.array(found).T
+
+    def function(self, absent: frozenset[str]) -> FloatFunction | None:
+        """Return the function for when some optional elements are not there, if one can be made."""
+        if absent not in self.functions:
+            self.functions[absent] = self._made(absent)
+        return self.functions[absent]
 
     def _stepped(self, given: ResolvedInputs) -> Lights | None:
         if not given.within(self.inputs.limits):
             return None
         return self.interpreter.single(given.numbers)
 
-    def _made(self, given: ResolvedInputs) -> tuple[Any, list[int]]:
-        """Return the function, and the places of what it takes among what is given."""
-        absent = {key.name for key, number in given.numbers.items() if number is False}
-        forms = {key: ABSENT if key.name in absent else ONE for key in given.numbers}
-        limits = self.inputs.limits
-        formula = lights_formula(
-            self.program, self.interpreter.carrier, "float64", forms, limits, polynomials=False
-        )
-        places = {str(key): place for place, key in enumerate(given.numbers)}
-        return FLOATS.compiled(formula), [places[s.operands[0]] for s in formula.inputs]
+    def _made(self, absent: frozenset[str]) -> FloatFunction | None:
+        keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
+        forms = {key: ABSENT if key.name in absent else ONE for key in keys}
+        formula = self.formula(forms)
+        if formula is None:
+            return None
+        names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)
+        return FloatFunction(FLOATS.compiled(formula), names, len(formula.steps))
 
     def _is_usual(self, given: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""
@@ -109,30 +165,40 @@ class ScalarRunner:
         opened = self.inputs.open
         return all(n is (opened[name].default != WORD) for name, n in there.items())
 
-    def _unsorted(self, given: ResolvedInputs, path: Any, places: list[int]) -> Any:
-        keys = list(given.numbers)
-        optional = {key.name for key in keys if key.part == "present"}
-        parts = Counter(key.name for key in keys if key.part != "present")
+    def _unread(self, given: ResolvedInputs, function: FloatFunction) -> Any:
+        """Return what `fast_path` needs: the function, and the default of each that it takes."""
+        keys = {str(key): key for key in given.numbers}
+        optional = {key.name for key in given.numbers if key.part == "present"}
+        parts = Counter(key.name for key in given.numbers if key.part != "present")
         order = []
-        for place in places:
-            default = self.inputs.open[keys[place].name].default
+        for key in map(keys.__getitem__, function.names):
+            default = self.inputs.open[key.name].default
             # One number may be given to several kernels, an index as its two parts.
-            if keys[place].part != "value" or type(default) not in (float, int, NoneType):
+            if key.part != "value" or type(default) not in (float, int, NoneType):
                 return None
-            order.append((keys[place].name, default))
+            order.append((key.name, default))
         asked = {name for name, _ in order}
         if any(p.default is None for name, p in self.inputs.open.items() if name not in asked):
             return None  # What nothing needs must be given all the same.
-        return path, order, frozenset(n for n, _ in order if n not in optional and parts[n] == 1)
+        return (
+            function.path,
+            order,
+            frozenset(n for n, _ in order if n not in optional and parts[n] == 1),
+        )
 
 
 def _called(path: Any, numbers: list[Any]) -> Lights | None:
     """Return the lights that a function gives."""
     try:
         found = path(*numbers)
-    except (ArithmeticError, TypeError, ValueError):
+    except _REFUSED:
         return None
     if found is None or len(found) == 5:
         return found and [found]
     ends = len(found) // 5
     return [(*found[4 * end : 4 * end + 4], found[4 * ends + end]) for end in range(ends)]
+
+
+def _absent(numbers: Mapping[Any, Any]) -> frozenset[str]:
+    """Return the names of optional parameters that are not there."""
+    return frozenset([str(key).partition(" ")[0] for key, n in numbers.items() if n is False])

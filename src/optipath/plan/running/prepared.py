@@ -1,0 +1,167 @@
+"""What depends on the names, shapes and types of what is given: prepared once for all batches."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.engines import EngineChoice, is_kept
+from optipath.plan.running.batch_runner import BatchRunner
+from optipath.values.operands import ABSENT
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.plan.running.batch import Layout
+    from optipath.plan.running.questions import Question
+    from optipath.plan.running.reading import InputReader, ResolvedInputs
+    from optipath.plan.running.runner import Runner
+    from optipath.values.operands import InputKey
+
+
+class Sort:
+    """Batches of one sort: one question, numbers of the same forms, the same axes.
+
+    Parameters
+    ----------
+    runner : Runner
+        What runs them.
+    question : Question
+        What is asked.
+    forms : mapping of InputKey to str
+        In which form each number is given.
+    layout : Layout
+        The axes of one of the batches.
+    floats : bool
+        Whether paths may be run as floats one by one.
+    """
+
+    def __init__(
+        self,
+        runner: Runner,
+        question: Question,
+        forms: Mapping[InputKey, str],
+        layout: Layout,
+        *,
+        floats: bool,
+    ) -> None:
+        self.runner = runner
+        self.question = question
+        self.forms = forms
+        self.layout = layout
+        self.choice = EngineChoice(runner.options.engine, runner.most_operations, floats=floats)
+
+    @cached_property
+    def batches(self) -> BatchRunner | None:
+        """What does the formula to batches; None where it cannot be made."""
+        runner = self.runner
+        made = runner.formula(self.question, self.forms, self.layout.axes)
+        if made is None:
+            return None
+        return BatchRunner(
+            made,
+            self.layout,
+            threads=runner.options.threads,
+            read=self.question.read,
+            staged=not runner.unreduced,
+        )
+
+    @property
+    def has_floats(self) -> bool:
+        """Whether a function of floats has been made."""
+        return bool(self.runner.single.functions)
+
+    def operations(self, *, floats: bool) -> int | None:
+        """Return how many operations a path takes; None where no formula can be made."""
+        if floats:
+            absent = frozenset([key.name for key, form in self.forms.items() if form == ABSENT])
+            function = self.runner.single.function(absent)
+            return None if function is None else function.operations
+        return None if self.batches is None else len(self.batches.formula.steps)
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether Numba's code is on disk."""
+        return self.batches is not None and all(map(is_kept, self.batches.parts))
+
+
+class Prepared(NamedTuple):
+    """A batch of which all is known but the numbers.
+
+    Attributes
+    ----------
+    sort : Sort
+        What it has in common with others.
+    layout : Layout
+        Its axes.
+    known : mapping of str to ndarray
+        The arrays that are known beforehand, as formulas name them.
+    """
+
+    sort: Sort
+    layout: Layout
+    known: Mapping[str, np.ndarray[Any, Any]]
+
+
+class Recipe:
+    """How the numbers of a prepared batch are taken out of what is given.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        The batch.
+    reader : InputReader
+        What has read it.
+    given : ResolvedInputs
+        What it was given.
+    parameters : mapping of str to Any
+        What that has been read from.
+    """
+
+    def __init__(
+        self,
+        prepared: Prepared,
+        reader: InputReader,
+        given: ResolvedInputs,
+        parameters: Mapping[str, Any],
+    ) -> None:
+        self.prepared = prepared
+        self.reader = reader
+        self.batch = given.batch
+        self.names: dict[str, str] = {}
+        self.parts: list[InputKey] = []
+        self.fixed: dict[str, Any] = dict(prepared.known)
+        self.ranges: list[tuple[str, float, float]] = []
+        for key, number in given.numbers.items():
+            value = parameters.get(key.name)
+            if value is None or type(value) is str or key.part == "present":
+                self.fixed[str(key)] = number
+            elif key.part in ("value", "real"):
+                self.names[str(key)] = key.name
+            else:
+                self.parts.append(key)
+            if type(value) is float:
+                self.ranges.append((key.name, *reader.inputs.limits[key.name]))
+
+    @staticmethod
+    def holds(given: ResolvedInputs, parameters: Mapping[str, Any]) -> bool:
+        """Tell whether what was read says as much of the next batch of the same shapes."""
+        return all(
+            isinstance(number, np.ndarray)
+            for key, number in given.numbers.items()
+            if type(parameters.get(key.name)) is np.ndarray and key.part != "present"
+        )
+
+    def numbers(self, parameters: Mapping[str, Any]) -> dict[str, Any] | None:
+        """Return the numbers by the names of a formula's inputs; None if one is out of range."""
+        for name, low, high in self.ranges:
+            if not low <= parameters[name] <= high or abs(parameters[name]) == np.inf:
+                return None
+        found = dict(self.fixed)
+        for name, parameter in self.names.items():
+            found[name] = parameters[parameter]
+        for key in self.parts:
+            found[str(key)] = self.reader.part(key, parameters[key.name])
+        return found

@@ -1,0 +1,247 @@
+"""What can be asked of a path: its light, a Mueller matrix, or bounds of its intensities.
+
+A question says which formula answers it, how it is answered step by step, what JAX is asked,
+and what becomes of the results. How a batch is run is the same for all: see `Runner`.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from optipath.engines.formulas import bounds_formula, matrix_formula
+from optipath.light.underflow import folded
+from optipath.plan.certificate import Certificate
+from optipath.values.arrays.memory import CURE
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Mapping
+
+    from optipath.engines.formulas import Formula
+    from optipath.engines.program.program import Program, Reading
+    from optipath.plan.running.batch_runner import Results
+    from optipath.plan.running.interpreter import Shared
+    from optipath.plan.running.reading import ResolvedInputs
+    from optipath.plan.running.runner import Runner
+
+    Array = np.ndarray[Any, Any]
+    Batch = tuple[int, ...]
+
+
+class Question(Protocol):
+    """What is asked of a runner.
+
+    Attributes
+    ----------
+    key : hashable
+        By which what has been prepared for it is found again.
+    read : int
+        How many results are read; powers of two may follow, one for each end.
+    cure : str
+        What to do where there is no memory for a batch.
+    """
+
+    key: Hashable
+    read: int
+    cure: str
+
+    def numbers(self, *, stepped: bool) -> int:
+        """Return how many numbers a path takes at least, results and what is made on the way."""
+
+    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+        """Return the formula of the results, for numbers of some forms."""
+
+    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+        """Return the results, shape (results, paths), step by step."""
+
+    def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
+        """Return what the user gets of JAX; None where a loop needs a closer look."""
+
+    def answer(self, results: Results, batch: Batch) -> Any:
+        """Return what the user gets."""
+
+
+class LightQuestion:
+    """The light at every end, as (Stokes vectors, exponents of two).
+
+    A Stokes vector is an array (..., 4), or a tuple of its four components.
+    """
+
+    key = "light"
+    cure = "take it in smaller parts, plan.stream(size, ...), or give fewer values"
+
+    def __init__(self, program: Program, *, polynomials: bool = True) -> None:
+        self.program = program
+        self.polynomials = polynomials
+        self.ends = program.readings
+        self.read = 4 * len(self.ends)
+        self.counts = [reading.components for reading in self.ends.values()]
+
+    def numbers(self, *, stepped: bool) -> int:
+        """Return how many numbers a path takes; step by step, parts with exponents are joined."""
+        return (10 if stepped else 4) * len(self.ends)
+
+    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+        """Return the formula of the components at every end, and of the exponents."""
+        polynomials = self.polynomials
+        unreduced = runner.unreduced and polynomials
+        return runner.lights_formula(forms, axes=axes, unreduced=unreduced, polynomials=polynomials)
+
+    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+        """Return the components at every end, and the exponents."""
+        found = runner.interpreter.lights(given, shared)
+        for (stokes, _), count in zip(found, self.counts, strict=True):
+            runner.refuse_infinite(stokes[..., :count])
+        components = [stokes.reshape(-1, 4).T for stokes, _ in found]
+        return np.concatenate([*components, *(power.reshape(1, -1) for _, power in found)])
+
+    def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
+        """Return the light by the name of each end."""
+        found, sound = runner.jax.lights(resolved, batch, parameters)
+        if runner.needs_closer_look(sound, resolved):
+            return None
+        lights = {}
+        for stokes, name, count in zip(found, self.ends, self.counts, strict=True):
+            lights[name] = runner.nan_outside(stokes, resolved, 1), 0
+            runner.refuse_infinite(lights[name][0][..., :count])
+        return lights
+
+    def of_floats(self, lights: list[tuple[Any, ...]]) -> dict[str, tuple[Any, Any]]:
+        """Return the light at every end of one path: four components and an exponent each."""
+        each = zip(self.ends, lights, strict=True)
+        return {name: (light[:4], light[4]) for name, light in each}
+
+    def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
+        """Return the light by the name of each end."""
+        faint = any(
+            power.any() if isinstance(power, np.ndarray) else power
+            for power in results.each[self.read :]
+        )
+        return {
+            name: self._light(results, batch, end, faint=faint)
+            for end, name in enumerate(self.ends)
+        }
+
+    def _light(self, results: Results, batch: Batch, end: int, *, faint: bool) -> tuple[Any, Any]:
+        first, count = 4 * end, self.counts[end]
+        if not faint and (count < 4 or results.together(first, first + 4) is None):
+            rest = [_in_shape(part, batch) for part in results.each[first + 1 : first + count]]
+            return (results.array(first).reshape(batch), *rest, *[np.nan] * (4 - count)), 0
+        stokes = _behind(results.block(first, first + 4), batch, (4,))
+        stokes[..., count:] = np.nan
+        if not faint:
+            return stokes, 0
+        power = np.broadcast_to(results.each[self.read + end], results.out.shape[1])
+        return folded(stokes, power.astype(np.int64).reshape(batch))
+
+
+class MatrixQuestion:
+    """The Mueller matrix from a source to a reading, shape (..., 4, 4)."""
+
+    read = 16
+    cure = CURE
+
+    def __init__(self, program: Program, source: str, reading: Reading) -> None:
+        self.program = program
+        self.source = source
+        self.reading = reading
+        self.key = source, reading.light, reading.components
+
+    def numbers(self, *, stepped: bool) -> int:
+        """Return how many numbers a path takes: a matrix, twice."""
+        del stepped
+        return 32
+
+    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+        """Return the formula of the matrix, row by row."""
+        limits, kind = runner.inputs.limits, runner.dtype.name
+        return matrix_formula(self.program, self.source, self.reading, kind, forms, limits, axes)
+
+    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+        """Return the sixteen entries."""
+        del shared  # Each is needed in several columns.
+        found = runner.interpreter.matrix(given, self.source, self.reading)
+        runner.refuse_infinite(found[..., : self.reading.components, :])
+        return found.reshape(-1, 16).T
+
+    def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
+        """Return the matrices."""
+        name = next(n for n, end in self.program.readings.items() if end is self.reading)
+        found, sound = runner.jax.matrix(resolved, batch, parameters, self.source, name)
+        if runner.needs_closer_look(sound, resolved):
+            return None
+        found = runner.nan_outside(found, resolved, 2)
+        runner.refuse_infinite(found[..., : self.reading.components, :])
+        return found
+
+    def answer(self, results: Results, batch: Batch) -> Array:
+        """Return the matrices."""
+        return _behind(results.block(0, 16), batch, (4, 4))
+
+
+class BoundsQuestion:
+    """Bounds of the intensity at every end, as certificates."""
+
+    cure = CURE
+    model: str | None = None
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.ends = program.readings
+        self.read = 4 * len(self.ends)
+        self.key: Hashable = ("bounds", self.model)
+
+    def numbers(self, *, stepped: bool) -> int:
+        """Return how many numbers a path takes; step by step, parts are joined."""
+        return 8 * len(self.ends) if stepped else self.read
+
+    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+        """Return the formula of the bounds, four numbers for each end."""
+        kind, limits = runner.dtype.name, runner.inputs.limits
+        return bounds_formula(self.program, kind, forms, limits, axes, self.model)
+
+    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+        """Return the bounds, four numbers for each end."""
+        del shared  # Those of bounds are of another sort.
+        return np.concatenate([rows.reshape(4, -1) for rows in runner.interpreter.bounds(given)])
+
+    def answer(self, results: Results, batch: Batch) -> dict[str, Certificate]:
+        """Return the certificate of each end."""
+        each = results.block(0, self.read).reshape(len(self.ends), 4, *batch)
+        return {
+            name: Certificate(*map(np.asarray, found[:3]))
+            for name, found in zip(self.ends, each, strict=True)
+        }
+
+
+class ErrorsQuestion(BoundsQuestion):
+    """The scalar intensity at every end, and the largest error of a model at any."""
+
+    def __init__(self, program: Program, model: str) -> None:
+        self.model = model
+        super().__init__(program)
+        self.read = len(self.ends) + 1
+
+    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+        """Return the intensities, and the errors behind them."""
+        bounds = super().rows(runner, given, shared).reshape(-1, 4, given.paths)
+        assert self.model is not None  # noqa: S101 - for mypy
+        errors = [Certificate(*found[:3]).error_of(self.model) for found in bounds]
+        return np.array([*bounds[:, 0], np.max(errors, axis=0)])
+
+    def answer(self, results: Results, batch: Batch) -> Any:
+        """Return the intensities by the names of the ends, and the errors."""
+        *totals, error = (row.reshape(batch) for row in results.block(0, self.read))
+        return dict(zip(self.ends, totals, strict=True)), error
+
+
+def _behind(block: Array, batch: Batch, tail: tuple[int, ...]) -> Array:
+    """Return rows of results as arrays of a batch's shape, with the rows behind it."""
+    count = len(tail)
+    axes = (*range(count, count + len(batch)), *range(count))
+    return block.reshape(*tail, *batch).transpose(axes)
+
+
+def _in_shape(part: Any, batch: Batch) -> Any:
+    return part.reshape(batch) if isinstance(part, np.ndarray) else part
