@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from optipath.engines import code_cache
+from optipath.engines import cache_folder, code_cache, code_key
 from optipath.engines.code_cache import CodeCache
 from optipath.errors import CacheError
 
@@ -43,6 +43,19 @@ def told(caplog):
 def test_what_is_kept_is_found_again():
     assert CodeCache().load(TEXT) == CODE
     assert CodeCache().load(TEXT + " ") is None
+
+
+@pytest.mark.usefixtures("kept")
+def test_it_is_told_what_is_kept_for_this_processor_and_these_versions(monkeypatch):
+    assert CodeCache().has(TEXT)
+    assert not CodeCache().has(TEXT + " ")
+    monkeypatch.setenv("NUMBA_LOOP_VECTORIZE", "0")
+    assert not CodeCache().has(TEXT)
+
+
+def test_of_a_folder_that_is_not_there_nothing_is_kept(folder):
+    assert not CodeCache().has(TEXT)
+    assert not folder.exists()
 
 
 @posix
@@ -84,7 +97,7 @@ def test_the_code_of_another_text_is_not_used(kept):
 
 
 def makers():
-    sources, packages, python, processor = code_cache._maker()
+    sources, packages, python, processor = code_key._maker()
     yield ["altered", *sources[1:]], packages, python, processor
     yield [sources[0], "altered"], packages, python, processor
     for place in range(len(packages)):
@@ -98,7 +111,7 @@ def makers():
 @pytest.mark.usefixtures("kept")
 @pytest.mark.parametrize("made_by", [*makers()], ids=lambda _: "")
 def test_code_by_other_sources_versions_or_processors_is_not_used(monkeypatch, made_by):
-    monkeypatch.setattr(code_cache, "_maker", lambda: made_by)
+    monkeypatch.setattr(code_key, "_maker", lambda: made_by)
     assert CodeCache().load(TEXT) is None
     monkeypatch.undo()
 
@@ -191,7 +204,8 @@ AS_OTHER = """
 import logging, os, sys
 sys.path[:0] = {path!r}
 import llvmlite.binding
-from optipath.engines.code_cache import CodeCache, _maker
+from optipath.engines.code_cache import CodeCache
+from optipath.engines.code_key import _maker
 _maker()
 logging.basicConfig(stream=sys.stdout, format="%(message)s")
 os.setgroups([]); os.setgid(12345); os.setuid(12345)
@@ -267,7 +281,7 @@ def test_a_full_or_broken_disk_is_told_once_and_leaves_nothing(folder, monkeypat
     def write(*_):
         raise OSError(fault, os.strerror(fault))
 
-    monkeypatch.setattr(code_cache, "_checksum", write)
+    monkeypatch.setattr(os, "fsync", write)
     cache = CodeCache()
     cache.keep(TEXT, CODE)
     cache.keep(TEXT, CODE)
@@ -300,14 +314,14 @@ def test_a_file_that_may_not_grow_is_told_once_and_leaves_nothing(folder):
 
 
 KILLED = """
-import sys, time
+import os, sys, time
 sys.path[:0] = {path!r}
-from optipath.engines import code_cache
-def checksum(*_):
+from optipath.engines.code_cache import CodeCache
+def fsync(*_):
     print("writing", flush=True)
     time.sleep(60)
-code_cache._checksum = checksum
-code_cache.CodeCache().keep("a text", b"code")
+os.fsync = fsync
+CodeCache().keep("a text", b"code")
 """
 
 
@@ -341,19 +355,19 @@ def test_a_home_that_is_nowhere_is_told(monkeypatch, caplog):
 
     monkeypatch.delenv("OPTIPATH_CACHE", raising=False)
     monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
-    monkeypatch.setattr(code_cache.Path, "home", staticmethod(home))
+    monkeypatch.setattr(cache_folder.Path, "home", staticmethod(home))
     assert "there is no home folder" in refused(CodeCache(), caplog)
 
 
 @pytest.mark.usefixtures("kept")
 def test_a_file_removed_between_look_and_load_is_compiled_anew(monkeypatch, caplog):
-    read = code_cache._read
+    read = code_cache.read_own
 
     def removed(file):
         file.unlink(missing_ok=True)
         return read(file)
 
-    monkeypatch.setattr(code_cache, "_read", removed)
+    monkeypatch.setattr(code_cache, "read_own", removed)
     assert CodeCache().load(TEXT) is None
     assert told(caplog) == []
 

@@ -14,7 +14,7 @@ from optipath.lab.accuracy.boundary_reference import stack
 from optipath.lab.accuracy.many_digits import cos_sin, exact_angle
 
 jax = pytest.importorskip("jax")
-sloped = pytest.importorskip("optipath.engines.jax_path").sloped
+sloped = pytest.importorskip("optipath.engines.jax_primitives").sloped
 
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("numba")
-from optipath.engines import code_cache, machine_code
+from optipath.engines import code_key, machine_code
 from optipath.engines.code_cache import CodeCache
 from optipath.engines.machine_code import MachineCode, address, compiled
 
@@ -116,8 +116,8 @@ def test_altered_helpers_are_compiled_anew(code, monkeypatch, tmp_path):
     package = Path(machine_code.__file__).parent
     for name in ("numba_helpers.py", "machine_code.py"):
         (tmp_path / name).write_text((package / name).read_text("utf-8") + "\n", "utf-8")
-    code_cache._maker.cache_clear()
-    monkeypatch.setattr(code_cache, "files", lambda _: tmp_path)
+    code_key._maker.cache_clear()
+    monkeypatch.setattr(code_key, "files", lambda _: tmp_path)
     assert CodeCache().load("a text") is None
     monkeypatch.undo()
-    code_cache._maker.cache_clear()
+    code_key._maker.cache_clear()

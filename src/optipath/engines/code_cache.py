@@ -5,39 +5,35 @@ from __future__ import annotations
 import hashlib
 import logging
 import os
-import platform
-import stat
-import tempfile
 from collections import OrderedDict
 from contextlib import suppress
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
-from importlib.resources import files
-from pathlib import Path
 from threading import RLock
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING
 
-from optipath.errors import CacheError, shown
+from optipath.engines.cache_folder import (
+    CURE,
+    Entry,
+    cache_place,
+    entries_in,
+    own_folder,
+    read_own,
+    whole_number,
+)
+from optipath.engines.code_key import CODE_SUFFIX, name_of_code, name_of_text
+from optipath.errors import CacheError
+from optipath.values.written_files import write_own_file
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
+    from pathlib import Path
 
     from optipath.engines.machine_code import MachineCode
 
 _LOGGER = logging.getLogger("optipath")
-_SUFFIX, _DRAFT = ".code", ".draft"
+_DRAFT = ".draft"
 _CHECKSUM = hashlib.sha256().digest_size
 _TROUBLE = (OSError, RuntimeError, CacheError)
 """What the folder may do to us; a circle of links is a RuntimeError."""
-_CURE = "set OPTIPATH_CACHE to a folder of your own"
-
-
-class Entry(NamedTuple):
-    """A file of the cache: where it is, how long, and when it was last used."""
-
-    file: Path
-    length: int
-    used: float
 
 
 class CodeCache:
@@ -80,38 +76,34 @@ class CodeCache:
 
     @property
     def folder(self) -> Path:
-        """Where entries are: ``OPTIPATH_CACHE``, or a folder of the user's cache.
-
-        Raises
-        ------
-        CacheError
-            If the user has no home.
-        """
-        try:
-            if own := os.environ.get("OPTIPATH_CACHE"):
-                return Path(own).absolute()
-            base = Path(os.environ.get("XDG_CACHE_HOME", ""))
-            found = (base if base.is_absolute() else Path.home() / ".cache") / "optipath"
-        except (OSError, RuntimeError):
-            found = Path()
-        if not found.is_absolute():
-            raise CacheError(f"there is no home folder; {_CURE}")
-        return found
+        """Where entries are, as `cache_place` says."""
+        return cache_place()
 
     @property
     def limit(self) -> int:
         """How many bytes are kept on disk."""
-        return _number("OPTIPATH_CACHE_BYTES", 1 << 27)
+        return whole_number("OPTIPATH_CACHE_BYTES", 1 << 27)
 
     @property
     def most_functions(self) -> int:
         """How many functions are kept in memory."""
-        return _number("OPTIPATH_CACHE_FUNCTIONS", 256)
+        return whole_number("OPTIPATH_CACHE_FUNCTIONS", 256)
 
     def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         """Return the function of a text, compiled where it is not kept.
 
         That something is compiled is told to the log, so that nobody wonders what he waits for.
+
+        Parameters
+        ----------
+        text : str
+            What is compiled.
+        compiled : callable
+            Compiles it.
+
+        Returns
+        -------
+        MachineCode
         """
         with self._lock:
             if text not in self._functions:
@@ -154,22 +146,22 @@ class CodeCache:
         if text in self._functions:
             return True
         try:
-            folder = self._own_folder()
-            if not any(folder.glob(f"{_name(text)}-*{_SUFFIX}")):
+            folder = self._folder()
+            if not any(folder.glob(f"{name_of_text(text)}-*")):
                 return False
-            return self._file(folder, text, _key(text)).exists()
+            return (folder / name_of_code(text)).exists()
         except _TROUBLE:
             return False
 
     def load(self, text: str) -> bytes | None:
         """Return what is kept on disk for a text, or None."""
         try:
-            folder = self._own_folder()
-            key = _key(text)
-            file = self._file(folder, text, key)
-            stored = _read(file)
-            if stored[:_CHECKSUM] == _checksum(key, stored[_CHECKSUM:]):
-                self._used(file)
+            folder = self._folder()
+            file = folder / name_of_code(text)
+            stored = read_own(file)
+            if stored[:_CHECKSUM] == _checksum(file.name, stored[_CHECKSUM:]):
+                with suppress(OSError):  # where nothing can be noted
+                    os.utime(file)
                 return stored[_CHECKSUM:]
             self.tell("a file of compiled code is damaged; it is compiled anew")
             file.unlink()
@@ -180,20 +172,20 @@ class CodeCache:
         return None
 
     def keep(self, text: str, code: bytes) -> None:
-        """Keep what has been compiled for a text."""
+        """Keep what has been compiled for a text.
+
+        Parameters
+        ----------
+        text : str
+            What was compiled.
+        code : bytes
+            What came of it.
+        """
         try:
             if len(code) + _CHECKSUM > self.limit:
                 return
-            folder = self._own_folder(make=True)
-            key = _key(text)
-            handle, draft = tempfile.mkstemp(dir=folder, suffix=_DRAFT)
-            try:
-                with os.fdopen(handle, "wb") as stream:
-                    stream.write(_checksum(key, code) + code)
-                Path(draft).replace(self._file(folder, text, key))
-            except BaseException:
-                Path(draft).unlink(missing_ok=True)
-                raise
+            file = self._folder(make=True) / name_of_code(text)
+            write_own_file(file, _checksum(file.name, code) + code)
             self._shrink()
         except _TROUBLE as error:
             self._tell_of(error)
@@ -207,12 +199,11 @@ class CodeCache:
             If the folder is not to be used, or cannot be read.
         """
         try:
-            found = [*self._files(self._own_folder(), _SUFFIX)]
+            return entries_in(self._folder(), CODE_SUFFIX)
         except FileNotFoundError:
             return []
         except (OSError, RuntimeError) as error:
             raise self._fault(error) from None
-        return sorted(found, key=lambda entry: entry.used)
 
     def clear(self) -> int:
         """Remove what is on disk, drafts too; return how many entries there were.
@@ -224,7 +215,7 @@ class CodeCache:
         """
         entries = self.entries()
         try:
-            drafts = [*self._files(self._own_folder(), _DRAFT)]
+            drafts = entries_in(self._folder(), _DRAFT)
             for entry in (*entries, *drafts):
                 entry.file.unlink(missing_ok=True)
         except FileNotFoundError:
@@ -247,52 +238,16 @@ class CodeCache:
         if isinstance(error, CacheError):
             return error
         reason = getattr(error, "strerror", None) or error
-        return CacheError(f"the cache '{self.folder}' cannot be used ({reason}); {_CURE}")
+        return CacheError(f"the cache '{self.folder}' cannot be used ({reason}); {CURE}")
 
-    def _own_folder(self, *, make: bool = False) -> Path:
-        """Return the folder, made if need be, if nobody else may change what is in it.
-
-        Raises
-        ------
-        CacheError
-            If somebody may.
-        OSError
-            If it is not there, or is no folder.
-        """
-        folder = self.folder
-        if make:
-            for place in reversed((folder, *folder.parents)):
-                if not place.exists():
-                    place.mkdir(0o700, exist_ok=True)
-        if hasattr(os, "getuid"):
-            _refuse_shared(folder)
+    def _folder(self, *, make: bool = False) -> Path:
+        """Return the folder as `own_folder` does, without drafts that others have left."""
+        folder = own_folder(make=make)
         if folder not in self._tidied:
-            for draft in self._files(folder, _DRAFT):
+            for draft in entries_in(folder, _DRAFT):
                 draft.file.unlink(missing_ok=True)
             self._tidied.add(folder)
         return folder
-
-    @staticmethod
-    def _file(folder: Path, text: str, key: bytes) -> Path:
-        return folder / f"{_name(text)}-{key.hex()}{_SUFFIX}"
-
-    @staticmethod
-    def _files(folder: Path, suffix: str) -> list[Entry]:
-        found = []
-        for file in folder.iterdir():
-            if file.suffix == suffix:
-                try:
-                    about = file.lstat()
-                except FileNotFoundError:  # another process was faster
-                    continue
-                found.append(Entry(file, about.st_size, about.st_mtime))
-        return found
-
-    @staticmethod
-    def _used(file: Path) -> None:
-        """Note when an entry was used, where that can be noted."""
-        with suppress(OSError):
-            os.utime(file)
 
     def _shrink(self) -> None:
         """Remove the entries that have not been used for longest, down to the limit."""
@@ -305,109 +260,8 @@ class CodeCache:
             length -= entry.length
 
 
-def _number(name: str, usual: int) -> int:
-    text = os.environ.get(name) or str(usual)
-    if not text.isascii() or not text.isdigit() or len(text) > 18:
-        raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {usual}")
-    return int(text)
-
-
-def _refuse_shared(folder: Path) -> None:
-    """Refuse a folder that others may write to, or may put something else in place of."""
-    if folder.is_symlink():
-        raise CacheError(
-            f"the cache '{folder}' is a link; set OPTIPATH_CACHE to the folder it leads to"
-        )
-    about = folder.lstat()
-    if not stat.S_ISDIR(about.st_mode):
-        raise CacheError(f"the cache '{folder}' is no folder; {_CURE}")
-    if about.st_uid != os.getuid():
-        raise CacheError(f"the cache '{folder}' belongs to another user; {_CURE}")
-    if about.st_mode & 0o022:
-        raise CacheError(
-            f"others may write to the cache '{folder}'; remove it, and it is made anew for you "
-            f"alone"
-        )
-    for place in _way(folder):
-        about = place.lstat()
-        shared = not stat.S_ISLNK(about.st_mode) and about.st_mode & 0o022
-        if about.st_uid not in (0, os.getuid()) or (shared and not about.st_mode & stat.S_ISVTX):
-            raise CacheError(
-                f"others may replace the cache '{folder}', since they own '{place}' or may write "
-                f"to it; {_CURE}"
-            )
-
-
-def _way(place: Path) -> Iterator[Path]:
-    """Yield every folder and every link that the way to a place leads through."""
-    for parent in place.parents:
-        yield parent
-        if parent.is_symlink():
-            target = parent.parent / parent.readlink()
-            yield target
-            yield from _way(target)
-
-
-def _read(file: Path) -> bytes:
-    """Return what is in a file of one's own.
-
-    Raises
-    ------
-    CacheError
-        If others own it, or may write to it.
-    """
-    # What is no file, such as a pipe, is not waited for.
-    flags = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0)
-    with os.fdopen(os.open(file, flags | getattr(os, "O_BINARY", 0)), "rb") as stream:
-        about = os.fstat(stream.fileno())
-        shared = hasattr(os, "getuid") and (
-            about.st_uid != os.getuid() or bool(about.st_mode & 0o022)
-        )
-        if shared or not stat.S_ISREG(about.st_mode):
-            raise CacheError(
-                f"'{file}' in the cache is not a file of your own; remove it, or see who made it"
-            )
-        return stream.read()
-
-
-def _checksum(key: bytes, code: bytes) -> bytes:
-    return hashlib.sha256(key + code).digest()
-
-
-def _name(text: str) -> str:
-    """Return what the names of all entries of a text begin with."""
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def _key(text: str) -> bytes:
-    """Return the hash of a text, and of all else that its machine code depends on."""
-    settings = sorted((k, v) for k, v in os.environ.items() if k.startswith("NUMBA_"))
-    return hashlib.sha256(repr((text, settings, _maker())).encode()).digest()
-
-
-@cache
-def _maker() -> Any:
-    """Return what makes code of a text: sources, versions, the processor."""
-    import llvmlite.binding as llvm  # noqa: PLC0415 - an extra
-
-    here = files("optipath.engines")
-    sources = [(here / name).read_text("utf-8") for name in ("numba_helpers.py", "machine_code.py")]
-    packages = [_version(name) for name in ("optipath", "numba", "llvmlite", "numpy")]
-    try:
-        features = llvm.get_host_cpu_features().flatten()
-    except RuntimeError:  # LLVM does not know them of every processor
-        features = ""
-    processor = (llvm.get_process_triple(), llvm.get_host_cpu_name(), features)
-    return sources, packages, platform.python_version(), processor
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        if package == "optipath":  # a folder of sources, which are in the key themselves
-            return ""
-        raise CacheError(f"the version of {package} is not known; install it with pip") from None
+def _checksum(name: str, code: bytes) -> bytes:
+    return hashlib.sha256(name.encode() + code).digest()
 
 
 CODE = CodeCache()

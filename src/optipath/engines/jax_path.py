@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import replace
 from functools import cache, reduce
 from operator import and_
 from typing import TYPE_CHECKING, Any
@@ -12,110 +11,23 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
+from optipath.engines.jax_primitives import JAX, sloped
 from optipath.engines.program.execute import execute
 from optipath.errors import ComposerError
-from optipath.kernels import NUMPY, MatrixCarrier, Primitives
-from optipath.kernels.numbers.primitives import is_below_rounding, product_and_rest
+from optipath.kernels import NUMPY, MatrixCarrier
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced
 from optipath.values.operands import part_of
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping, Sequence
 
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
     from optipath.kernels import Carrier, Components
     from optipath.values.operands import Operand
     from optipath.values.parameters import Resolved
-
-
-def _frexp(number: Any) -> tuple[Any, Any]:
-    # Nothing is scaled: XLA takes minutes for a path whose every step is, and gains nothing.
-    return number, 0
-
-
-def _ldexp(number: Any, power: Any) -> Any:
-    if isinstance(power, int) and power == 0:
-        return number
-    one = jnp.ones((), jnp.result_type(number))
-    power = jnp.clip(power, -2040, 2040)
-    half = power // 2
-    return number * jnp.ldexp(one, half) * jnp.ldexp(one, power - half)
-
-
-def _apart(function: Callable[..., tuple[Any, ...]]) -> Callable[..., tuple[Any, ...]]:
-    """Make a kernel a function of its own for XLA, too, and not a part of whatever calls it.
-
-    On a CPU, XLA fuses all that comes before a result into its loop, again for each result: its
-    time grows with the square of what is in one piece. Numbers that are known stay so.
-    """
-
-    def called(*given: Any) -> tuple[Any, ...]:
-        known: dict[int, Any] = {}
-
-        def of_arrays(arrays: dict[int, Any]) -> dict[int, Any]:
-            found, plain = _parted(function(*(arrays.get(i, n) for i, n in enumerate(given))))
-            known.update(plain)
-            return found
-
-        with _not_inlined():
-            found = jax.jit(of_arrays)(_parted(given)[0])
-        together = found | known
-        return tuple(together[place] for place in range(len(together)))
-
-    return called
-
-
-def _parted(numbers: Sequence[Any]) -> tuple[dict[int, Any], dict[int, Any]]:
-    """Return numbers by their places: those that are JAX's, and those that are not."""
-    places = dict(enumerate(numbers))
-    arrays = {place: number for place, number in places.items() if is_jax(number)}
-    return arrays, {place: number for place, number in places.items() if place not in arrays}
-
-
-def _not_inlined() -> Any:
-    if jax.default_backend() != "cpu":
-        return nullcontext()
-    try:
-        from jax.experimental.xla_metadata import set_xla_metadata  # noqa: PLC0415 - newer versions
-    except ImportError:
-        return nullcontext()
-    return set_xla_metadata(inlineable="false")
-
-
-JAX = Primitives(
-    where=jnp.where,
-    sqrt=jnp.sqrt,
-    absolute=jnp.abs,
-    maximum=jnp.maximum,
-    minimum=jnp.minimum,
-    sin=jnp.sin,
-    cos=jnp.cos,
-    exp=jnp.exp,
-    atan2=jnp.arctan2,
-    frexp=_frexp,
-    ldexp=_ldexp,
-    two_product=product_and_rest,
-    below_rounding=is_below_rounding,
-    fixed=jax.lax.stop_gradient,
-    apart=_apart,
-)
-
-
-@cache
-def sloped(dtype: np.dtype[Any]) -> Primitives:
-    """Return the primitives for slopes in a precision."""
-    # So near to an edge no slope has changed yet, but its sixth power is still a number.
-    within = 2.0**-60 if dtype == np.float64 else 2.0**-20
-
-    def root(number: Any) -> Any:
-        # At 0 as well with the slope that it has there within: at 0 itself it has none.
-        raised = jnp.where(number > 0.0, 0.0, within**2 - JAX.fixed(number))
-        return jnp.sqrt(number + raised)
-
-    return replace(JAX, sqrt=root, within=within)
 
 
 _with_slopes: Any = jax.custom_jvp(lambda value, of: value)  # noqa: ARG005 - its slopes
@@ -232,7 +144,7 @@ class JaxPath:
         for name, reading in self.program.readings.items():
             components, exponent = found[reading.light]
             if not isinstance(exponent, int):
-                components = tuple(_ldexp(part, exponent) for part in components)
+                components = tuple(JAX.ldexp(part, exponent) for part in components)
             both = components, smooth[reading.light][0]
             stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
         return stokes, solvers

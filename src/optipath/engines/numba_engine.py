@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -80,12 +81,14 @@ def _compiled(formula: Formula, cache: CodeCache) -> ArrayPath:
     return path
 
 
+@lru_cache(8)
 def source(formula: Formula) -> str:
     """Return the text of a function of what `ArrayPath` takes, arrays by their addresses.
 
     ``path(top, bottom, start, stop, *given, own, out, paths, at)``; ``own`` has room for what is
     split, and ``paths`` is the length of the rows of ``out``. One number for the whole batch is
-    done before the loops, one for a row before the inner loop.
+    done before the loops, one for a row before the inner loop. It is asked for again when it
+    is compiled.
     """
     constants: dict[str, str] = {}
 

@@ -7,6 +7,7 @@ import errno
 import os
 import secrets
 import shutil
+from functools import partial
 from pathlib import Path
 
 
@@ -43,16 +44,34 @@ def write_file(file: Path, content: bytes) -> None:
     place = Path(os.path.realpath(file))
     if place.is_symlink():
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-    if place.exists() and not os.access(place, os.W_OK):
+    there = place.exists()
+    if there and not os.access(place, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    _put(place, content, 0o666, place if there else None)
+
+
+def write_own_file(file: Path, content: bytes) -> None:
+    """Write a file for its owner alone, in place of whatever stood there, a link too.
+
+    Parameters
+    ----------
+    file : Path
+        Its place.
+    content : bytes
+        What it is to hold.
+    """
+    _put(file, content, 0o600)
+
+
+def _put(place: Path, content: bytes, mode: int, alike: Path | None = None) -> None:
     draft = place.with_name(f".{secrets.token_hex(8)}.draft")
     try:
-        with draft.open("xb") as stream:
+        with open(draft, "xb", opener=partial(os.open, mode=mode)) as stream:
             stream.write(content)
             stream.flush()
             os.fsync(stream.fileno())
-        if place.exists():
-            shutil.copymode(place, draft)
+        if alike:
+            shutil.copymode(alike, draft)
         draft.replace(place)
     except BaseException:
         with contextlib.suppress(OSError):
