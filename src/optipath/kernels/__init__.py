@@ -70,7 +70,6 @@ from optipath.kernels.catalogue import (
     UNPOLARIZED,
 )
 from optipath.kernels.fresnel.refraction import refraction
-from optipath.kernels.geometry.planes import OfPlanes, TurnBetweenPlanes
 from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.kernels.geometry.vertex_chain import LONGEST, SHORTEST
 from optipath.kernels.numbers.circular import cosine, sine, without_rounding
@@ -136,14 +135,12 @@ __all__ = [
     "Kernel",
     "KernelFamily",
     "MatrixCarrier",
-    "OfPlanes",
     "Parts",
     "PointsByAngles",
     "Primitives",
     "ScaledCarrier",
     "StokesCarrier",
     "Structure",
-    "TurnBetweenPlanes",
     "add",
     "boosted",
     "carry",
