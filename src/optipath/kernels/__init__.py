@@ -10,13 +10,7 @@ from optipath.kernels.carriers.bounds_carrier import (
     largest_error,
     ratio_bounds,
 )
-from optipath.kernels.carriers.carried import (
-    Carried,
-    Components,
-    add,
-    carry,
-    stokes_of,
-)
+from optipath.kernels.carriers.carried import Carried, Components, add, carry, stokes_of
 from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER, is_physical
 from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
