@@ -54,7 +54,8 @@ def fields_of(node):
     for child in node.body:
         if isinstance(child, ast.FunctionDef) and child.name == "__init__":
             return arguments_of(child, bound=True)
-    if not ("dataclass" in decorators_of(node) or "NamedTuple" in bases_of(node)):
+    is_element = any(keyword.arg == "kind" for keyword in node.keywords)
+    if not (is_element or "dataclass" in decorators_of(node) or "NamedTuple" in bases_of(node)):
         return []
     return [
         child.target.id
@@ -88,7 +89,10 @@ def lacking(node, owner):
         )
     if len(given) < 2:
         return
-    said = names_under("Parameters", docstring) | names_under("Attributes", docstring)
+    named = names_under("Parameters", docstring)
+    if strange := named - {*given}:
+        yield f"says under Parameters what it does not take: {', '.join(strange)}"
+    said = named | names_under("Attributes", docstring)
     if unsaid := [name for name in given if name not in said]:
         yield f"says nothing under Parameters of {', '.join(unsaid)}"
     returns = getattr(node, "returns", None)

@@ -10,13 +10,7 @@ from optipath.kernels.carriers.bounds_carrier import (
     largest_error,
     ratio_bounds,
 )
-from optipath.kernels.carriers.carried import (
-    Carried,
-    Components,
-    add,
-    carry,
-    stokes_of,
-)
+from optipath.kernels.carriers.carried import Carried, Components, add, carry, stokes_of
 from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER, is_physical
 from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
@@ -70,7 +64,6 @@ from optipath.kernels.catalogue import (
     UNPOLARIZED,
 )
 from optipath.kernels.fresnel.refraction import refraction
-from optipath.kernels.geometry.planes import OfPlanes, TurnBetweenPlanes
 from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.kernels.geometry.vertex_chain import LONGEST, SHORTEST
 from optipath.kernels.numbers.circular import cosine, sine, without_rounding
@@ -136,14 +129,12 @@ __all__ = [
     "Kernel",
     "KernelFamily",
     "MatrixCarrier",
-    "OfPlanes",
     "Parts",
     "PointsByAngles",
     "Primitives",
     "ScaledCarrier",
     "StokesCarrier",
     "Structure",
-    "TurnBetweenPlanes",
     "add",
     "boosted",
     "carry",

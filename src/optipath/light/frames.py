@@ -229,7 +229,7 @@ def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     Returns
     -------
     ndarray of float64
-        The same.
+        Of the same shape.
 
     Raises
     ------

@@ -8,18 +8,8 @@ import numpy as np
 
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels import turn_linear
+from optipath.light import polarization_state
 from optipath.light.frames import Frame
-from optipath.light.polarization_state import (
-    amplitude_angle,
-    degree,
-    ellipticity,
-    ellipticity_angle,
-    handedness,
-    linear_degree,
-    major_axis,
-    phase_difference,
-    ratio,
-)
 from optipath.light.underflow import times_two_to
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
@@ -167,17 +157,17 @@ class Light(Unchanging):
     def normalized(self) -> npt.NDArray[Any]:
         """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
         stokes = self._numbers
-        return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
+        return polarization_state.ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
 
     @property
     def dop(self) -> npt.NDArray[Any]:
         """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
-        return degree(self.normalized)
+        return polarization_state.degree(self.normalized)
 
     @property
     def dolp(self) -> npt.NDArray[Any]:
         """The degree of linear polarisation, hypot(S1, S2) / S0, of shape (...)."""
-        return linear_degree(self.normalized)
+        return polarization_state.linear_degree(self.normalized)
 
     @property
     def docp(self) -> npt.NDArray[Any]:
@@ -196,7 +186,7 @@ class Light(Unchanging):
         >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
         0.7854
         """
-        return major_axis(self.normalized)
+        return polarization_state.major_axis(self.normalized)
 
     @property
     def ellipticity(self) -> npt.NDArray[Any]:
@@ -209,12 +199,12 @@ class Light(Unchanging):
         >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
         -0.5
         """
-        return ellipticity(self.normalized)
+        return polarization_state.ellipticity(self.normalized)
 
     @property
     def ellipticity_angle(self) -> npt.NDArray[Any]:
         """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
-        return ellipticity_angle(self.normalized)
+        return polarization_state.ellipticity_angle(self.normalized)
 
     @property
     def handedness(self) -> npt.NDArray[Any]:
@@ -232,7 +222,7 @@ class Light(Unchanging):
         >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
         1
         """
-        return handedness(self.normalized)
+        return polarization_state.handedness(self.normalized)
 
     @property
     def psi(self) -> npt.NDArray[Any]:
@@ -248,7 +238,7 @@ class Light(Unchanging):
         >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
         0.5 3.1416
         """
-        return amplitude_angle(self.normalized)
+        return polarization_state.amplitude_angle(self.normalized)
 
     @property
     def delta(self) -> npt.NDArray[Any]:
@@ -257,7 +247,7 @@ class Light(Unchanging):
         The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
         field exp(-i w t) of this library has the opposite sign.
         """
-        return phase_difference(self.normalized)
+        return polarization_state.phase_difference(self.normalized)
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.

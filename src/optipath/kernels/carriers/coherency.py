@@ -45,7 +45,7 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
     Returns
     -------
     bool or array_like
-        Whether light can meet such a matrix.
+        Whether an element can have such a matrix.
 
     Examples
     --------

@@ -17,10 +17,10 @@ Column: TypeAlias = tuple[Any, Any, Any, Any]
 """(Re Ex, Im Ex, Re Ey, Im Ey)."""
 
 Columns: TypeAlias = tuple[Column, Column]
-Act: TypeAlias = Callable[[Sequence[Any], Columns], Columns]
+JonesAction: TypeAlias = Callable[[Sequence[Any], Columns], Columns]
 
 
-def scale_jones(xp: Primitives) -> Act:
+def scale_jones(xp: Primitives) -> JonesAction:
     """Make the action of (t,): the fields are scaled by the root."""
     sqrt = xp.sqrt
 
@@ -32,7 +32,7 @@ def scale_jones(xp: Primitives) -> Act:
     return act
 
 
-def rotation_jones(xp: Primitives) -> Act:
+def rotation_jones(xp: Primitives) -> JonesAction:
     """Make the action of (cos 2a, sin 2a), by the half of the angle."""
     sqrt, where, absolute = xp.sqrt, xp.where, xp.absolute
 
@@ -52,7 +52,7 @@ def rotation_jones(xp: Primitives) -> Act:
     return act
 
 
-def block_jones(xp: Primitives) -> Act:
+def block_jones(xp: Primitives) -> JonesAction:
     """Make the action of (Fs, Fp, B, C, S): diag(r_s, r_p) with r_s real."""
     sqrt, where, absolute, length = xp.sqrt, xp.where, xp.absolute, hypotenuse(xp)
 

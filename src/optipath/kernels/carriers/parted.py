@@ -9,12 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
-from optipath.kernels.carriers.carried import (
-    all_four,
-    along_axes,
-    leaving,
-    stokes_of,
-)
+from optipath.kernels.carriers.carried import all_four, along_axes, leaving, stokes_of
 from optipath.kernels.numbers.vanishing import not_below_rounding
 
 if TYPE_CHECKING:

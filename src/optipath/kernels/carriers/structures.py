@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from optipath.kernels.carriers import jones_actions, powers_actions
 from optipath.kernels.carriers.carried import (
     Carried,
     all_four,
@@ -17,20 +18,6 @@ from optipath.kernels.carriers.carried import (
     carry,
     leaving,
     stokes_of,
-)
-from optipath.kernels.carriers.jones_actions import (
-    Columns,
-    block_jones,
-    rotation_jones,
-    scale_jones,
-)
-from optipath.kernels.carriers.powers_actions import (
-    PowersAction,
-    block_powers,
-    fraction_powers,
-    full_powers,
-    rotation_powers,
-    scale_powers,
 )
 from optipath.kernels.numbers.primitives import made
 from optipath.kernels.numbers.vanishing import not_below_rounding, products
@@ -40,7 +27,6 @@ if TYPE_CHECKING:
 
 Numbers: TypeAlias = Sequence[Any]
 Action: TypeAlias = Callable[[Numbers, Carried, int], Carried]
-JonesAction: TypeAlias = Callable[[Numbers, Columns], Columns]
 Row: TypeAlias = tuple[Any, Any, Any, Any]
 
 
@@ -74,8 +60,8 @@ class Structure:
     identity: tuple[float, ...]
     action: Callable[[Primitives], Action]
     rows: Callable[[Primitives, Numbers], tuple[Row, Row, Row, Row]]
-    powers: Callable[[Primitives], PowersAction]
-    jones: Callable[[Primitives], JonesAction] | None = None
+    powers: Callable[[Primitives], powers_actions.PowersAction]
+    jones: Callable[[Primitives], jones_actions.JonesAction] | None = None
     unpolarising: Callable[[Numbers], Numbers] | None = None
 
     def made_for(self, primitives: Primitives) -> Action:
@@ -83,15 +69,15 @@ class Structure:
         action: Action = made(self.action, primitives)
         return action
 
-    def jones_for(self, primitives: Primitives) -> JonesAction:
+    def jones_for(self, primitives: Primitives) -> jones_actions.JonesAction:
         """Return the action on Jones columns, made once and kept."""
         assert self.jones is not None  # noqa: S101 - the composer refuses what may depolarise
-        action: JonesAction = made(self.jones, primitives)
+        action: jones_actions.JonesAction = made(self.jones, primitives)
         return action
 
-    def powers_for(self, primitives: Primitives) -> PowersAction:
+    def powers_for(self, primitives: Primitives) -> powers_actions.PowersAction:
         """Return the action on intensities along x and y, made once and kept."""
-        action: PowersAction = made(self.powers, primitives)
+        action: powers_actions.PowersAction = made(self.powers, primitives)
         return action
 
 
@@ -225,11 +211,18 @@ def _full_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:
     return m[0:4], m[4:8], m[8:12], m[12:16]
 
 
-SCALE = Structure("scale", (1.0,), _scale, _scale_rows, scale_powers, scale_jones)
+SCALE = Structure(
+    "scale", (1.0,), _scale, _scale_rows, powers_actions.scale_powers, jones_actions.scale_jones
+)
 """One number t: t times the unit matrix."""
 
 ROTATION = Structure(
-    "rotation", (1.0, 0.0), _rotation, _rotation_rows, rotation_powers, rotation_jones
+    "rotation",
+    (1.0, 0.0),
+    _rotation,
+    _rotation_rows,
+    powers_actions.rotation_powers,
+    jones_actions.rotation_jones,
 )
 """(cos 2a, sin 2a): the frame turned by a about the direction of travel."""
 
@@ -238,8 +231,8 @@ BLOCK = Structure(
     (1.0, 1.0, 0.0, 1.0, 0.0),
     _block,
     _block_rows,
-    block_powers,
-    block_jones,
+    powers_actions.block_powers,
+    jones_actions.block_jones,
     _grey_block,
 )
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
@@ -251,7 +244,9 @@ other two have lost.
 DEPOLARIZING_BLOCK = replace(BLOCK, name="depolarising diattenuator", jones=None)
 """The same with C and S of any size that light allows: incoherent sums of such matrices."""
 
-POWERS = Structure("powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, fraction_powers)
+POWERS = Structure(
+    "powers", (1.0, 1.0, 1.0), _block_of_powers, _powers_rows, powers_actions.fraction_powers
+)
 """(Fs d, Fp d, d): what acts along x and y over one denominator, and nothing of the phase."""
 
 FULL = Structure(
@@ -259,7 +254,7 @@ FULL = Structure(
     tuple(float(i % 5 == 0) for i in range(16)),
     _full,
     _full_rows,
-    full_powers,
+    powers_actions.full_powers,
     unpolarising=_grey_full,
 )
 """Sixteen numbers, row by row."""

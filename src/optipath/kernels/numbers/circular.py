@@ -51,7 +51,7 @@ def without_rounding(xp: Primitives, function: Callable[[Any], Any]) -> Callable
     xp : Primitives
         What it is computed with.
     function : callable
-        ``xp.sin`` or ``xp.cos``, or what makes one of the two 0.
+        The sine or cosine, or what else vanishes where one of them does.
 
     Returns
     -------

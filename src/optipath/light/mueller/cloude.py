@@ -58,7 +58,7 @@ def is_physical(matrix: Array, tolerance: float | None = None) -> Array:
     Returns
     -------
     ndarray of bool, shape (...)
-        Which of them light can meet.
+        Which of them an element can have.
 
     Raises
     ------

@@ -111,7 +111,7 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
     Returns
     -------
     ndarray
-        Of real numbers, in the precision in which they are given.
+        In the precision in which it is given; integers become float64.
 
     Raises
     ------

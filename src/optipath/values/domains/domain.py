@@ -161,7 +161,7 @@ class Domain:
         Returns
         -------
         list of tuple
-            A name, value and domain for each; none where a value may be left out.
+            A name, value and domain for each; empty where the value is left out.
         """
         return [(name, value, self)]
 

@@ -1,0 +1,36 @@
+import inspect
+
+import pytest
+
+from optipath.kernels import (
+    FLOAT,
+    BoundsCarrier,
+    Carrier,
+    IntensityCarrier,
+    JonesCarrier,
+    MatrixCarrier,
+    ScaledCarrier,
+    StokesCarrier,
+)
+
+ALL = [
+    StokesCarrier,
+    ScaledCarrier,
+    JonesCarrier,
+    MatrixCarrier,
+    IntensityCarrier,
+    BoundsCarrier,
+]
+
+
+@pytest.mark.parametrize("carrier", ALL)
+def test_every_carrier_keeps_the_contract(carrier):
+    for name in ("emit", "act", "add", "meet", "read"):
+        promised = inspect.signature(getattr(Carrier, name)).parameters
+        assert list(inspect.signature(getattr(carrier, name)).parameters) == list(promised)
+
+
+@pytest.mark.parametrize("carrier", [JonesCarrier, IntensityCarrier, BoundsCarrier])
+def test_a_carrier_that_goes_through_no_loop_says_so(carrier):
+    with pytest.raises(NotImplementedError, match=f"{carrier.__name__} carries no light"):
+        carrier(FLOAT).meet(None, {})
