@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import platform
 from collections import Counter
-from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.composer import Composer
 from optipath.errors import ComposerError, ParameterError
 from optipath.kernels import REFLECTION
 from optipath.lab.accuracy.chart_file import FORMAT
-from optipath.lab.accuracy.contenders import Contender, available_dtypes, contenders
+from optipath.lab.accuracy.contenders import WORDS, available_dtypes, contenders
 from optipath.lab.accuracy.error_measures import LIMIT, Errors
 from optipath.lab.accuracy.interface_errors import interface_errors, matrix_numbers
 from optipath.lab.accuracy.machine import limits
@@ -93,14 +93,14 @@ def path_chart(
     for number, runner in enumerate(runners):
         progress("errors", 0.6 + 0.2 * number / len(runners))
         off = {
-            trial.region: path_errors(runner.composer, trial, runner.dtype)
+            trial.region: path_errors(runner, trial, runner.dtype)
             for trial in tests[rounded[runner.dtype]]
         }
         found.append(_entry(runner, off))
     graph, values = many_paths(path, PATHS)
-    plans = [runner.composer.compose(graph) for runner in runners]
+    plans = [runner.compose(graph) for runner in runners]
     _time(found, [partial(plan.run_all, **values) for plan in plans], effort, progress)
-    program = Contender().composer.compose(graph).program
+    program = Composer(engine="numpy").compose(graph).program
     given, _ = plans[0].inputs.resolve(values)
     arrays = sum(operand.numbers(given).size > 1 for operand in program.operands)
     least = limits(arrays + 4 * len(program.readings), slow_operations(program))
@@ -147,12 +147,12 @@ def _refuse_batches(path: PathGraph) -> None:
         )
 
 
-def _different(path: PathGraph, engines: tuple[str, ...]) -> list[Contender]:
+def _different(path: PathGraph, engines: tuple[str, ...]) -> list[Composer]:
     """Return the contenders that can compute a path, and each computation once."""
-    found: dict[Any, Contender] = {}
+    found: dict[Any, Composer] = {}
     for runner in contenders(engines=engines):
         try:
-            plan = runner.composer.compose(path)
+            plan = runner.compose(path)
             plan.run_all()
         except (ComposerError, ParameterError):
             continue
@@ -161,9 +161,9 @@ def _different(path: PathGraph, engines: tuple[str, ...]) -> list[Contender]:
     return list(found.values())
 
 
-def _entry(runner: Contender, off: Mapping[str, Errors]) -> dict[str, Any]:
+def _entry(runner: Composer, off: Mapping[str, Errors]) -> dict[str, Any]:
     return {
-        **asdict(runner),
+        **{word: getattr(runner, word) for word in WORDS},
         "eps": float(np.finfo(runner.dtype).eps),
         "errors": {
             kind: {region: worst_and_median(getattr(e, kind)) for region, e in off.items()}
@@ -179,14 +179,13 @@ def _time(
     progress: Callable[[str, float], object],
 ) -> None:
     """Time the actions in turn, so that what disturbs one disturbs all."""
-    times: list[list[float]] = [[] for _ in actions]
     for action in actions:
         action()
+    turns = []
     for turn in range(effort.rounds):
         progress("times", 0.8 + 0.2 * turn / effort.rounds)
-        for number, action in enumerate(actions):
-            times[number].append(seconds_of(action) * 1e9 / PATHS)
-    for entry, taken in zip(entries, times, strict=True):
+        turns.append([seconds_of(action) * 1e9 / PATHS for action in actions])
+    for entry, taken in zip(entries, zip(*turns, strict=True), strict=True):
         entry["ns"] = {"least": min(taken), "median": float(np.median(taken))}
 
 

@@ -32,14 +32,7 @@ _PANELS = {
 _COLOURS = {"numpy": "#1f6fb4", "numba": "#d9730d", "jax": "#3a8f3a"}
 _SHAPES = {"float64": "o", "float32": "s", "longdouble": "D"}
 _FORMS = (".png", ".svg", ".pdf")
-_SIDES = (
-    (6, 4, "left"),
-    (-6, 4, "right"),
-    (6, -11, "left"),
-    (-6, -11, "right"),
-    (6, 14, "left"),
-    (-6, 14, "right"),
-)
+_SIDES = [(x, y, side) for y in (4, -11, 14) for x, side in ((6, "left"), (-6, "right"))]
 _INK, _FAINT, _RED = "#333333", "#8a8a8a", "#c0392b"
 _SMALL: dict[str, Any] = {"fontsize": 7.5, "color": _FAINT}
 
@@ -229,17 +222,11 @@ def _failing_band(axes: Axes, failing: list[_Mark], regions: int, low: float, ba
 def _legend(chart: Mapping[str, Any]) -> list[Line2D]:
     engines = dict.fromkeys(c["engine"] for c in chart["contenders"])
     dtypes = dict.fromkeys(c["dtype"] for c in chart["contenders"])
-    none: tuple[list[float], list[float]] = ([], [])
+    fails = f"off by more than {chart['fails_above']:g} ulp in some region"
+    marker: dict[str, Any] = {"color": _INK, "linewidth": 0}
     return [
-        *(Line2D(*none, color=_colour(e), linewidth=4, label=e) for e in engines),
-        *(Line2D(*none, color=_INK, marker=_shape(d), linewidth=0, label=d) for d in dtypes),
-        Line2D(
-            *none,
-            color=_INK,
-            marker="o",
-            markerfacecolor="white",
-            linewidth=0,
-            label=f"off by more than {chart['fails_above']:g} ulp in some region",
-        ),
-        Line2D(*none, color=_FAINT, label="the best of what fails nowhere"),
+        *(Line2D([], [], color=_colour(e), linewidth=4, label=e) for e in engines),
+        *(Line2D([], [], marker=_shape(d), label=d, **marker) for d in dtypes),
+        Line2D([], [], marker="o", markerfacecolor="white", label=fails, **marker),
+        Line2D([], [], color=_FAINT, label="the best of what fails nowhere"),
     ]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError
+from optipath.lab.accuracy.contenders import WORDS
 from optipath.lab.accuracy.error_measures import Errors
 
 if TYPE_CHECKING:
@@ -74,7 +75,7 @@ def _is_whole(chart: Any) -> bool:
         words, sizes, off = [chart["title"]], [chart["fails_above"]], []
         sizes += chart["limits_ns"].values()
         for entry in chart["contenders"]:
-            words += [entry[word] for word in ("method", "dtype", "engine", "composing")]
+            words += [entry[word] for word in WORDS]
             sizes += [entry["eps"], entry["ns"]["least"]]
             for kind in Errors._fields:
                 errors = list(entry["errors"][kind].values())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
 from itertools import product
 
 from optipath.composer import CHOICES, Composer
@@ -11,32 +10,14 @@ from optipath.errors import ComposerError
 from optipath.kernels import METHODS
 from optipath.values.precision import DTYPES, precision
 
-
-@dataclass(frozen=True)
-class Contender:
-    """One way to compute a path.
-
-    Attributes
-    ----------
-    method, dtype, engine, composing : str
-        As `Composer` takes them.
-    """
-
-    method: str = "stable"
-    dtype: str = "float64"
-    engine: str = "numpy"
-    composing: str = "stokes"
-
-    @property
-    def composer(self) -> Composer:
-        """The composer that computes so."""
-        return Composer(**asdict(self))
+WORDS = ("method", "dtype", "engine", "composing")
+"""What tells contenders apart, as `Composer` takes it."""
 
 
 def contenders(
     composing: tuple[str, ...] = CHOICES["composing"],
     engines: tuple[str, ...] = ("numpy", "numba"),
-) -> list[Contender]:
+) -> list[Composer]:
     """Return all that this machine can run.
 
     JAX is not among them: it compiles anew for every path that it is given.
@@ -48,16 +29,16 @@ def contenders(
 
     Returns
     -------
-    list of Contender
+    list of Composer
         Those whose engine is installed and has their precision.
 
     Examples
     --------
-    >>> Contender("stable", "float64", "numpy", "jones") in contenders()
+    >>> Composer("stable", engine="numpy", composing="jones") in contenders()
     True
     """
     return [
-        Contender(method, dtype, engine, way)
+        Composer(method, dtype=dtype, engine=engine, composing=way)
         for method, dtype, engine, way in product(METHODS, available_dtypes(), engines, composing)
         if engine == "numpy" or (is_installed(engine) and dtype != "longdouble")
     ]
