@@ -40,6 +40,11 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     parameters : mapping of str to Parameter
         What ``"$name"`` can refer to.
 
+    Returns
+    -------
+    Any
+        What the element takes, in radians and metres.
+
     Raises
     ------
     OptipathError
@@ -73,6 +78,18 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
 def decode_given(raw: Any, parameter: Parameter) -> Any:
     """Return a value given for a parameter: a default, or one of a case.
 
+    Parameters
+    ----------
+    raw : Any
+        What stands in the file.
+    parameter : Parameter
+        Whose value it is.
+
+    Returns
+    -------
+    Any
+        Numbers in radians and metres, or words.
+
     Raises
     ------
     OptipathError
@@ -99,6 +116,11 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
         The unit of numbers.
     complex_parts : tuple of str, optional
         What the two parts of complex numbers are called.
+
+    Returns
+    -------
+    Any
+        A number, a text, a table or a list of these.
 
     Raises
     ------

@@ -29,6 +29,20 @@ if TYPE_CHECKING:
 def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
     """Return the text of a preset file.
 
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    description : str
+        One line about the path.
+    cases : mapping of str to Case
+        Named sets of values.
+
+    Returns
+    -------
+    str
+        In TOML.
+
     Raises
     ------
     PathError

@@ -56,28 +56,24 @@ def read(document: dict[str, Any]) -> PathGraph:
             if detector not in ends and detector not in lost:
                 cure = did_you_mean(detector, ends)
                 faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
+    used = path.parameters
     if not suspects:
-        used = path.parameters
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
             for name in parameters
             if name not in used
         ]
-    faults += _unit_faults(path, parameters)
+    faults += [
+        f"parameters.{name} is used where {with_article(dimension_of(parameter.unit))} is "
+        f'asked for; add unit = "{parameter.unit}" or another'
+        for name, parameter in used.items()
+        if name in parameters and parameter.unit != parameters[name].unit
+    ]
     if faults:
         partial = partial_faults(path.graph, suspects, whole=not lost)
         raise PathError(*dict.fromkeys([*faults, *partial]))
     path.check()
     return path
-
-
-def _unit_faults(path: PathGraph, parameters: dict[str, Parameter]) -> list[str]:
-    return [
-        f"parameters.{name} is used where {with_article(dimension_of(parameter.unit))} is "
-        f'asked for; add unit = "{parameter.unit}" or another'
-        for name, parameter in path.parameters.items()
-        if name in parameters and parameter.unit != parameters[name].unit
-    ]
 
 
 def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str, dict[str, Any]]:
