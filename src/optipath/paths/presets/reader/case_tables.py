@@ -11,7 +11,7 @@ from optipath.values.cases import Case
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.paths.presets.reader.faults import Faults
+    from optipath.paths.format.faults import Faults
     from optipath.values.parameters import Parameter
 
 _LARGEST = 1e308

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer import LOOPS, partial_faults
 from optipath.errors import PathError, did_you_mean, shown, unknown
 from optipath.paths.format import decode, schema
+from optipath.paths.format.faults import Faults
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.port_names import find_port
 from optipath.paths.presets.reader.case_tables import read_case
 from optipath.paths.presets.reader.element_tables import read_element, read_frames
-from optipath.paths.presets.reader.faults import Faults
 from optipath.paths.presets.reader.parameter_tables import read_parameter
 from optipath.values.domains import ANGLE
 from optipath.values.units import dimension_of, with_article

@@ -14,7 +14,7 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.paths.presets.reader.faults import Faults
+    from optipath.paths.format.faults import Faults
 
 _STAND_IN = Parameter("unknown")
 """Takes the place of a value that is missing or faulty, so that the rest is checked too."""

@@ -12,7 +12,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
-    from optipath.paths.presets.reader.faults import Faults
+    from optipath.paths.format.faults import Faults
 
 
 def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Parameter:
