@@ -18,7 +18,6 @@ LATER = {
     "composer",
     "paths",
     "lab",
-    "cli",
 }
 EXEMPT = {"property", "cached_property", "setter", "overload"}
 

@@ -78,8 +78,8 @@ def test_run_by_another_method_says_so(capsys):
 
 
 def test_run_names_what_ran_one_path(capsys):
-    assert json.loads(run(capsys, "run", "malus", "--json")[1])["engine"] == "float"
-    assert run(capsys, "run", "malus")[1].splitlines()[-1].endswith("engine float")
+    assert json.loads(run(capsys, "run", "malus", "--json")[1])["engine"] == "floats"
+    assert run(capsys, "run", "malus")[1].splitlines()[-1].endswith("engine floats")
 
 
 @pytest.mark.parametrize("count", [3, 2000])

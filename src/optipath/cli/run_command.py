@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
 
-_FLOAT = "float"
+_FLOATS = "floats"
 """What runs one path: plain numbers of Python."""
 
 _ROWS = 20
@@ -42,7 +42,7 @@ _TOLD = {
 
 
 @dataclass(frozen=True)
-class Result:
+class Outcome:
     """What a run was given, and what it has found.
 
     Attributes
@@ -72,7 +72,7 @@ class Result:
     def engine(self) -> str:
         """What ran: plain floats for one path, and an engine for a batch."""
         batch = np.broadcast_shapes(*(light.intensity.shape for light in self.lights.values()))
-        return self.plan.engine_for(math.prod(batch)) if batch else _FLOAT
+        return self.plan.engine_for(math.prod(batch)) if batch else _FLOATS
 
     @property
     def model(self) -> str:
@@ -104,47 +104,47 @@ class Result:
 def _run(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
     path = chosen.path(reads)
     plan = Composer(**options).compose(path)
-    result = Result(chosen, path, plan, plan.run_all())
+    outcome = Outcome(chosen, path, plan, plan.run_all())
     if as_json:
-        click.echo(json.dumps(_as_json(result)))
+        click.echo(json.dumps(_as_json(outcome)))
     else:
-        _print(result)
+        _print(outcome)
 
 
 run = PresetGroup("run", action=_run, help="Trace the light of a preset, or of a TOML file.")
 
 
-def _as_json(result: Result) -> dict[str, Any]:
-    plan, parameters = result.plan, result.path.parameters
-    parts = complex_parts_of(result.path.graph)
+def _as_json(outcome: Outcome) -> dict[str, Any]:
+    plan, parameters = outcome.plan, outcome.path.parameters
+    parts = complex_parts_of(outcome.path.graph)
     found: dict[str, Any] = {
-        "preset": result.chosen.preset,
+        "preset": outcome.chosen.preset,
         "parameters": {
             name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
             for name, p in parameters.items()
         },
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
-        "model": result.model,
+        "model": outcome.model,
         "method": plan.method,
-        "engine": result.engine,
+        "engine": outcome.engine,
     }
     if plan.instead is not None:
-        found["tolerance"] = result.tolerance()
-    if result.chosen.case:
-        found["case"] = result.chosen.case
-    if result.case.note:
-        found["note"] = result.case.note
+        found["tolerance"] = outcome.tolerance()
+    if outcome.chosen.case:
+        found["case"] = outcome.chosen.case
+    if outcome.case.note:
+        found["note"] = outcome.case.note
     for section, readings in (
         ("detectors", plan.program.detectors),
         ("dumps", plan.program.dumps),
     ):
         if readings or section == "detectors":
-            found[section] = {name: _reading(result, name) for name in readings}
+            found[section] = {name: _reading(outcome, name) for name in readings}
     return found
 
 
-def _reading(result: Result, name: str) -> dict[str, Any]:
-    published, light = result.published(name), result.lights[name]
+def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
+    published, light = outcome.published(name), outcome.lights[name]
     found = {"stokes": plain(light.stokes), "polarization": _polarization(light)}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
@@ -158,27 +158,27 @@ def _polarization(light: Light) -> dict[str, Any]:
     return {name: plain(getattr(light, name), unit) for name, (_, unit) in _TOLD.items()}
 
 
-def _print(result: Result) -> None:
+def _print(outcome: Outcome) -> None:
     console = PlainConsole()
-    console.print(cell(result.chosen.title, style="bold"), cell(result.path.description))
-    console.print(_parameter_table(result))
-    for name in result.lights:
-        console.print(_light_table(result, name))
-    if result.case.note:
-        console.print(cell(f"note: {result.case.note}"))
-    ran = f"method {result.plan.method}, model {result.model}, engine {result.engine}"
+    console.print(cell(outcome.chosen.title, style="bold"), cell(outcome.path.description))
+    console.print(_parameter_table(outcome))
+    for name in outcome.lights:
+        console.print(_light_table(outcome, name))
+    if outcome.case.note:
+        console.print(cell(f"note: {outcome.case.note}"))
+    ran = f"method {outcome.plan.method}, model {outcome.model}, engine {outcome.engine}"
     console.print(cell(ran))
 
 
-def _parameter_table(result: Result) -> Table:
+def _parameter_table(outcome: Outcome) -> Table:
     table = Table(box=None, show_header=False)
-    for name, parameter in result.path.parameters.items():
+    for name, parameter in outcome.path.parameters.items():
         table.add_row(cell(name), cell(parameter.text(parameter.default)), cell(parameter.help))
     return table
 
 
-def _light_table(result: Result, name: str) -> Table:
-    stokes, published = result.lights[name].stokes, result.published(name)
+def _light_table(outcome: Outcome, name: str) -> Table:
+    stokes, published = outcome.lights[name].stokes, outcome.published(name)
     if stokes.ndim > 1:
         return _batch_table(name, stokes)
     table = headed(f"light at {name}", "computed")
@@ -187,7 +187,7 @@ def _light_table(result: Result, name: str) -> Table:
     for position, component in enumerate(stokes.tolist()):
         row = [f"S{position}", _shown(component)]
         table.add_row(*map(cell, [*row, *([f"{published[position]:g}"] if published else [])]))
-    light = result.lights[name]
+    light = outcome.lights[name]
     for key, (word, unit) in _TOLD.items():
         number = plain(getattr(light, key), unit)
         if number is not None:

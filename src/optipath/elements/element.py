@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import MISSING, dataclass, fields
+from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
@@ -115,13 +116,13 @@ class Element:
     @classmethod
     def needs(cls, name: str) -> bool:
         """Tell whether a field must be given, having no default."""
-        of_name = next(f for f in fields(cls) if f.name == name)  # type: ignore[arg-type]
+        of_name = {f.name: f for f in fields(cls)}[name]  # type: ignore[arg-type]
         return of_name.default is MISSING and of_name.default_factory is MISSING
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number: its name, the value, its domain."""
-        for name, domain in self.domains().items():
-            yield from domain.parts(name, getattr(self, name))
+        domains = self.domains().items()
+        return chain(*[domain.parts(name, getattr(self, name)) for name, domain in domains])
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
         """Return what values must be besides, where a link leads to a port."""
@@ -138,9 +139,7 @@ class Element:
 
     def parameters(self) -> Iterator[Parameter]:
         """Yield the parameters among the values."""
-        for _, value, _ in self.quantities():
-            if isinstance(value, Parameter):
-                yield value
+        return iter([value for _, value, _ in self.quantities() if isinstance(value, Parameter)])
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""

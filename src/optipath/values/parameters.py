@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from copy import copy
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -13,9 +11,9 @@ from optipath.errors import ParameterError, UnitError, did_you_mean, shown
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.read_only import read_only, same
+from optipath.values.arrays.read_only import changed, read_only, same
 from optipath.values.roundings import doubles, traced_within, within
-from optipath.values.units import dimension_of, format_quantity, parse_quantity
+from optipath.values.units import dimension_of, format_quantity, format_range, parse_quantity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,9 +23,20 @@ if TYPE_CHECKING:
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
+_KINDS: dict[str, tuple[type, str]] = {
+    "help": (str, "a text"),
+    "words": (dict, "a dict from word to number"),
+    **dict.fromkeys(("optional", "bound", "negative"), (bool, "True or False")),
+}
+
 
 class Resolved(NamedTuple):
-    """Numbers for a parameter, and where an optional one is there at all."""
+    """Numbers for a parameter, and where an optional one is there at all.
+
+    Attributes
+    ----------
+    value, present : ndarray of one shape
+    """
 
     value: npt.NDArray[Any]
     present: npt.NDArray[np.bool_]
@@ -99,9 +108,8 @@ class Parameter:
             raise ParameterError(
                 f"parameter '{self.name}' has the range {low} .. {high}; begin with the lower end"
             )
-        object.__setattr__(self, "minimum", low)
-        object.__setattr__(self, "maximum", high)
-        object.__setattr__(self, "words", {w: self._word(w, v) for w, v in self.words.items()})
+        vars(self).update(minimum=low, maximum=high)
+        vars(self).update(words={w: self._word(w, v) for w, v in self.words.items()})
         if isinstance(self.default, CosSin):
             raise ParameterError(
                 f"parameter '{self.name}' cannot keep a cosine and a sine; give them when the "
@@ -115,16 +123,8 @@ class Parameter:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
 
     def _check_types(self) -> None:
-        kinds: dict[str, tuple[type, str]] = {
-            "help": (str, "a text"),
-            "words": (dict, "a dict from word to number"),
-            "optional": (bool, "True or False"),
-            "bound": (bool, "True or False"),
-            "negative": (bool, "True or False"),
-        }
-        for name, (kind, described) in kinds.items():
-            value = getattr(self, name)
-            if not isinstance(value, kind):
+        for name, (kind, described) in _KINDS.items():
+            if not isinstance(value := getattr(self, name), kind):
                 raise ParameterError(
                     f"{name} of parameter '{self.name}' must be {described}, not {shown(value)}"
                 )
@@ -132,11 +132,10 @@ class Parameter:
     def _limit(self, value: Any) -> float:
         if type(value) is float:
             return value
-        array = array_of(f"the range of parameter '{self.name}'", value, ParameterError)
+        what = f"the range of parameter '{self.name}'"
+        array = array_of(what, value, ParameterError)
         if array.ndim or array.dtype.kind not in "iuf":
-            raise ParameterError(
-                f"the range of parameter '{self.name}' must be numbers, not {shown(value)}"
-            )
+            raise ParameterError(f"{what} must be numbers, not {shown(value)}")
         return float(array)
 
     def _word(self, word: Any, value: Any) -> float:
@@ -164,24 +163,13 @@ class Parameter:
         return np.array(read, object).reshape(array.shape).tolist()
 
     def __neg__(self) -> Parameter:
-        return self._with("negative", not self.negative)
-
-    def in_unit(self, unit: str) -> Parameter:
-        """Return a parameter without a unit in one, and any other as it is."""
-        return self if self.unit else self._with("unit", unit)
-
-    def _with(self, name: str, value: Any) -> Parameter:
-        """Return a copy with another value that is sound, whose others need no second check."""
-        changed = copy(self)
-        object.__setattr__(changed, name, value)
-        return changed
+        return changed(self, negative=not self.negative)
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same, its sign aside."""
-        if self is other:
-            return True
-        mine, others = vars(self), vars(other)
-        return all(same(mine[name], others[name]) for name in mine if name != "negative")
+        others = vars(other)
+        rest = (same(one, others[name]) for name, one in vars(self).items() if name != "negative")
+        return self is other or all(rest)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
@@ -212,7 +200,7 @@ class Parameter:
         ParameterError
             If it is no number or word, not finite, or outside the range.
         """
-        if type(raw) is float and self.minimum <= raw <= self.maximum and math.isfinite(raw):
+        if type(raw) is float and self.minimum <= raw <= self.maximum and abs(raw) < np.inf:
             return Resolved(np.array(raw), np.ones((), dtype=bool))
         if isinstance(raw, CosSin):
             raw = self._angle(raw)
@@ -225,8 +213,7 @@ class Parameter:
         if array.dtype.kind in "USO":
             entries = [self._entry(entry, limits) for entry in array.ravel().tolist()]
             present = np.array([entry is not None for entry in entries], bool).reshape(array.shape)
-            numbers = [0.0 if entry is None else entry for entry in entries]
-            array = np.array(numbers).reshape(array.shape)
+            array = np.array([0.0 if e is None else e for e in entries]).reshape(array.shape)
         elif array.dtype.kind not in "iufc":
             raise ParameterError(f"parameter '{self.name}' must be a number, not {shown(raw)}")
         if array.dtype.kind in "iu":
@@ -254,6 +241,11 @@ class Parameter:
             number may be complex, such as ``"0.3+0.4j"``.
         default_unit : str, optional
             The unit of a number without one.
+
+        Returns
+        -------
+        str, float or complex
+            The word, or the number in radians or metres.
 
         Raises
         ------
@@ -291,14 +283,7 @@ class Parameter:
 
     def range_text(self) -> str:
         """Write the range, or nothing where there is none."""
-        low, high = self.minimum, self.maximum
-        if np.isinf(low) and np.isinf(high):
-            return ""
-        if np.isinf(high):
-            return f"{self.text(low)} or more"
-        if np.isinf(low):
-            return f"{self.text(high)} or less"
-        return f"{self.text(low)} .. {self.text(high)}"
+        return format_range(self.minimum, self.maximum, self.unit)
 
     def _entry(self, entry: Any, limits: tuple[float, float]) -> Any:
         if not isinstance(entry, str):

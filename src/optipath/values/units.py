@@ -150,6 +150,18 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
 def in_unit(value: float, unit: str) -> float:
     """Return a number in base units in another unit, without the noise of conversion.
 
+    Parameters
+    ----------
+    value : float
+        In radians or metres, or a pure number.
+    unit : str
+        One of `UNITS`, or none.
+
+    Returns
+    -------
+    float
+        The number of fewest digits that gives it back.
+
     Examples
     --------
     >>> in_unit(0.8377580409572782, "deg")
@@ -162,6 +174,18 @@ def in_unit(value: float, unit: str) -> float:
 
 def format_quantity(value: complex, unit: str) -> str:
     """Write a number with a unit so that reading it gives the very same number back.
+
+    Parameters
+    ----------
+    value : float or complex
+        In radians or metres, or a pure number.
+    unit : str
+        One of `UNITS`, or none.
+
+    Returns
+    -------
+    str
+        As `parse_quantity` reads it.
 
     Examples
     --------
@@ -181,6 +205,32 @@ def format_quantity(value: complex, unit: str) -> str:
         if _in_base_units(number, of_unit) == value:
             return f"{number} {unit}"
     return f"{value!r} {_BASE_UNITS[of_unit.dimension]}"
+
+
+def format_range(low: float, high: float, unit: str) -> str:
+    """Write the limits of a range, or nothing where there are none.
+
+    Parameters
+    ----------
+    low, high : float
+        In radians or metres, or pure numbers.
+    unit : str
+        One of `UNITS`, or none.
+
+    Returns
+    -------
+    str
+        For a sentence.
+
+    Examples
+    --------
+    >>> format_range(0.0, 0.5, "mm"), format_range(0.0, math.inf, "")
+    ('0 mm .. 500 mm', '0 or more')
+    """
+    least, most = format_quantity(low, unit), format_quantity(high, unit)
+    if math.isinf(low):
+        return "" if math.isinf(high) else f"{most} or less"
+    return f"{least} or more" if math.isinf(high) else f"{least} .. {most}"
 
 
 def with_article(dimension: str) -> str:

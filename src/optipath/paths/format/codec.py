@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.vertices import VerticesByAngles, VerticesDomain
-from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
+from optipath.errors import PresetError, UnitError, did_you_mean, shown
+from optipath.paths.format.faults import Faults
 from optipath.values.domains import (
     AMPLITUDE,
     ANGLE,
@@ -23,7 +24,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
 _ANGLES = ("incidences", "turns")
 
@@ -39,6 +40,11 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         What the field may be.
     parameters : mapping of str to Parameter
         What ``"$name"`` can refer to.
+
+    Returns
+    -------
+    Any
+        What the element takes, in radians and metres.
 
     Raises
     ------
@@ -73,6 +79,18 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
 def decode_given(raw: Any, parameter: Parameter) -> Any:
     """Return a value given for a parameter: a default, or one of a case.
 
+    Parameters
+    ----------
+    raw : Any
+        What stands in the file.
+    parameter : Parameter
+        Whose value it is.
+
+    Returns
+    -------
+    Any
+        Numbers in radians and metres, or words.
+
     Raises
     ------
     OptipathError
@@ -99,6 +117,11 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
         The unit of numbers.
     complex_parts : tuple of str, optional
         What the two parts of complex numbers are called.
+
+    Returns
+    -------
+    Any
+        A number, a text, a table or a list of these.
 
     Raises
     ------
@@ -140,17 +163,11 @@ def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
 def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
     """Return the parts of a complex number or a material that is written as a table."""
     names = domain.complex_parts or INDEX.complex_parts
-    faults = [
-        f"key '{key}' is unknown{did_you_mean(key, names)}" for key in raw if key not in names
-    ]
+    faults = _unknown_keys(raw, names)
     if names[0] not in raw:
         faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
-    parts = {}
-    for key in [key for key in names if key in raw]:
-        try:
-            parts[key] = decode(raw[key], Domain(domain.name), parameters)
-        except OptipathError as fault:
-            faults += [f"{key}: {sentence}" for sentence in fault.faults]
+    pure, given = Domain(domain.name), [key for key in names if key in raw]
+    parts = {key: faults.attempt(key, decode, raw[key], pure, parameters) for key in given}
     if faults:
         raise PresetError(*faults)
     return parts
@@ -166,23 +183,26 @@ def _complex(parts: Mapping[str, Any]) -> Any:
 
 
 def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:
-    faults = [
-        f"key '{key}' is unknown{did_you_mean(key, _ANGLES)}" for key in raw if key not in _ANGLES
-    ]
-    angles: dict[str, list[Any]] = {}
+    faults = _unknown_keys(raw, _ANGLES)
+    angles = []
     for key in _ANGLES:
         several = raw.get(key, [])
         if not isinstance(several, list):
             faults.append(f"{key} must be a list of angles, not {shown(several)}")
             continue
-        for place, angle in enumerate(several):
-            try:
-                angles.setdefault(key, []).append(decode(angle, ANGLE, parameters))
-            except OptipathError as fault:
-                faults += [f"{key}[{place}]: {sentence}" for sentence in fault.faults]
+        decoded = [
+            faults.attempt(f"{key}[{place}]", decode, angle, ANGLE, parameters)
+            for place, angle in enumerate(several)
+        ]
+        angles.append(tuple(decoded))
     if faults:
         raise PresetError(*faults)
-    return VerticesByAngles(tuple(angles.get("incidences", ())), tuple(angles.get("turns", ())))
+    return VerticesByAngles(*angles)
+
+
+def _unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
+    unknown = [key for key in raw if key not in names]
+    return Faults(f"key '{key}' is unknown{did_you_mean(key, names)}" for key in unknown)
 
 
 def _number(raw: Any, unit: str) -> Any:

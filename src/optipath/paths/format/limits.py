@@ -31,6 +31,7 @@ _SET_ASIDE = re.compile(
 _DEEP_KEY = re.compile(rf"(?<![\w-])(?:[\w-]++[ \t]*+\.[ \t]*+){{{DEEPEST}}}")
 _LONG_WORD = re.compile(rf"(?<![^\s\[\]{{}},=])[^\s\[\]{{}},=]{{{LONGEST_WORD + 1}}}")
 _BRACKET = re.compile(r"[\[\]{}]")
+_STEPS = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
 def refuse_unwieldy(text: str) -> None:
@@ -59,10 +60,9 @@ def refuse_unwieldy(text: str) -> None:
             f"line {_line(bare, found)} has a word of more than {LONGEST_WORD} characters; "
             f"make it shorter"
         )
-    steps = (1 if bracket in "[{" else -1 for bracket in _BRACKET.findall(bare))
-    too_deep = next((n for n, depth in enumerate(accumulate(steps)) if depth > DEEPEST), None)
-    if too_deep is not None:
-        found = next(islice(_BRACKET.finditer(bare), too_deep, None))
+    depths = list(accumulate(map(_STEPS.__getitem__, _BRACKET.findall(bare))))
+    if max(depths, default=0) > DEEPEST:
+        found = next(islice(_BRACKET.finditer(bare), depths.index(DEEPEST + 1), None))
         raise PresetError(
             f"line {_line(bare, found)} opens more than {DEEPEST} brackets in each other; write "
             f"it flatter"

@@ -30,6 +30,20 @@ _WORDS = {
 def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> list[str]:
     """Return a sentence for each key that is not known.
 
+    Parameters
+    ----------
+    where : str
+        The table's place in the file.
+    table : mapping of str to Any
+        What stands there.
+    known : iterable of str
+        The keys that it may have.
+
+    Returns
+    -------
+    list of str
+        Nothing where all are known.
+
     Examples
     --------
     >>> key_faults("links[0]", {"form": "a.out"}, ["from", "to"])
@@ -43,15 +57,23 @@ def key_faults(where: str, table: Mapping[str, Any], known: Iterable[str]) -> li
 
 
 def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any]) -> list[str]:
-    """Return a sentence for each key that is unknown or has a value of another type."""
-    found = key_faults(where, table, schema)
-    for key, kind in schema.items():
-        if key in table and not _is(table[key], kind):
-            found.append(f"{where}: '{key}' must be {_WORDS[kind]}, not {shown(table[key])}")
-    return found
+    """Return a sentence for each key that is unknown or has a value of another type.
 
+    Parameters
+    ----------
+    where, table
+        As `key_faults` takes them.
+    schema : mapping of str to type
+        The keys that it may have, and the types of their values.
 
-def _is(value: Any, kind: type) -> bool:
-    if kind is int and isinstance(value, bool):
-        return False
-    return isinstance(value, kind)
+    Returns
+    -------
+    list of str
+        Nothing where all is well.
+    """
+    wrong = [
+        f"{where}: '{key}' must be {_WORDS[kind]}, not {shown(table[key])}"
+        for key, kind in schema.items()
+        if key in table and kind not in (object, type(table[key]))
+    ]
+    return key_faults(where, table, schema) + wrong

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer import LOOPS, parameters_of
-from optipath.errors import OptipathError, PathError, did_you_mean
+from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
+from optipath.paths.format.faults import Faults
 from optipath.paths.format.schema import FORMAT
 from optipath.values.domains import ANGLE, INDEX
 from optipath.values.parameters import Parameter
@@ -29,12 +30,26 @@ if TYPE_CHECKING:
 def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
     """Return the text of a preset file.
 
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    description : str
+        One line about the path.
+    cases : mapping of str to Case
+        Named sets of values.
+
+    Returns
+    -------
+    str
+        In TOML.
+
     Raises
     ------
     PathError
         With every element that has no kind and every value that has no form in TOML.
     """
-    faults: list[str] = []
+    faults = Faults()
     parameters = parameters_of(graph)
     top: dict[str, Any] = {"format": FORMAT, "description": description}
     loops = graph.graph.get("loops", LOOPS[0])
@@ -46,12 +61,9 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         row = _parameter(parameter, parts.get(name, INDEX.complex_parts))
         tables.append(_lines(f"[parameters.{_key(name)}]", row))
     for name, element in graph.nodes(data="element"):
-        try:
-            row = _element(element, graph.nodes[name]["frames"])
-        except OptipathError as fault:
-            faults += [f"{name}: {sentence}" for sentence in fault.faults]
-        else:
-            tables.append(_lines(f"[elements.{_key(name)}]", row))
+        described = faults.attempt(name, _element, element, graph.nodes[name]["frames"])
+        if described is not None:
+            tables.append(_lines(f"[elements.{_key(name)}]", described))
     for start, end, (leaves, enters), azimuth in graph.edges(keys=True, data="azimuth"):
         link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
         if azimuth is not None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import fields
 from types import NoneType
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.roundings import ENDLESS, doubles, within
 
+T = TypeVar("T")
 _SCALARS = (str, bytes, int, float, complex, NoneType)
 
 
@@ -100,6 +102,32 @@ def same(first: Any, second: Any) -> bool:
         return bool(first == second)
     except Exception:  # noqa: BLE001 - what cannot be compared is not the same
         return False
+
+
+def changed(value: T, **others: Any) -> T:
+    """Return a copy of a frozen dataclass with other fields, of which nothing is checked again.
+
+    Parameters
+    ----------
+    value : dataclass
+        What is copied.
+    **others : Any
+        What is known to be sound.
+
+    Returns
+    -------
+    dataclass
+        Of the same class.
+
+    Examples
+    --------
+    >>> from optipath.values.materials import Material
+    >>> changed(Material(1.5), k=0.1)
+    Material(n=1.5, k=0.1)
+    """
+    found = copy(value)
+    vars(found).update(others)
+    return found
 
 
 def same_fields(first: Any, second: Any) -> Any:

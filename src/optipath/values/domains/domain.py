@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.read_only import read_only
+from optipath.values.arrays.read_only import changed, read_only
 from optipath.values.parameters import Parameter
 from optipath.values.roundings import as_doubles, doubles, rounding_of
 from optipath.values.units import USUAL_UNITS, format_quantity
@@ -211,4 +211,6 @@ def in_unit_of(value: Any, domain: Domain) -> Any:
     >>> in_unit_of(Parameter("theta"), Domain("angle", "angle")).unit
     'deg'
     """
-    return value.in_unit(domain.unit) if isinstance(value, Parameter) else value
+    if isinstance(value, Parameter) and not value.unit:
+        return changed(value, unit=domain.unit)
+    return value

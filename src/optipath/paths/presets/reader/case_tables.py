@@ -11,7 +11,7 @@ from optipath.values.cases import Case
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.paths.presets.reader.faults import Faults
+    from optipath.paths.format.faults import Faults
     from optipath.values.parameters import Parameter
 
 _LARGEST = 1e308
@@ -20,7 +20,22 @@ _LARGEST = 1e308
 def read_case(
     where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
 ) -> Case:
-    """Return the case that a table describes, without what is faulty in it."""
+    """Return the case that a table describes, without what is faulty in it.
+
+    Parameters
+    ----------
+    where, table
+        Its place in the file, and what stands there.
+    parameters : mapping of str to Parameter
+        What it may give.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    Case
+        With the numbers that the texts stand for.
+    """
     before = len(faults)
     faults += schema.type_faults(where, table, schema.CASE)
     if len(faults) > before:
@@ -39,7 +54,7 @@ def read_case(
     published = {}
     for name, stokes in table.get("published", {}).items():
         if _is_stokes(stokes):
-            published[name] = tuple(float(part) for part in stokes)
+            published[name] = tuple(map(float, stokes))
         else:
             faults.append(
                 f"{where}.published.{name} must be four finite numbers, not {shown(stokes)}"

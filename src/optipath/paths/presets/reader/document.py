@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer import LOOPS, partial_faults
 from optipath.errors import PathError, did_you_mean, shown, unknown
 from optipath.paths.format import decode, schema
+from optipath.paths.format.faults import Faults
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.port_names import find_port
 from optipath.paths.presets.reader.case_tables import read_case
 from optipath.paths.presets.reader.element_tables import read_element, read_frames
-from optipath.paths.presets.reader.faults import Faults
 from optipath.paths.presets.reader.parameter_tables import read_parameter
 from optipath.values.domains import ANGLE
 from optipath.values.units import dimension_of, with_article
@@ -56,28 +56,24 @@ def read(document: dict[str, Any]) -> PathGraph:
             if detector not in ends and detector not in lost:
                 cure = did_you_mean(detector, ends)
                 faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
+    used = path.parameters
     if not suspects:
-        used = path.parameters
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
             for name in parameters
             if name not in used
         ]
-    faults += _unit_faults(path, parameters)
+    faults += [
+        f"parameters.{name} is used where {with_article(dimension_of(parameter.unit))} is "
+        f'asked for; add unit = "{parameter.unit}" or another'
+        for name, parameter in used.items()
+        if name in parameters and parameter.unit != parameters[name].unit
+    ]
     if faults:
         partial = partial_faults(path.graph, suspects, whole=not lost)
         raise PathError(*dict.fromkeys([*faults, *partial]))
     path.check()
     return path
-
-
-def _unit_faults(path: PathGraph, parameters: dict[str, Parameter]) -> list[str]:
-    return [
-        f"parameters.{name} is used where {with_article(dimension_of(parameter.unit))} is "
-        f'asked for; add unit = "{parameter.unit}" or another'
-        for name, parameter in path.parameters.items()
-        if name in parameters and parameter.unit != parameters[name].unit
-    ]
 
 
 def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str, dict[str, Any]]:

@@ -14,7 +14,7 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.paths.presets.reader.faults import Faults
+    from optipath.paths.format.faults import Faults
 
 _STAND_IN = Parameter("unknown")
 """Takes the place of a value that is missing or faulty, so that the rest is checked too."""
@@ -23,7 +23,22 @@ _STAND_IN = Parameter("unknown")
 def read_element(
     where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
 ) -> Element | None:
-    """Return the element that a table describes; None where its kind is not known."""
+    """Return the element that a table describes; None where its kind is not known.
+
+    Parameters
+    ----------
+    where, table
+        Its place in the file, and what stands there.
+    parameters : mapping of str to Parameter
+        What ``"$name"`` can refer to.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    Element or None
+        With a parameter of no meaning in place of each value that is missing or faulty.
+    """
     kind = table.get("kind")
     if not isinstance(kind, str):
         what = f"'kind' must be a text, not {shown(kind)}" if "kind" in table else "kind is missing"
@@ -49,7 +64,20 @@ def read_element(
 
 
 def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
-    """Return the world frames of an element's ports."""
+    """Return the world frames of an element's ports.
+
+    Parameters
+    ----------
+    where, table
+        The place of the element in the file, and the axes of each port.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    dict of str to Frame
+        Those that are without fault.
+    """
     if not isinstance(table, dict) or not all(isinstance(axes, dict) for axes in table.values()):
         faults.append(f"{where}.frames must be tables with x, y and z, one for each port")
         return {}

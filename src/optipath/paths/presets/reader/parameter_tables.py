@@ -12,11 +12,26 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
-    from optipath.paths.presets.reader.faults import Faults
+    from optipath.paths.format.faults import Faults
 
 
 def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Parameter:
-    """Return the parameter that a table declares; a bare one where the table is faulty."""
+    """Return the parameter that a table declares; a bare one where the table is faulty.
+
+    Parameters
+    ----------
+    name : str
+        What it is called.
+    table : dict
+        What stands in the file.
+    faults : Faults
+        Takes what is wrong.
+
+    Returns
+    -------
+    Parameter
+        By its name, or "unknown" where that is none.
+    """
     where = f"parameters.{name}"
     bare = faults.attempt(where, Parameter, name) or Parameter("unknown")
     before = len(faults)

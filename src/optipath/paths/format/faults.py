@@ -21,6 +21,20 @@ class Faults(list[str]):
     ) -> T | None:
         """Return what an action gives, or None after keeping its faults.
 
+        Parameters
+        ----------
+        where : str
+            The place in the file.
+        action : callable
+            What may raise an `OptipathError`.
+        *arguments, **keywords : Any
+            What it is called with.
+
+        Returns
+        -------
+        Any
+            What it returns.
+
         Examples
         --------
         >>> from optipath.values.units import dimension_of
