@@ -6,7 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from optipath.composer.builder import rebuilt
-from optipath.composer.entries import number_of, vanishes
+from optipath.composer.entries import vanishes
 from optipath.elements.coupling import Operation, ResultOf
 
 if TYPE_CHECKING:
@@ -48,8 +48,8 @@ def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
 
 
 def _vanishes(argument: Operand | ResultOf) -> bool:
-    return number_of(argument) == 0.0 if type(argument) is ResultOf else vanishes(argument)
+    return not isinstance(argument, ResultOf) and vanishes(argument)
 
 
 def _span(argument: Operand | ResultOf) -> tuple[float, float]:
-    return (-inf, inf) if type(argument) is ResultOf else argument.span
+    return (-inf, inf) if isinstance(argument, ResultOf) else argument.span

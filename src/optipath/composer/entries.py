@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.elements.coupling import ResultOf
 from optipath.engines.formulas import Symbol
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic import SYMBOLIC
@@ -17,7 +16,6 @@ from optipath.kernels import FLOAT, Kernel
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from optipath.elements.coupling import Operation
     from optipath.engines.program.program import Program
     from optipath.kernels import Primitives
     from optipath.values.operands import Operand
@@ -34,37 +32,66 @@ _Outline: TypeAlias = tuple[Kernel, tuple[Entry | Result, ...]]
 _UNKNOWN: Entries = ((None,) * 4,) * 4
 
 
-def number_of(argument: Operand | ResultOf) -> float | None:
-    """Return the one real number that an argument is known to be; None for all else."""
-    if type(argument) is ResultOf:
-        numbers = numbers_of(argument.operation)
-        return None if numbers is None else float(numbers[argument.place])
-    quickly = argument.known_float
+def number_of(operand: Operand) -> float | None:
+    """Return the one real number that an operand is known to be; None for all else."""
+    quickly = operand.known_float
     if quickly is not None:
         return quickly
-    if not argument.known or argument.traced or argument.part == "present":
+    if not operand.known or operand.traced or operand.part == "present":
         return None
-    array = argument.numbers({})
-    return None if array.ndim or array.dtype.kind == "c" else float(array)
+    numbers = operand.numbers({})
+    return None if numbers.ndim or numbers.dtype.kind == "c" else float(numbers)
 
 
-def numbers_of(operation: Operation) -> tuple[float, ...] | None:
-    """Return what an operation comes to, if all that it is given are known numbers."""
-    numbers: list[float] = []
-    known: dict[int, tuple[float, ...] | None] = {}
-    for argument in operation.arguments:
-        if type(argument) is ResultOf:
-            inner = argument.operation
-            if id(inner) not in known:
-                known[id(inner)] = numbers_of(inner)
-            results = known[id(inner)]
-            number = None if results is None else results[argument.place]
-        else:
-            number = number_of(argument)
-        if number is None:
-            return None
-        numbers.append(number)
-    return _evaluated(operation.kernel, tuple(numbers))
+def vanishes(operand: Operand) -> bool:
+    """Tell whether an operand is known to be 0, for every path."""
+    if not operand.known or operand.traced:
+        return False
+    numbers = operand.numbers({})
+    # Of most arrays the first number tells.
+    return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
+
+
+def known_numbers(
+    program: Program,
+) -> tuple[list[float | None], list[tuple[float, ...] | None]]:
+    """Return the number of each operand, and those of each evaluation, as far as known."""
+    operands = [number_of(operand) for operand in program.operands]
+    found: list[tuple[float, ...] | None] = []
+    for evaluation in program.evaluations:
+        given: list[float | None] = []
+        for argument in evaluation.arguments:
+            if isinstance(argument, Result):
+                results = found[argument.evaluation]
+                given.append(None if results is None else results[argument.place])
+            else:
+                given.append(operands[argument])
+        found.append(None if None in given else _evaluated(evaluation.kernel, tuple(given)))
+    return operands, found
+
+
+def entries_of(program: Program) -> list[Entries]:
+    """Return what is known of the matrix of each evaluation, or of what it emits."""
+    numbers, evaluated = known_numbers(program)
+    # Which number it is seldom matters, but for 0 and 1.
+    known = [
+        (abs(number) if number in (0.0, 1.0) else None)
+        if number is not None
+        else (0.0 if operand.known and vanishes(operand) else None)
+        for operand, number in zip(program.operands, numbers, strict=True)
+    ]
+    found = []
+    for place, evaluation in enumerate(program.evaluations):
+        kernel, result = evaluation.kernel, evaluated[place]
+        try:
+            outlines = _outlines(program, place, known) if result is None else ()
+            rows = _rows(kernel, FLOAT, result) if result else _symbolic(outlines)
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            rows = _UNKNOWN if kernel.structure is not None else _UNKNOWN[:1]
+        if evaluation.presence is not None and kernel.structure is not None:
+            rows = _as_it_may_be_absent(rows)
+        found.append(rows)
+    return found
 
 
 @lru_cache(1024)
@@ -75,75 +102,23 @@ def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] 
         return None
 
 
-def entries_of(program: Program, evaluation: int) -> Entries:
-    """Return what is known of the matrix of an evaluation, or of what it emits.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    evaluation : int
-        Which of its evaluations.
-
-    Returns
-    -------
-    tuple of tuple
-        Numbers, and None for each that is not known.
-    """
-    operation = program.operations[evaluation]
-    kernel: Any = operation.kernel
-    numbers = numbers_of(operation)
-    try:
-        found = (
-            _symbolic(_outlined(operation)) if numbers is None else _rows(kernel, FLOAT, numbers)
-        )
-    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-        return _UNKNOWN if kernel.structure is not None else _UNKNOWN[:1]
-    if program.evaluations[evaluation].presence is None or kernel.structure is None:
-        return found
-    return tuple(
-        tuple(entry if entry == float(r == c) else None for c, entry in enumerate(row))
-        for r, row in enumerate(found)
-    )
-
-
-def _outlined(operation: Operation) -> tuple[_Outline, ...]:
-    """Return what is known of an operation, behind that of those whose results it is given."""
-    outlines: list[_Outline] = []
-    places: dict[int, int] = {}
-
-    def add(operation: Operation) -> int:
-        if id(operation) not in places:
-            given = [
-                Result(add(argument.operation), argument.place)
-                if type(argument) is ResultOf
-                else _zero_or_one(argument)
-                for argument in operation.arguments
-            ]
-            places[id(operation)] = len(outlines)
-            outlines.append((operation.kernel, tuple(given)))
-        return places[id(operation)]
-
-    add(operation)
-    return tuple(outlines)
-
-
-def _zero_or_one(operand: Operand) -> Entry:
-    """Return 0, 1 or None: which number it is seldom matters, but for these two."""
-    quickly = operand.known_float
-    if quickly is None and vanishes(operand):
-        return 0.0
-    number = quickly if quickly is not None else number_of(operand)
-    return abs(number) if number in (0.0, 1.0) else None
-
-
-def vanishes(operand: Operand) -> bool:
-    """Tell whether an operand is known to be 0, for every path."""
-    if not operand.known or operand.traced:
-        return False
-    numbers = operand.numbers({})
-    # Of most arrays the first number tells.
-    return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
+def _outlines(program: Program, place: int, known: Sequence[Entry]) -> tuple[_Outline, ...]:
+    """Return what is known of an evaluation, behind that of those whose results it is given."""
+    wanted = [place]
+    for index in wanted:
+        wanted += program.takes[index]
+    at = {index: order for order, index in enumerate(sorted(set(wanted)))}
+    found = []
+    for index in at:
+        evaluation = program.evaluations[index]
+        arguments = [
+            Result(at[argument.evaluation], argument.place)
+            if isinstance(argument, Result)
+            else known[argument]
+            for argument in evaluation.arguments
+        ]
+        found.append((evaluation.kernel, tuple(arguments)))
+    return tuple(found)
 
 
 @lru_cache(1024)
@@ -161,6 +136,14 @@ def _symbolic(outlines: tuple[_Outline, ...]) -> Entries:
         ]
         results.append(kernel.made_for(SYMBOLIC)(*arguments))
     return _rows(kernel, SYMBOLIC, results[-1])
+
+
+@lru_cache(1024)
+def _as_it_may_be_absent(rows: Entries) -> Entries:
+    return tuple(
+        tuple(entry if entry == float(r == c) else None for c, entry in enumerate(row))
+        for r, row in enumerate(rows)
+    )
 
 
 def _rows(kernel: Kernel, xp: Primitives, numbers: Sequence[Any]) -> Entries:

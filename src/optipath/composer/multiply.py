@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.chains import Item, along_chains, label_of
 from optipath.composer.constants import Constant, multiplied
-from optipath.composer.entries import numbers_of
+from optipath.composer.entries import known_numbers
 from optipath.elements.coupling import Operation
 from optipath.kernels import FULL
 from optipath.values.operands import Operand
@@ -38,20 +38,16 @@ def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, 
         What was multiplied, and what changes nothing.
     """
     known = {
-        id(operation): constant
-        for place, operation in enumerate(program.operations)
-        if program.evaluations[place].presence is None and (constant := _constant(operation))
+        id(program.operations[place]): Constant(evaluation.kernel.structure, numbers)
+        for place, numbers in enumerate(known_numbers(program)[1])
+        if numbers is not None
+        and (evaluation := program.evaluations[place]).presence is None
+        and evaluation.kernel.structure is not None
     }
     if not known:
         return program, []
     multiplying = _Multiplying(known, matrices=matrices)
     return along_chains(program, multiplying.done_to), multiplying.notes
-
-
-def _constant(operation: Operation) -> Constant | None:
-    structure = operation.kernel.structure  # type: ignore[union-attr]
-    numbers = None if structure is None else numbers_of(operation)
-    return None if numbers is None else Constant(structure, numbers)
 
 
 class _Multiplying:
