@@ -14,10 +14,7 @@ from optipath.engines.program.program import Result
 from optipath.kernels import FLOAT, Kernel
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from optipath.engines.program.program import Program
-    from optipath.kernels import Primitives
     from optipath.values.operands import Operand
 
 Entry: TypeAlias = float | None
@@ -25,9 +22,6 @@ Entry: TypeAlias = float | None
 
 Entries: TypeAlias = tuple[tuple[Entry, ...], ...]
 """Four rows of a matrix, or one row of what a source emits."""
-
-_Outline: TypeAlias = tuple[Kernel, tuple[Entry | Result, ...]]
-"""A kernel, and what is known of its arguments; results are those of outlines before it."""
 
 _UNKNOWN: Entries = ((None,) * 4,) * 4
 
@@ -73,24 +67,19 @@ def known_numbers(
 def entries_of(program: Program) -> list[Entries]:
     """Return what is known of the matrix of each evaluation, or of what it emits."""
     numbers, evaluated = known_numbers(program)
-    # Which number it is seldom matters, but for 0 and 1.
-    known = [
-        (abs(number) if number in (0.0, 1.0) else None)
-        if number is not None
-        else (0.0 if operand.known and vanishes(operand) else None)
-        for operand, number in zip(program.operands, numbers, strict=True)
-    ]
-    found = []
-    for place, evaluation in enumerate(program.evaluations):
-        kernel, result = evaluation.kernel, evaluated[place]
-        try:
-            outlines = _outlines(program, place, known) if result is None else ()
-            rows = _rows(kernel, FLOAT, result) if result else _symbolic(outlines)
-        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            rows = _UNKNOWN if kernel.structure is not None else _UNKNOWN[:1]
-        if evaluation.presence is not None and kernel.structure is not None:
-            rows = _as_it_may_be_absent(rows)
-        found.append(rows)
+    pairs = zip(program.operands, numbers, strict=True)
+    known = [0.0 if n is None and vanishes(o) else _zero_or_one(n) for o, n in pairs]
+    found: list[Entries] = []
+    for evaluation, result in zip(program.evaluations, evaluated, strict=True):
+        given = [
+            _zero_or_one(found[argument.evaluation][0][argument.place])
+            if isinstance(argument, Result)
+            else known[argument]
+            for argument in evaluation.arguments
+        ]
+        found.append(_entries(evaluation.kernel, result, tuple(given)))
+        if evaluation.presence is not None and evaluation.kernel.structure is not None:
+            found[-1] = _as_it_may_be_absent(found[-1])
     return found
 
 
@@ -102,40 +91,25 @@ def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] 
         return None
 
 
-def _outlines(program: Program, place: int, known: Sequence[Entry]) -> tuple[_Outline, ...]:
-    """Return what is known of an evaluation, behind that of those whose results it is given."""
-    wanted = [place]
-    for index in wanted:
-        wanted += program.takes[index]
-    at = {index: order for order, index in enumerate(sorted(set(wanted)))}
-    found = []
-    for index in at:
-        evaluation = program.evaluations[index]
-        arguments = [
-            Result(at[argument.evaluation], argument.place)
-            if isinstance(argument, Result)
-            else known[argument]
-            for argument in evaluation.arguments
-        ]
-        found.append((evaluation.kernel, tuple(arguments)))
-    return tuple(found)
+def _zero_or_one(number: Entry) -> Entry:
+    """Return 0, 1 or None: which number it is seldom matters, but for these two."""
+    return abs(number) if number in (0.0, 1.0) else None
 
 
 @lru_cache(1024)
-def _symbolic(outlines: tuple[_Outline, ...]) -> Entries:
+def _entries(kernel: Kernel, result: tuple[float, ...] | None, known: tuple[Entry, ...]) -> Entries:
+    structure, xp = kernel.structure, SYMBOLIC if result is None else FLOAT
     recorder = Recorder(np.dtype(np.float64))
-    results: list[Any] = []
-    for index, (kernel, known) in enumerate(outlines):
-        arguments = [
-            results[number.evaluation][number.place]
-            if isinstance(number, Result)
-            else recorder.input(f"{index}.{place}")
-            if number is None
-            else np.float64(number)
-            for place, number in enumerate(known)
-        ]
-        results.append(kernel.made_for(SYMBOLIC)(*arguments))
-    return _rows(kernel, SYMBOLIC, results[-1])
+    given = [
+        recorder.input(str(place)) if number is None else np.float64(number)
+        for place, number in enumerate(known)
+    ]
+    try:
+        numbers: Any = kernel.made_for(SYMBOLIC)(*given) if result is None else result
+        rows = (numbers,) if structure is None else structure.rows(xp, numbers)
+        return tuple([tuple(map(_known, row)) for row in rows])
+    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+        return _UNKNOWN if structure is not None else _UNKNOWN[:1]
 
 
 @lru_cache(1024)
@@ -144,12 +118,6 @@ def _as_it_may_be_absent(rows: Entries) -> Entries:
         tuple(entry if entry == float(r == c) else None for c, entry in enumerate(row))
         for r, row in enumerate(rows)
     )
-
-
-def _rows(kernel: Kernel, xp: Primitives, numbers: Sequence[Any]) -> Entries:
-    structure = kernel.structure
-    rows = (numbers,) if structure is None else structure.rows(xp, numbers)
-    return tuple([tuple(map(_known, row)) for row in rows])
 
 
 def _known(number: Any) -> Entry:

@@ -7,14 +7,13 @@ from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from optipath.composer.builder import rebuilt
+from optipath.composer.chains import Item, along_chains
 from optipath.composer.entries import entries_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from optipath.composer.entries import Entries
-    from optipath.elements.coupling import Operation
     from optipath.engines.program.program import Program
 
 
@@ -129,20 +128,20 @@ def left_out(program: Program) -> tuple[Program, list[str]]:
     notes : list of str
         Which steps were left out.
     """
-    live, notes = Live(program), []
-    operations: list[Operation | None] = []
-    for light, step in enumerate(program.steps):
-        operation = None if step.evaluation is None else program.operations[step.evaluation]
-        if operation is not None and live.does_nothing(light):
-            notes.append(
-                f"left out, since it changes nothing alive: {operation.kernel.name} at "
-                f"'{step.label}'"
-            )
-            operation = None
-        operations.append(operation)
-    if notes:
-        return rebuilt(program, operations), notes
-    return replace(program, live=live.components), []
+    live = Live(program)
+    idle = {light for light in range(len(program.steps)) if live.does_nothing(light)}
+    if not idle:
+        return replace(program, live=live.components), []
+    notes = []
+    for light in sorted(idle):
+        step = program.steps[light]
+        kernel = program.evaluations[step.evaluation or 0].kernel
+        notes.append(f"left out, since it changes nothing alive: {kernel.name} at '{step.label}'")
+
+    def rest(items: list[Item]) -> list[Item]:
+        return [item for item in items if item.light not in idle]
+
+    return along_chains(program, rest), notes
 
 
 def fewest_components(program: Program) -> tuple[Program, list[str]]:
