@@ -153,38 +153,3 @@ class Builder:
         if index == len(self.operands):
             self.operands.append(operand)
         return index
-
-
-def rebuilt(old: Program, operations: Sequence[Operation | None]) -> Program:
-    """Return a program with other operations in its steps.
-
-    Parameters
-    ----------
-    old : Program
-        The steps.
-    operations : sequence of Operation or None
-        What each step does; one without is left out, unless it adds lights up.
-
-    Returns
-    -------
-    Program
-        With the same ends.
-    """
-    builder = Builder()
-    moved: dict[int, int] = {}
-    for lights, loop in old.stretches():
-        moved |= builder.junctions_of(old, loop)
-        for light in lights:
-            if light in moved:
-                continue
-            step, operation = old.steps[light], operations[light]
-            inputs = tuple([moved[i] for i in step.inputs])
-            if step.evaluation is None:
-                moved[light] = builder.sum(step.label, inputs)
-            elif operation is None:
-                moved[light] = inputs[0]
-            else:
-                there = old.presence(step.evaluation)
-                moved[light] = builder.step(step.label, inputs, operation, there)
-        builder.close_like(old, loop, moved.__getitem__)
-    return builder.instead_of(old, moved.__getitem__)

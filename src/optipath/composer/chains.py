@@ -28,14 +28,21 @@ class Item(NamedTuple):
         What is done, with operands and results of operations as arguments.
     presence : Operand or None
         Where it is done at all; None for everywhere.
+    light : int
+        That which the step makes, or else the last of several as one.
+    once : bool
+        Whether light passes here once; what goes round keeps the digits that it is given,
+        since its sum may need all of them.
     """
 
     label: str
     operation: Operation
-    presence: Operand | None = None
+    presence: Operand | None
+    light: int
+    once: bool
 
 
-def along_chains(program: Program, change: Callable[[list[Item], bool], list[Item]]) -> Program:
+def along_chains(program: Program, change: Callable[[list[Item]], list[Item]]) -> Program:
     """Return a program in which each chain of steps is replaced by another one.
 
     Parameters
@@ -43,9 +50,7 @@ def along_chains(program: Program, change: Callable[[list[Item], bool], list[Ite
     program : Program
         The steps.
     change : callable
-        ``change(items, once)`` gives what is to be done in place of some items; light that
-        goes round, and so is not there `once`, keeps the digits that it is given, since its
-        sum may need all of them.
+        Gives what is to be done in place of some items.
 
     Returns
     -------
@@ -58,7 +63,7 @@ def along_chains(program: Program, change: Callable[[list[Item], bool], list[Ite
 class _Chains:
     """Goes along a program; a light that is used once waits for what becomes of it."""
 
-    def __init__(self, program: Program, change: Callable[[list[Item], bool], list[Item]]) -> None:
+    def __init__(self, program: Program, change: Callable[[list[Item]], list[Item]]) -> None:
         self.old = program
         self.change = change
         self.builder = Builder()
@@ -74,7 +79,7 @@ class _Chains:
             self._waiting |= {junction: (light, []) for junction, light in junctions.items()}
             for light in lights:
                 if light not in junctions:
-                    self._waiting[light] = self._of(self.old.steps[light])
+                    self._waiting[light] = self._of(light, self.old.steps[light])
             self.builder.close_like(self.old, loop, self._settled)
         return self.builder.instead_of(self.old, self._settled)
 
@@ -85,18 +90,19 @@ class _Chains:
                 if source < loop.start:
                     self._settled(source)
 
-    def _of(self, step: Step) -> tuple[int, list[Item]]:
+    def _of(self, light: int, step: Step) -> tuple[int, list[Item]]:
         if step.evaluation is None:
             return self.builder.sum(step.label, [self._settled(i) for i in step.inputs]), []
         operation = self.old.operations[step.evaluation]
         if not step.inputs:
             return self.builder.step(step.label, (), operation), []
-        item = Item(step.label, operation, self.old.presence(step.evaluation))
-        (light,) = step.inputs
-        base, items = self._waiting[light]
-        if self.old.light_uses[light] > 1 or not items:
-            return self._settled(light), [item]
-        del self._waiting[light]
+        there = self.old.presence(step.evaluation)
+        item = Item(step.label, operation, there, light, self._once)
+        (before,) = step.inputs
+        base, items = self._waiting[before]
+        if self.old.light_uses[before] > 1 or not items:
+            return self._settled(before), [item]
+        del self._waiting[before]
         items.append(item)
         return base, items
 
@@ -104,7 +110,7 @@ class _Chains:
         """Return the new light of an old one, its steps added."""
         base, items = self._waiting[light]
         if items:
-            for item in self.change(items, self._once):
+            for item in self.change(items):
                 base = self.builder.step(item.label, (base,), item.operation, item.presence)
             self._waiting[light] = base, []
         return base

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import inf
 from typing import TYPE_CHECKING
 
-from optipath.composer.builder import rebuilt
-from optipath.composer.entries import number_of, vanishes
+from optipath.composer.chains import Item, along_chains
+from optipath.composer.entries import vanishes
 from optipath.elements.coupling import Operation, ResultOf
 
 if TYPE_CHECKING:
@@ -29,27 +29,31 @@ def cheaper_kernels(program: Program) -> tuple[Program, list[str]]:
     notes : list of str
         Where a kernel is cheaper.
     """
-    cheaper: dict[int, Operation] = {}
-    for place, operation in enumerate(program.operations):
-        kernel, arguments = operation.kernel.specialised(operation.arguments, _vanishes)  # type: ignore[union-attr]
+    cheaper: dict[int | None, Operation] = {}
+    for place, evaluation in enumerate(program.evaluations):
+        given = program.operations[place].arguments
+        kernel, arguments = evaluation.kernel.specialised(given, _vanishes)
         kernel = kernel.never_less(arguments, _span)
-        if kernel is not operation.kernel:
+        if kernel is not evaluation.kernel:
             cheaper[place] = Operation(kernel, arguments)
     if not cheaper:
         return program, []
-    places = [step.evaluation for step in program.steps]
+
+    def cheapest(item: Item) -> Item:
+        place = program.steps[item.light].evaluation
+        return item._replace(operation=cheaper.get(place, item.operation))
+
     notes = [
-        f"cheaper at '{step.label}': {cheaper[place].kernel.name}"
-        for step, place in zip(program.steps, places, strict=True)
-        if place in cheaper
+        f"cheaper at '{step.label}': {cheaper[step.evaluation].kernel.name}"
+        for step in program.steps
+        if step.evaluation in cheaper
     ]
-    found = [None if p is None else cheaper.get(p, program.operations[p]) for p in places]
-    return rebuilt(program, found), notes
+    return along_chains(program, lambda items: list(map(cheapest, items))), notes
 
 
 def _vanishes(argument: Operand | ResultOf) -> bool:
-    return number_of(argument) == 0.0 if type(argument) is ResultOf else vanishes(argument)
+    return not isinstance(argument, ResultOf) and vanishes(argument)
 
 
 def _span(argument: Operand | ResultOf) -> tuple[float, float]:
-    return (-inf, inf) if type(argument) is ResultOf else argument.span
+    return (-inf, inf) if isinstance(argument, ResultOf) else argument.span

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.elements.coupling import ResultOf
 from optipath.engines.formulas import Symbol
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic import SYMBOLIC
@@ -15,11 +14,7 @@ from optipath.engines.program.program import Result
 from optipath.kernels import FLOAT, Kernel
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from optipath.elements.coupling import Operation
     from optipath.engines.program.program import Program
-    from optipath.kernels import Primitives
     from optipath.values.operands import Operand
 
 Entry: TypeAlias = float | None
@@ -28,113 +23,18 @@ Entry: TypeAlias = float | None
 Entries: TypeAlias = tuple[tuple[Entry, ...], ...]
 """Four rows of a matrix, or one row of what a source emits."""
 
-_Outline: TypeAlias = tuple[Kernel, tuple[Entry | Result, ...]]
-"""A kernel, and what is known of its arguments; results are those of outlines before it."""
-
 _UNKNOWN: Entries = ((None,) * 4,) * 4
 
 
-def number_of(argument: Operand | ResultOf) -> float | None:
-    """Return the one real number that an argument is known to be; None for all else."""
-    if type(argument) is ResultOf:
-        numbers = numbers_of(argument.operation)
-        return None if numbers is None else float(numbers[argument.place])
-    quickly = argument.known_float
+def number_of(operand: Operand) -> float | None:
+    """Return the one real number that an operand is known to be; None for all else."""
+    quickly = operand.known_float
     if quickly is not None:
         return quickly
-    if not argument.known or argument.traced or argument.part == "present":
+    if not operand.known or operand.traced or operand.part == "present":
         return None
-    array = argument.numbers({})
-    return None if array.ndim or array.dtype.kind == "c" else float(array)
-
-
-def numbers_of(operation: Operation) -> tuple[float, ...] | None:
-    """Return what an operation comes to, if all that it is given are known numbers."""
-    numbers: list[float] = []
-    known: dict[int, tuple[float, ...] | None] = {}
-    for argument in operation.arguments:
-        if type(argument) is ResultOf:
-            inner = argument.operation
-            if id(inner) not in known:
-                known[id(inner)] = numbers_of(inner)
-            results = known[id(inner)]
-            number = None if results is None else results[argument.place]
-        else:
-            number = number_of(argument)
-        if number is None:
-            return None
-        numbers.append(number)
-    return _evaluated(operation.kernel, tuple(numbers))
-
-
-@lru_cache(1024)
-def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] | None:
-    try:
-        return tuple(map(float, kernel.made_for(FLOAT)(*numbers)))
-    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-        return None
-
-
-def entries_of(program: Program, evaluation: int) -> Entries:
-    """Return what is known of the matrix of an evaluation, or of what it emits.
-
-    Parameters
-    ----------
-    program : Program
-        The steps.
-    evaluation : int
-        Which of its evaluations.
-
-    Returns
-    -------
-    tuple of tuple
-        Numbers, and None for each that is not known.
-    """
-    operation = program.operations[evaluation]
-    kernel: Any = operation.kernel
-    numbers = numbers_of(operation)
-    try:
-        found = (
-            _symbolic(_outlined(operation)) if numbers is None else _rows(kernel, FLOAT, numbers)
-        )
-    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-        return _UNKNOWN if kernel.structure is not None else _UNKNOWN[:1]
-    if program.evaluations[evaluation].presence is None or kernel.structure is None:
-        return found
-    return tuple(
-        tuple(entry if entry == float(r == c) else None for c, entry in enumerate(row))
-        for r, row in enumerate(found)
-    )
-
-
-def _outlined(operation: Operation) -> tuple[_Outline, ...]:
-    """Return what is known of an operation, behind that of those whose results it is given."""
-    outlines: list[_Outline] = []
-    places: dict[int, int] = {}
-
-    def add(operation: Operation) -> int:
-        if id(operation) not in places:
-            given = [
-                Result(add(argument.operation), argument.place)
-                if type(argument) is ResultOf
-                else _zero_or_one(argument)
-                for argument in operation.arguments
-            ]
-            places[id(operation)] = len(outlines)
-            outlines.append((operation.kernel, tuple(given)))
-        return places[id(operation)]
-
-    add(operation)
-    return tuple(outlines)
-
-
-def _zero_or_one(operand: Operand) -> Entry:
-    """Return 0, 1 or None: which number it is seldom matters, but for these two."""
-    quickly = operand.known_float
-    if quickly is None and vanishes(operand):
-        return 0.0
-    number = quickly if quickly is not None else number_of(operand)
-    return abs(number) if number in (0.0, 1.0) else None
+    numbers = operand.numbers({})
+    return None if numbers.ndim or numbers.dtype.kind == "c" else float(numbers)
 
 
 def vanishes(operand: Operand) -> bool:
@@ -146,27 +46,78 @@ def vanishes(operand: Operand) -> bool:
     return not (numbers.size and numbers[(0,) * numbers.ndim]) and not np.any(numbers)
 
 
-@lru_cache(1024)
-def _symbolic(outlines: tuple[_Outline, ...]) -> Entries:
-    recorder = Recorder(np.dtype(np.float64))
-    results: list[Any] = []
-    for index, (kernel, known) in enumerate(outlines):
-        arguments = [
-            results[number.evaluation][number.place]
-            if isinstance(number, Result)
-            else recorder.input(f"{index}.{place}")
-            if number is None
-            else np.float64(number)
-            for place, number in enumerate(known)
+def known_numbers(
+    program: Program,
+) -> tuple[list[float | None], list[tuple[float, ...] | None]]:
+    """Return the number of each operand, and those of each evaluation, as far as known."""
+    operands = [number_of(operand) for operand in program.operands]
+    found: list[tuple[float, ...] | None] = []
+    for evaluation in program.evaluations:
+        given: list[float | None] = []
+        for argument in evaluation.arguments:
+            if isinstance(argument, Result):
+                results = found[argument.evaluation]
+                given.append(None if results is None else results[argument.place])
+            else:
+                given.append(operands[argument])
+        found.append(None if None in given else _evaluated(evaluation.kernel, tuple(given)))
+    return operands, found
+
+
+def entries_of(program: Program) -> list[Entries]:
+    """Return what is known of the matrix of each evaluation, or of what it emits."""
+    numbers, evaluated = known_numbers(program)
+    pairs = zip(program.operands, numbers, strict=True)
+    known = [0.0 if n is None and vanishes(o) else _zero_or_one(n) for o, n in pairs]
+    found: list[Entries] = []
+    for evaluation, result in zip(program.evaluations, evaluated, strict=True):
+        given = [
+            _zero_or_one(found[argument.evaluation][0][argument.place])
+            if isinstance(argument, Result)
+            else known[argument]
+            for argument in evaluation.arguments
         ]
-        results.append(kernel.made_for(SYMBOLIC)(*arguments))
-    return _rows(kernel, SYMBOLIC, results[-1])
+        found.append(_entries(evaluation.kernel, result, tuple(given)))
+        if evaluation.presence is not None and evaluation.kernel.structure is not None:
+            found[-1] = _as_it_may_be_absent(found[-1])
+    return found
 
 
-def _rows(kernel: Kernel, xp: Primitives, numbers: Sequence[Any]) -> Entries:
-    structure = kernel.structure
-    rows = (numbers,) if structure is None else structure.rows(xp, numbers)
-    return tuple([tuple(map(_known, row)) for row in rows])
+@lru_cache(1024)
+def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] | None:
+    try:
+        return tuple(map(float, kernel.made_for(FLOAT)(*numbers)))
+    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+        return None
+
+
+def _zero_or_one(number: Entry) -> Entry:
+    """Return 0, 1 or None: which number it is seldom matters, but for these two."""
+    return abs(number) if number in (0.0, 1.0) else None
+
+
+@lru_cache(1024)
+def _entries(kernel: Kernel, result: tuple[float, ...] | None, known: tuple[Entry, ...]) -> Entries:
+    structure, xp = kernel.structure, SYMBOLIC if result is None else FLOAT
+    recorder = Recorder(np.dtype(np.float64))
+    given = [
+        recorder.input(str(place)) if number is None else np.float64(number)
+        for place, number in enumerate(known)
+    ]
+    try:
+        numbers: Any = kernel.made_for(SYMBOLIC)(*given) if result is None else result
+        rows = (numbers,) if structure is None else structure.rows(xp, numbers)
+        return tuple([tuple(map(_known, row)) for row in rows])
+    except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+        return _UNKNOWN if structure is not None else _UNKNOWN[:1]
+
+
+@lru_cache(1024)
+def _as_it_may_be_absent(rows: Entries) -> Entries:
+    return tuple(
+        tuple(entry if entry == float(r == c) else None for c, entry in enumerate(row))
+        for r, row in enumerate(rows)
+    )
 
 
 def _known(number: Any) -> Entry:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from optipath.composer.builder import rebuilt
+from optipath.composer.chains import Item, along_chains
 from optipath.composer.entries import entries_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable
 
     from optipath.composer.entries import Entries
-    from optipath.elements.coupling import Operation
     from optipath.engines.program.program import Program
 
 
@@ -35,12 +35,17 @@ class Live:
 
     def __init__(self, program: Program) -> None:
         self.program = program
-        known = [entries_of(program, place) for place in range(len(program.evaluations))]
-        self.entries: list[Entries | None] = [
-            None if step.evaluation is None else known[step.evaluation] for step in program.steps
-        ]
-        self.reached = self._forward()
-        self.needed = self._backward()
+        known = entries_of(program)
+        # What adds lights up, and does nothing to them, is known as such.
+        places = [step.evaluation for step in program.steps]
+        self.entries = [_IDENTITY if place is None else known[place] for place in places]
+        self.sources = [_sources(entries) for entries in self.entries]
+        self.reached: list[set[int]] = [set() for _ in program.steps]
+        self.needed: list[set[int]] = [set() for _ in program.steps]
+        _until_settled(range(len(places)), self._forward)
+        for reading in program.readings.values():
+            self.needed[reading.light] |= set(range(reading.components))
+        _until_settled(reversed(range(len(places))), self._backward)
 
     @property
     def components(self) -> tuple[tuple[int, ...], ...]:
@@ -50,74 +55,62 @@ class Live:
 
     def does_nothing(self, light: int) -> bool:
         """Tell whether a step leaves everything as it is that is alive."""
-        rows, step = self.entries[light], self.program.steps[light]
-        if rows is None or not step.inputs:
+        step, needed = self.program.steps[light], self.needed[light] | {0}
+        if step.evaluation is None or not step.inputs:
             return False
-        (before,) = step.inputs
-        return all(
-            rows[row][column] == float(row == column)
-            for row in self.needed[light] | {0}
-            for column in self.reached[before]
-        )
+        reached = self.reached[step.inputs[0]]
+        changed = _changed(self.entries[light])
+        return not [1 for row, column in changed if row in needed and column in reached]
 
-    def _forward(self) -> list[set[int]]:
-        steps, used_by = self.program.steps, self.program.used_by
-        reached: list[set[int]] = [set() for _ in steps]
-        waiting = _Waiting(range(len(steps)))
-        for light in waiting:
-            arriving = set().union(*(reached[source] for source in steps[light].inputs))
-            found = _sent(self.entries[light], arriving, emits=not steps[light].inputs)
-            if not found <= reached[light]:
-                reached[light] |= found
-                waiting.add(used_by[light])
-        return reached
+    def _forward(self, light: int) -> Iterable[int]:
+        inputs, sources = self.program.steps[light].inputs, self.sources[light]
+        arriving = set().union(*[self.reached[before] for before in inputs]) if inputs else _ALL
+        found = {row for row, columns in enumerate(sources) if columns & arriving}
+        if found <= self.reached[light]:
+            return ()
+        self.reached[light] |= found
+        return self.program.used_by[light]
 
-    def _backward(self) -> list[set[int]]:
-        steps = self.program.steps
-        needed: list[set[int]] = [set() for _ in steps]
-        for reading in self.program.readings.values():
-            needed[reading.light] |= set(range(reading.components))
-        waiting = _Waiting(reversed(range(len(steps))))
-        for light in waiting:
-            rows, asked = self.entries[light], needed[light]
-            found = asked
-            if rows is not None and steps[light].inputs:
-                found = {j for j in range(4) if any(rows[i][j] != 0.0 for i in asked)}
-            for before in steps[light].inputs:
-                if not found <= needed[before]:
-                    needed[before] |= found
-                    waiting.add((before,))
-        return needed
+    def _backward(self, light: int) -> Iterable[int]:
+        sources = self.sources[light]
+        asked = set().union(*[sources[row] for row in self.needed[light]])
+        before = [i for i in self.program.steps[light].inputs if not asked <= self.needed[i]]
+        for source in before:
+            self.needed[source] |= asked
+        return before
 
 
-def _sent(rows: Entries | None, arriving: set[int], *, emits: bool) -> set[int]:
-    """Return the components that a step makes of those that arrive."""
-    if rows is None:
-        return arriving
-    if emits:
-        return {i for i, entry in enumerate(rows[0]) if entry != 0.0}
-    return {i for i in range(4) if any(rows[i][j] != 0.0 for j in arriving)}
+_ALL = frozenset(range(4))
+_IDENTITY: Entries = tuple(tuple(float(row == column) for column in range(4)) for row in range(4))
 
 
-class _Waiting:
-    """Lights to be looked at, once each, and again where others that they hang on have changed."""
+@lru_cache(1024)
+def _sources(entries: Entries) -> tuple[frozenset[int], ...]:
+    """Return of which components each component is made."""
+    if len(entries) == 1:
+        # What a source emits is made of nothing that arrives, and there if it is not 0.
+        return tuple(_ALL if entry != 0.0 else frozenset() for entry in entries[0])
+    return tuple(frozenset(j for j, entry in enumerate(row) if entry != 0.0) for row in entries)
 
-    def __init__(self, lights: Iterable[int]) -> None:
-        self._lights = deque(lights)
-        self._there = set(self._lights)
 
-    def add(self, lights: Iterable[int]) -> None:
-        """Let some wait that do not yet."""
-        for light in lights:
-            if light not in self._there:
-                self._there.add(light)
-                self._lights.append(light)
+@lru_cache(1024)
+def _changed(entries: Entries) -> tuple[tuple[int, int], ...]:
+    """Return which entries are not, or may not be, those of a step that does nothing."""
+    places = ((row, column) for row in range(4) for column in range(4))
+    return tuple((r, c) for r, c in places if entries[r][c] != _IDENTITY[r][c])
 
-    def __iter__(self) -> Iterator[int]:
-        while self._lights:
-            light = self._lights.popleft()
-            self._there.discard(light)
-            yield light
+
+def _until_settled(lights: Iterable[int], look: Callable[[int], Iterable[int]]) -> None:
+    """Look at lights, and again at those for which the look at another one asks."""
+    waiting = deque(lights)
+    there = set(waiting)
+    while waiting:
+        light = waiting.popleft()
+        there.discard(light)
+        for other in look(light):
+            if other not in there:
+                there.add(other)
+                waiting.append(other)
 
 
 def left_out(program: Program) -> tuple[Program, list[str]]:
@@ -135,20 +128,20 @@ def left_out(program: Program) -> tuple[Program, list[str]]:
     notes : list of str
         Which steps were left out.
     """
-    live, notes = Live(program), []
-    operations: list[Operation | None] = []
-    for light, step in enumerate(program.steps):
-        operation = None if step.evaluation is None else program.operations[step.evaluation]
-        if operation is not None and live.does_nothing(light):
-            notes.append(
-                f"left out, since it changes nothing alive: {operation.kernel.name} at "
-                f"'{step.label}'"
-            )
-            operation = None
-        operations.append(operation)
-    if notes:
-        return rebuilt(program, operations), notes
-    return replace(program, live=live.components), []
+    live = Live(program)
+    idle = {light for light in range(len(program.steps)) if live.does_nothing(light)}
+    if not idle:
+        return replace(program, live=live.components), []
+    notes = []
+    for light in sorted(idle):
+        step = program.steps[light]
+        kernel = program.evaluations[step.evaluation or 0].kernel
+        notes.append(f"left out, since it changes nothing alive: {kernel.name} at '{step.label}'")
+
+    def rest(items: list[Item]) -> list[Item]:
+        return [item for item in items if item.light not in idle]
+
+    return along_chains(program, rest), notes
 
 
 def fewest_components(program: Program) -> tuple[Program, list[str]]:

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 _FEW = 8
 
+_UNIT = Frame()
+
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
 
@@ -208,7 +210,7 @@ class _Lowering:
     def _frame_behind(self, name: str, port: str) -> Frame | VertexFrame:
         """Return the frame in which light leaves an element; the unit frame if none is known."""
         found = frame_at(self.wiring, name, port) or vertex_frame(self.wiring, name, port)
-        return found or Frame()
+        return found or _UNIT
 
     def _reading_frame(self, name: str, port: str) -> Frame | VertexFrame:
         own = frame_at(self.wiring, name, port)
@@ -219,7 +221,7 @@ class _Lowering:
         placed = next((frame for frame in arriving if frame is not None), None)
         found = placed or vertex_frame(self.wiring, name, port)
         if found or len(links) > 1 or alignment(self.wiring, links[0]) is not None:
-            return found or Frame()
+            return found or _UNIT
         start, _, (leaves, _) = links[0]
         return self._frame_behind(start, leaves)
 

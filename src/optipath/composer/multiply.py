@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.chains import Item, along_chains, label_of
 from optipath.composer.constants import Constant, multiplied
-from optipath.composer.entries import numbers_of
+from optipath.composer.entries import known_numbers
 from optipath.elements.coupling import Operation
 from optipath.kernels import FULL
 from optipath.values.operands import Operand
@@ -37,52 +37,50 @@ def multiplied_constants(program: Program, *, matrices: bool) -> tuple[Program, 
     notes : list of str
         What was multiplied, and what changes nothing.
     """
-    known = {
-        id(operation): constant
-        for place, operation in enumerate(program.operations)
-        if program.evaluations[place].presence is None and (constant := _constant(operation))
+    known: dict[int | None, Constant] = {
+        place: Constant(evaluation.kernel.structure, numbers)
+        for place, numbers in enumerate(known_numbers(program)[1])
+        if numbers is not None
+        and (evaluation := program.evaluations[place]).presence is None
+        and evaluation.kernel.structure is not None
     }
     if not known:
         return program, []
-    multiplying = _Multiplying(known, matrices=matrices)
+    multiplying = _Multiplying(
+        [known.get(step.evaluation) for step in program.steps], matrices=matrices
+    )
     return along_chains(program, multiplying.done_to), multiplying.notes
-
-
-def _constant(operation: Operation) -> Constant | None:
-    structure = operation.kernel.structure  # type: ignore[union-attr]
-    numbers = None if structure is None else numbers_of(operation)
-    return None if numbers is None else Constant(structure, numbers)
 
 
 class _Multiplying:
     """Multiplies the constants of chains, and notes which."""
 
-    def __init__(self, known: dict[int, Constant], *, matrices: bool) -> None:
+    def __init__(self, known: Sequence[Constant | None], *, matrices: bool) -> None:
         self.known = known
         self.matrices = matrices
         self.notes: list[str] = []
 
-    def done_to(self, items: list[Item], once: bool) -> list[Item]:  # noqa: FBT001
+    def done_to(self, items: list[Item]) -> list[Item]:
         found: list[Item] = []
         run: list[tuple[Item, Constant]] = []
         for item in items:
-            constant = self.known.get(id(item.operation))
+            constant = self.known[item.light]
             if constant is None:
-                found += self._as_one(run, once=once)
+                found += self._as_one(run)
                 run = []
                 found.append(item)
             elif constant.is_identity:
                 self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
-            elif run and once and (both := run[-1][1].then(constant)):
+            elif run and item.once and (both := run[-1][1].then(constant)):
                 run[-1] = self._joined([run[-1][0], item], both), both
             else:
                 run.append((item, constant))
-        return found + self._as_one(run, once=once)
+        return found + self._as_one(run)
 
-    def _as_one(self, run: Sequence[tuple[Item, Constant]], *, once: bool) -> list[Item]:
+    def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
         items = [item for item, _ in run]
-        if not (self.matrices and once and len(run) > 1):
+        if not (self.matrices and len(run) > 1 and items[0].once):
             return items
         constants = [constant for _, constant in run]
         cost = sum(constant.cost for constant in constants)
@@ -108,4 +106,4 @@ class _Multiplying:
         names = [f"{item.operation.kernel.name} at '{item.label}'" for item in items]
         self.notes.append(f"constant, and multiplied: {' and '.join(names)}")
         operation = Operation(constant.kernel, tuple(map(Operand, constant.numbers)))
-        return Item(label_of(items), operation)
+        return items[-1]._replace(label=label_of(items), operation=operation)

@@ -108,7 +108,8 @@ class Values:
             if not isinstance(use.value, Parameter):
                 continue
             name = use.value.name
-            if not use.value.same_specification(self.parameters[name]):
+            known = self.parameters[name]
+            if use.value is not known and not use.value.same_specification(known):
                 yield (
                     f"parameter '{name}' at {use.owner} differs from the one of that name "
                     f"elsewhere; use one Parameter, or two names"

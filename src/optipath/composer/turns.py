@@ -36,14 +36,14 @@ def joined_turns(program: Program, *, sums: bool) -> tuple[Program, list[str]]:
     """
     notes: list[str] = []
 
-    def joined(items: list[Item], once: bool) -> list[Item]:  # noqa: FBT001
+    def joined(items: list[Item]) -> list[Item]:
         found: list[Item] = []
         for item in items:
             turns = found and _is_turn(item) and _is_turn(found[-1])
             if turns and len(found[-1].operation.arguments) < _MOST:
                 names = dict.fromkeys(f"'{turn.label}'" for turn in (found[-1], item))
                 notes.append(f"the turns at {' and '.join(names)} are one")
-                found[-1:] = _as_one(found[-1], item, sums=sums and once)
+                found[-1:] = _as_one(found[-1], item, sums=sums and item.once)
             else:
                 found.append(item)
         return found
@@ -81,7 +81,8 @@ def _as_one(first: Item, second: Item, *, sums: bool) -> list[Item]:
             left.append(angle)
     if known:
         left.append(Operand(known))
-    return [Item(label_of([first, second]), Operation(TURN, tuple(left)))] if left else []
+    whole = second._replace(label=label_of([first, second]), operation=Operation(TURN, tuple(left)))
+    return [whole] if left else []
 
 
 def _angles(item: Item) -> list[Operand]:
