@@ -16,7 +16,6 @@ LATER = {
     "engines",
     "plan",
     "composer",
-    "paths",
     "lab",
 }
 EXEMPT = {"property", "cached_property", "setter", "overload"}

@@ -93,7 +93,15 @@ class Operation:
 
 @dataclass(frozen=True, slots=True)
 class ResultOf:
-    """One of the numbers that an operation comes to."""
+    """One of the numbers that an operation comes to.
+
+    Attributes
+    ----------
+    operation : Operation
+        The operation.
+    place : int
+        Which of its numbers, from 0.
+    """
 
     operation: Operation
     place: int

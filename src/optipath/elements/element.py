@@ -6,17 +6,14 @@ from dataclasses import MISSING, dataclass, fields
 from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
+from optipath.elements.alone import faults_of, mueller_alone
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.fields import domains_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
-from optipath.errors import PathError, ValueFault, shown
-from optipath.kernels import REFLECTION, Kernel
-from optipath.light.frames import Frame
-from optipath.light.mueller import Mueller
-from optipath.values.arrays.memory import enough_for
-from optipath.values.arrays.shapes import broadcast_fault, joint_shape
+from optipath.errors import PathError
+from optipath.kernels import Kernel  # noqa: TC001 - annotations of fields are read when it runs
 from optipath.values.domains import Domain, in_unit_of
 from optipath.values.inputs import Use
 from optipath.values.parameters import Parameter
@@ -25,9 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.elements.vertices import VertexFrame
-
-_TWO_MATRICES = 256
-"""How many bytes a matrix and what it is made of have."""
+    from optipath.light.frames import Frame
+    from optipath.light.mueller import Mueller
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
@@ -130,7 +126,20 @@ class Element:
         return {}
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
-        """Return the numbers that must be something besides, where a link leads to a port."""
+        """Return the numbers that must be something besides, where a link leads to a port.
+
+        Parameters
+        ----------
+        owner : str
+            What sentences call the element.
+        port : str
+            The in-port that the link leads to.
+
+        Returns
+        -------
+        list of Use
+            One for each number.
+        """
         return [
             Use(f"{owner}.{name}", value, domain)
             for field, limits in self.domains_entered(port).items()
@@ -143,19 +152,46 @@ class Element:
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""
-        return _faults(self._uses(owner))
+        return faults_of(self.uses(owner))
 
-    def _uses(self, owner: str) -> list[Use]:
+    def uses(self, owner: str) -> list[Use]:
+        """Return the numbers that the values are made of, each with what it must be."""
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
-        """Return the world frame of a port: its own, or what follows from those of others."""
+        """Return the world frame of a port: its own, or what follows from those of others.
+
+        Parameters
+        ----------
+        port : str
+            The port.
+        frames : mapping of str to Frame
+            The world frames that ports have been given.
+
+        Returns
+        -------
+        Frame or None
+            None where it is not known.
+        """
         if port not in frames and self.straight:
             return next(iter(frames.values()), None)
         return frames.get(port)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Return what is wrong with the world frames of the ports, a sentence each."""
+        """Return what is wrong with the world frames of the ports, a sentence each.
+
+        Parameters
+        ----------
+        owner : str
+            What sentences call the element.
+        frames : mapping of str to Frame
+            The world frames that ports have been given.
+
+        Returns
+        -------
+        list of str
+            Empty where they fit together.
+        """
         if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
@@ -235,6 +271,11 @@ class Element:
             The world frames of the two ports, for an element that stands in space; one
             will do where light goes straight through.
 
+        Returns
+        -------
+        Mueller
+            Between these frames, or those that the element has by its values.
+
         Raises
         ------
         PathError
@@ -247,46 +288,7 @@ class Element:
         >>> Attenuator(0.5).mueller().matrix.diagonal()
         array([0.5, 0.5, 0.5, 0.5])
         """
-        REFLECTION.by_method(method)
-        owner = self.kind or type(self).__name__
-        for port in (enters, leaves):
-            if not isinstance(port, str):
-                raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
-        leaves = leaves or self.natural
-        uses = self._uses(owner) + self.uses_entered(owner, enters)
-        open_ones = [
-            f"parameter '{use.value.name}' of {owner} has no value yet"
-            for use in uses
-            if use.is_open
-        ]
-        shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
-        for given in (frame_in, frame_out):
-            if given is not None and not isinstance(given, Frame):
-                raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
-        if frame_in is not None and self.straight:
-            frame_out = frame_out or frame_in
-        frames = {
-            port: frame
-            for port, frame in ((enters, frame_in), (leaves, frame_out))
-            if frame is not None
-        }
-        faults = list(dict.fromkeys(_faults(uses) + open_ones))
-        faults = faults or broadcast_fault(shapes) or self.frame_faults(owner, frames)
-        if faults:
-            raise PathError(*faults)
-        batch = joint_shape(*shapes.values())
-        for coupling in self.couplings():
-            if (coupling.enters, coupling.leaves) == (enters, leaves):
-                with enough_for(batch, _TWO_MATRICES, error=PathError):
-                    matrix = coupling.matrix(method)
-                frame_in = frame_in or self._known_frame(enters)
-                return Mueller(matrix, frame_in, frame_out or self._known_frame(leaves))
-        ways = [f"{c.enters} -> {c.leaves}" for c in self.couplings() if c.enters]
-        raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
-
-    def _known_frame(self, port: str) -> Frame:
-        own = self.own_frame(port)
-        return Frame() if own is None else own.frame({})
+        return mueller_alone(self, enters, leaves, method, (frame_in, frame_out))
 
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
@@ -297,16 +299,6 @@ class Element:
         )
 
     __hash__ = None  # type: ignore[assignment]
-
-
-def _faults(uses: list[Use]) -> list[str]:
-    found: list[str] = []
-    for use in uses:
-        try:
-            use.check()
-        except ValueFault as fault:
-            found += fault.faults
-    return found
 
 
 def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:

@@ -1,0 +1,98 @@
+"""What an element does to light by itself, without a path around it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from optipath.errors import PathError, ValueFault, shown
+from optipath.kernels import REFLECTION
+from optipath.light.frames import Frame
+from optipath.light.mueller import Mueller
+from optipath.values.arrays.memory import enough_for
+from optipath.values.arrays.shapes import broadcast_fault, joint_shape
+
+if TYPE_CHECKING:
+    from optipath.elements.element import Element
+    from optipath.values.inputs import Use
+
+_TWO_MATRICES = 256
+"""How many bytes a matrix and what it is made of have."""
+
+
+def mueller_alone(
+    element: Element,
+    enters: str,
+    leaves: str,
+    method: str,
+    placed: tuple[Frame | None, Frame | None],
+) -> Mueller:
+    """Return the Mueller matrix of an element.
+
+    Parameters
+    ----------
+    element : Element
+        The element, all of whose values are known.
+    enters, leaves : str
+        The ports; an empty out-port is the natural one.
+    method : str
+        How Fresnel's equations are computed.
+    placed : tuple of Frame or None
+        The world frames of the two ports, where they are given.
+
+    Returns
+    -------
+    Mueller
+        Between the two frames, or those that the element has by its values.
+
+    Raises
+    ------
+    PathError
+        With all faults at once.
+    """
+    REFLECTION.by_method(method)
+    owner, (frame_in, frame_out) = element.kind or type(element).__name__, placed
+    for port in (enters, leaves):
+        if not isinstance(port, str):
+            raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
+    leaves = leaves or element.natural
+    uses = element.uses(owner) + element.uses_entered(owner, enters)
+    open_ones = [
+        f"parameter '{use.value.name}' of {owner} has no value yet" for use in uses if use.is_open
+    ]
+    shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
+    for given in placed:
+        if given is not None and not isinstance(given, Frame):
+            raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
+    if frame_in is not None and element.straight:
+        frame_out = frame_out or frame_in
+    pairs = ((enters, frame_in), (leaves, frame_out))
+    frames = {port: frame for port, frame in pairs if frame is not None}
+    faults = list(dict.fromkeys(faults_of(uses) + open_ones))
+    faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
+    if faults:
+        raise PathError(*faults)
+    batch = joint_shape(*shapes.values())
+    for coupling in element.couplings():
+        if (coupling.enters, coupling.leaves) == (enters, leaves):
+            with enough_for(batch, _TWO_MATRICES, error=PathError):
+                matrix = coupling.matrix(method)
+            frame_in = frame_in or _own_frame(element, enters)
+            return Mueller(matrix, frame_in, frame_out or _own_frame(element, leaves))
+    ways = [f"{c.enters} -> {c.leaves}" for c in element.couplings() if c.enters]
+    raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
+
+
+def faults_of(uses: list[Use]) -> list[str]:
+    """Return what is wrong with the numbers that are known already, a sentence each."""
+    found: list[str] = []
+    for use in uses:
+        try:
+            use.check()
+        except ValueFault as fault:
+            found += fault.faults
+    return found
+
+
+def _own_frame(element: Element, port: str) -> Frame:
+    own = element.own_frame(port)
+    return Frame() if own is None else own.frame({})
