@@ -11,8 +11,6 @@ import optipath as op
 
 SOURCE = Path(op.__file__).parent
 LATER = {
-    "values",
-    "elements",
     "engines",
     "plan",
     "composer",

@@ -111,7 +111,6 @@ class SpecularVertex(Element, kind="specular-vertex"):
         )
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Check that the chain has this vertex, and that no other frames are given."""
         found = []
         if frames:
             found.append(f"'{owner}' has its frames from its vertices; give it no other frames")

@@ -56,6 +56,20 @@ class InputKey(NamedTuple):
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
     """Return a part of numbers, as `Operand` names them.
 
+    Parameters
+    ----------
+    numbers : array_like, shape (..., *tail)
+        The numbers of a value.
+    part : str or int
+        ``"value"`` for all, ``"real"``, ``"imag"``, or an index into the flattened tail.
+    tail : tuple of int
+        The axes of one value, behind the batch.
+
+    Returns
+    -------
+    array_like, shape (...)
+        The part of each.
+
     Examples
     --------
     >>> part_of(np.array([[1.0, 2.0], [3.0, 4.0]]), 2, (2, 2))
