@@ -93,7 +93,15 @@ class Operation:
 
 @dataclass(frozen=True, slots=True)
 class ResultOf:
-    """One of the numbers that an operation comes to."""
+    """One of the numbers that an operation comes to.
+
+    Attributes
+    ----------
+    operation : Operation
+        What is computed.
+    place : int
+        Which of its numbers.
+    """
 
     operation: Operation
     place: int

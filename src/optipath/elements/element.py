@@ -130,7 +130,19 @@ class Element:
         return {}
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
-        """Return the numbers that must be something besides, where a link leads to a port."""
+        """Return the numbers that must be something besides, where a link leads to a port.
+
+        Parameters
+        ----------
+        owner : str
+            The name of the element in its path.
+        port : str
+            The in-port.
+
+        Returns
+        -------
+        list of Use
+        """
         return [
             Use(f"{owner}.{name}", value, domain)
             for field, limits in self.domains_entered(port).items()
@@ -149,13 +161,39 @@ class Element:
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
-        """Return the world frame of a port: its own, or what follows from those of others."""
+        """Return the world frame of a port: its own, or what follows from those of others.
+
+        Parameters
+        ----------
+        port : str
+            Any of its ports.
+        frames : mapping of str to Frame
+            Those that are given, by port.
+
+        Returns
+        -------
+        Frame or None
+            None where it is not known.
+        """
         if port not in frames and self.straight:
             return next(iter(frames.values()), None)
         return frames.get(port)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        """Return what is wrong with the world frames of the ports, a sentence each."""
+        """Return what is wrong with the world frames of the ports.
+
+        Parameters
+        ----------
+        owner : str
+            The name of the element in its path.
+        frames : mapping of str to Frame
+            Those that are given, by port.
+
+        Returns
+        -------
+        list of str
+            A sentence each.
+        """
         if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
@@ -234,6 +272,10 @@ class Element:
         frame_in, frame_out : Frame, optional
             The world frames of the two ports, for an element that stands in space; one
             will do where light goes straight through.
+
+        Returns
+        -------
+        Mueller
 
         Raises
         ------
