@@ -16,6 +16,7 @@ from contextvars import ContextVar
 from copyreg import __newobj__  # type: ignore[attr-defined]
 from difflib import get_close_matches
 from numbers import Integral
+from operator import index
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any
 
@@ -202,6 +203,34 @@ def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
     return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
 
 
+def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
+    """Tell whether something is a whole number of any integer type, but no bool.
+
+    Parameters
+    ----------
+    number : object
+        What was given.
+    least, most : int or infinity, optional
+        Within what it must be.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> is_whole(2), is_whole(0), is_whole(True), is_whole(2.0), is_whole(2, most=1)
+    (True, False, False, False, False)
+    """
+    with suppress(TypeError):  # NumPy's durations are Integral, and index nothing
+        return (
+            isinstance(number, Integral)
+            and not isinstance(number, bool)
+            and least <= index(number) <= most
+        )
+    return False
+
+
 def whole_number(what: str, number: object, least: int = 1) -> list[str]:
     """Return the sentence for what is no whole number, or too small; none for one that serves.
 
@@ -222,10 +251,11 @@ def whole_number(what: str, number: object, least: int = 1) -> list[str]:
     >>> whole_number("threads", 1.5), whole_number("threads", 2)
     (['threads must be a whole number of 1 or more, not 1.5'], [])
     """
-    with suppress(TypeError):  # NumPy's durations are integers that no number is compared with
-        if isinstance(number, Integral) and not isinstance(number, bool) and int(number) >= least:
-            return []
-    return [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
+    return (
+        []
+        if is_whole(number, least)
+        else [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
+    )
 
 
 def listed(words: Sequence[str]) -> str:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain, is_count
+from optipath.elements.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain
+from optipath.errors import is_whole
 from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
 from optipath.values.arrays.read_only import same
 from optipath.values.domains import Index, OutsideIndex
@@ -101,7 +102,7 @@ class SpecularVertex(Element, kind="specular-vertex"):
     def fault_behind(self, before: Element) -> str:
         """Say which vertex light must come from, unless it comes from the one before this."""
         chain, place = getattr(before, "vertices", None), getattr(before, "place", None)
-        counted = is_count(self.place) and is_count(place)
+        counted = is_whole(self.place) and is_whole(place)
         if counted and place == self.place - 1 and same(self.vertices, chain):
             return ""
         wanted = self.place - 1 if isinstance(self.place, int) else "the one"

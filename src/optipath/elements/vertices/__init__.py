@@ -4,7 +4,7 @@ from optipath.elements.vertices.by_angles import VerticesByAngles, counted, vert
 from optipath.elements.vertices.coordinates import Coordinates, coordinates
 from optipath.elements.vertices.frame import VertexFrame
 from optipath.elements.vertices.normals import normal_faults
-from optipath.elements.vertices.place import PlaceInChain, is_count
+from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.vertex_domain import VERTICES, Vertices, VerticesDomain
 
 __all__ = [
@@ -17,7 +17,6 @@ __all__ = [
     "VerticesDomain",
     "coordinates",
     "counted",
-    "is_count",
     "normal_faults",
     "vertices_from_angles",
 ]

@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.coordinates import Coordinates, coordinates
-from optipath.errors import shown
+from optipath.errors import is_whole, shown
 from optipath.values.parameters import Parameter
 
-_MANY = 1 << 31
+_MOST = (1 << 31) - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +28,7 @@ class PlaceInChain:
 
     Examples
     --------
+    >>> import numpy as np
     >>> PlaceInChain(np.eye(3), 2, None).faults("mirror")
     ['mirror.place must be a whole number of 1 .. 1, not 2']
     """
@@ -43,7 +42,7 @@ class PlaceInChain:
         """How many reflections there are; 0 where nothing says so."""
         if isinstance(self.vertices, VerticesByAngles):
             return len(self.vertices.incidences)
-        if is_count(self.reflections):
+        if is_whole(self.reflections, most=_MOST):
             return int(self.reflections)
         value = self.vertices
         value = value.default if isinstance(value, Parameter) else value
@@ -66,7 +65,7 @@ class PlaceInChain:
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the numbers, a sentence each."""
         found = []
-        if self.reflections is not None and not is_count(self.reflections):
+        if self.reflections is not None and not is_whole(self.reflections, most=_MOST):
             found.append(
                 f"{owner}.reflections must be a whole number above 0, not {shown(self.reflections)}"
             )
@@ -75,7 +74,7 @@ class PlaceInChain:
                 f"{owner}.vertices is a parameter without a default; tell the number of "
                 f"reflections of the chain, reflections=..."
             )
-        if not is_count(self.number) or self.number > (self.count or np.inf):
+        if not is_whole(self.number, most=self.count or _MOST):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"
             given = "a parameter" if isinstance(self.number, Parameter) else shown(self.number)
             found.append(f"{owner}.place must be a whole number{up_to}, not {given}")
@@ -84,19 +83,8 @@ class PlaceInChain:
     @property
     def _number(self) -> int:
         # What is no place is told as a fault, and must not be in the way until then.
-        number = self.number if is_count(self.number) else 1
+        number = self.number if is_whole(self.number) else 1
         return min(number, max(self.count, 1))
 
     def _points(self, first: int) -> Coordinates:
         return coordinates(self.vertices, self.tail[0], first, self._number + 1)
-
-
-def is_count(value: Any) -> bool:
-    """Tell whether a value is a whole number above 0.
-
-    Examples
-    --------
-    >>> is_count(2), is_count(0), is_count(True), is_count(2.0)
-    (True, False, False, False)
-    """
-    return isinstance(value, int) and not isinstance(value, bool) and 0 < value < _MANY
