@@ -103,6 +103,22 @@ def test_the_file_of_a_preset_is_read_once(capsys, monkeypatch):
         assert len(read) == 1
 
 
+def test_one_run_calls_few_functions_of_the_library(capsys):
+    def note(frame, event, _):
+        calls.append(event == "call" and frame.f_code.co_filename.startswith(folder))
+
+    calls, folder = [], str(Path(op.__file__).parent)
+    command = ["run", "npgr026", "--delta", "48", "--json"]
+    run(capsys, *command)  # What is made once for all runs.
+    before = sys.getprofile()
+    sys.setprofile(note)
+    try:
+        main(command)
+    finally:
+        sys.setprofile(before)
+    assert sum(calls) < 8000
+
+
 def test_help_lists_every_parameter_with_its_help(capsys):
     status, out, _ = run(capsys, "run", "npgr026", "--help")
     assert status == 0

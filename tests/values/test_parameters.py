@@ -58,3 +58,29 @@ def test_a_complex_default_is_shown_as_it_is_read():
     parameter = op.Parameter("r", "-0.3+0.2j")
     assert parameter.default_text() == "-0.3+0.2j"
     assert parameter.parse(parameter.default_text()) == -0.3 + 0.2j
+
+
+@pytest.mark.parametrize("number", [-1.0, 0.0, 1.0, 1.0 + 2**-52, np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("limits", [(-1.0, 1.0), (-np.inf, 0.0), (-np.inf, np.inf)])
+def test_a_float_is_judged_as_an_array_of_it_is(number, limits):
+    parameter = op.Parameter("a", minimum=limits[0], maximum=limits[1])
+    if limits[0] <= number <= limits[1] and np.isfinite(number):
+        resolved = parameter.resolve(number)
+        assert resolved.value == parameter.resolve(np.array(number)).value == number
+        assert (resolved.value.shape, resolved.present.shape) == ((), ())
+        return
+    sentences = []
+    for given in (number, np.array(number)):
+        with pytest.raises(op.ParameterError) as error:
+            parameter.resolve(given)
+        sentences.append(str(error.value))
+    assert sentences[0] == sentences[1]
+
+
+def test_a_negative_parameter_differs_in_its_sign_alone():
+    words = {"up": 1.0}
+    parameter = op.Parameter("a", 0.5, "deg", -1.0, 1.0, help="a turn", words=words, optional=True)
+    assert (-parameter).negative
+    assert not parameter.negative
+    assert (-parameter).same_specification(parameter)
+    assert -parameter != parameter

@@ -126,7 +126,6 @@ chart = PresetGroup(
     options=(OUT, DATA, ENGINE),
     callback=_without_preset,
     params=[INTERFACE, REDRAW, OUT, DATA],
-    invoke_without_command=True,
     subcommand_metavar="[PRESET] [OPTIONS]",
     help="Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it.",
 )

@@ -100,28 +100,10 @@ class PresetGroup(click.Group):
         options: Sequence[click.Option] = (METHOD, MODEL, TOLERANCE, READS, JSON),
         **keywords: Any,
     ) -> None:
-        keywords.setdefault("subcommand_metavar", "PRESET [OPTIONS]")
-        super().__init__(name, **keywords)
+        usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
+        super().__init__(name, invoke_without_command=True, **{**usual, **keywords})
         self.action = action
         self.options = tuple(options)
-
-    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Refuse a command without a preset.
-
-        Parameters
-        ----------
-        ctx, args
-            As `click.Group` takes them.
-
-        Returns
-        -------
-        list of str
-            What is left of the arguments.
-        """
-        if not args and not ctx.resilient_parsing and not self.invoke_without_command:
-            names = ", ".join(preset_names())
-            raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
-        return super().parse_args(ctx, args)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the presets."""
@@ -185,6 +167,12 @@ class PresetGroup(click.Group):
         """
         name, command, rest = super().resolve_command(ctx, args)
         return printable(name or ""), command, rest
+
+
+def _refuse_none() -> None:
+    if click.get_current_context().invoked_subcommand is None:
+        names = ", ".join(preset_names())
+        raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
 
 
 def _chosen(

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
 
-_FLOATS = "floats"
-"""What runs one path: plain numbers of Python."""
 
 _ROWS = 20
 
@@ -70,9 +68,9 @@ class Outcome:
 
     @property
     def engine(self) -> str:
-        """What ran: plain floats for one path, and an engine for a batch."""
+        """What runs so many paths: plain floats where there is one."""
         batch = np.broadcast_shapes(*(light.intensity.shape for light in self.lights.values()))
-        return self.plan.engine_for(math.prod(batch)) if batch else _FLOATS
+        return self.plan.engine_for(math.prod(batch))
 
     @property
     def model(self) -> str:
