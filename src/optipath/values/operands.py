@@ -56,6 +56,19 @@ class InputKey(NamedTuple):
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
     """Return a part of numbers, as `Operand` names them.
 
+    Parameters
+    ----------
+    numbers : array_like
+        The whole.
+    part : str or int
+        Which part.
+    tail : tuple of int
+        Its axes behind the batch.
+
+    Returns
+    -------
+    array_like
+
     Examples
     --------
     >>> part_of(np.array([[1.0, 2.0], [3.0, 4.0]]), 2, (2, 2))
