@@ -3,6 +3,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import networkx as nx
+
 import optipath as op
 
 SOURCE = Path(op.__file__).parent
@@ -79,3 +81,33 @@ def test_importing_the_library_brings_no_extra_and_no_command_line():
     code = f"import sys, optipath; print([name for name in {names} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+def module_of(*parts):
+    """The file of a module, or of the package of that name; None where there is neither."""
+    place = SOURCE.joinpath(*parts)
+    found = (place.with_suffix(".py"), place / "__init__.py")
+    return next((file for file in found if file.is_file()), None)
+
+
+def modules_imported_by(file):
+    """The modules that a file takes names from, for its annotations too."""
+    for node in ast.walk(ast.parse(file.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath."):
+            parts = node.module.split(".")[1:]
+            for alias in node.names:
+                yield module_of(*parts, alias.name) or module_of(*parts)
+
+
+def test_no_modules_import_each_other_in_a_circle():
+    imports = nx.DiGraph(
+        (file, other) for _, file in modules() for other in modules_imported_by(file)
+    )
+    circles = [part for part in nx.strongly_connected_components(imports) if len(part) > 1]
+    assert circles == []
+    assert not list(nx.selfloop_edges(imports))
+
+
+def test_no_module_is_longer_than_320_lines():
+    lengths = {str(file): len(file.read_text("utf-8").splitlines()) for _, file in modules()}
+    assert {name: length for name, length in lengths.items() if length > 320} == {}

@@ -16,7 +16,17 @@ CURE = "set OPTIPATH_CACHE to a folder of your own"
 
 
 class Entry(NamedTuple):
-    """A file of the cache: where it is, how long, and when it was last used."""
+    """A file of the cache.
+
+    Attributes
+    ----------
+    file : Path
+        Where it is.
+    length : int
+        How many bytes it has.
+    used : float
+        When it was last used, in seconds.
+    """
 
     file: Path
     length: int

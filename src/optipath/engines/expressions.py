@@ -53,6 +53,10 @@ def assignments(steps: Iterable[Symbol], written: Callable[[Any], str]) -> list[
         The operations in order.
     written : callable
         How an operand is written: the name of a symbol, or a number.
+
+    Returns
+    -------
+    list of str
     """
     return [
         f"{written(step)} = {EXPRESSIONS[step.operation].format(*map(written, step.operands))}"

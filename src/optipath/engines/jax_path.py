@@ -64,6 +64,19 @@ class JaxPath:
         """Return Stokes vectors (..., 4) at every end, and whether nobody needs to look at a loop.
 
         A component that is not read is NaN, and so is light that gains going round.
+
+        Parameters
+        ----------
+        resolved : mapping of str to Resolved
+            The value of each parameter.
+        batch : tuple of int
+            The shape of the batch.
+        given : mapping of str to Any
+            As it was given: an angle may be a `CosSin`.
+
+        Returns
+        -------
+        list of array, and bool
         """
         values, absent = self._split(resolved, given)
         with self._precision(values):
@@ -79,7 +92,25 @@ class JaxPath:
         source: str,
         reading: str,
     ) -> Any:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does."""
+        """Return Mueller matrices (..., 4, 4) from a source to a reading, and as `lights` does.
+
+        Parameters
+        ----------
+        resolved : mapping of str to Resolved
+            The value of each parameter.
+        batch : tuple of int
+            The shape of the batch.
+        given : mapping of str to Any
+            As it was given: an angle may be a `CosSin`.
+        source : str
+            Where light is emitted.
+        reading : str
+            Where it is read.
+
+        Returns
+        -------
+        array, and bool
+        """
         values, absent = self._split(resolved, given)
         with self._precision(values):
             run = self._traced_matrix if self._known_traced else self._matrix

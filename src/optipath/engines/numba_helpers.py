@@ -28,7 +28,19 @@ def _number_of(typing: Any, bits: Any) -> Any:  # noqa: ARG001 - as numba calls 
 
 @intrinsic
 def fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    """Return a b + c, rounded once."""
+    """Return a b + c, rounded once.
+
+    Parameters
+    ----------
+    typing
+        What Numba gives.
+    a, b, c
+        Floats of one precision.
+
+    Returns
+    -------
+    float
+    """
 
     def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
         return builder.fma(*given)
@@ -38,7 +50,17 @@ def fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numb
 
 @nb.njit(error_model="numpy")
 def product_rest(a: Any, b: Any) -> Any:
-    """Return what the rounding of a b has lost."""
+    """Return what the rounding of a b has lost.
+
+    Parameters
+    ----------
+    a, b
+        Floats of one precision.
+
+    Returns
+    -------
+    float
+    """
     return fused(a, b, -(a * b))
 
 
@@ -53,7 +75,19 @@ def exponent(number: Any) -> Any:
 
 @nb.njit(error_model="numpy")
 def ldexp(number: Any, power: Any) -> Any:
-    """Return a number times two to a power, in double precision."""
+    """Return a number times two to a power, in double precision.
+
+    Parameters
+    ----------
+    number : float
+        Which.
+    power : int
+        The power.
+
+    Returns
+    -------
+    float
+    """
     power = min(max(power, -2040), 2040)
     half = power >> 1
     first, second = (half + 1023) << 52, (power - half + 1023) << 52
@@ -62,5 +96,17 @@ def ldexp(number: Any, power: Any) -> Any:
 
 @nb.njit(error_model="numpy")
 def ldexp_single(number: Any, power: Any) -> Any:
-    """Return a number times two to a power, in single precision."""
+    """Return a number times two to a power, in single precision.
+
+    Parameters
+    ----------
+    number : float
+        Which.
+    power : int
+        The power.
+
+    Returns
+    -------
+    float
+    """
     return np.float32(ldexp(number, power))

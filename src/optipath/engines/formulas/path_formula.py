@@ -55,6 +55,29 @@ def lights_formula(
     four components are computed, read or not. The results are the four components of each
     reading in turn, else NaN where they are not read, and then the exponents. It holds for values
     within their limits whose light is finite and not too faint.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    carrier : type
+        How light is carried.
+    dtype : str
+        The precision of the formula.
+    forms : mapping of InputKey to str
+        What is given for each number.
+    limits : mapping of str to tuple of float
+        The range of each parameter.
+    polynomials : bool
+        Whether sines and cosines are polynomials.
+    axes : mapping of str to frozenset of int, optional
+        Along which axes of the batch each array differs.
+    unreduced : bool, optional
+        Whether nothing is left out.
+
+    Returns
+    -------
+    Formula
     """
     recorder = Recorder(np.dtype(dtype))
     known = recorder.opaque if unreduced else None
@@ -95,6 +118,25 @@ def bounds_formula(
 
     With the name of a model, that of the intensities without polarisation at every end, and
     of the largest error that the model has at any of them.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    dtype : str
+        The precision of the formula.
+    forms : mapping of InputKey to str
+        What is given for each number.
+    limits : mapping of str to tuple of float
+        The range of each parameter.
+    axes : mapping of str to frozenset of int, optional
+        Along which axes of the batch each array differs.
+    model : str, optional
+        What is carried in place of all light.
+
+    Returns
+    -------
+    Formula
     """
     recorder = Recorder(np.dtype(dtype))
     operands = SymbolicInputs(recorder, forms, limits, polynomials=True, axes=axes)
@@ -114,7 +156,19 @@ def bounds_formula(
 
 
 def slack_of(program: Program, dtype: str) -> float:
-    """Return what bounds give away for roundings, those of whole Mueller matrices included."""
+    """Return what bounds give away for roundings, those of whole Mueller matrices included.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    dtype : str
+        The precision.
+
+    Returns
+    -------
+    float
+    """
     matrices = sum(map(len, program.matrices.values()))
     return 256.0 * float(np.finfo(dtype).eps) + 16.0 * _spare(dtype) * matrices
 
@@ -133,7 +187,29 @@ def matrix_formula(
     limits: Mapping[str, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
 ) -> Formula:
-    """Return the formula of the Mueller matrix from a source to a reading, row by row."""
+    """Return the formula of the Mueller matrix from a source to a reading, row by row.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    source : str
+        Where light is emitted.
+    reading : Reading
+        Where it is read.
+    dtype : str
+        The precision of the formula.
+    forms : mapping of InputKey to str
+        What is given for each number.
+    limits : mapping of str to tuple of float
+        The range of each parameter.
+    axes : mapping of str to frozenset of int, optional
+        Along which axes of the batch each array differs.
+
+    Returns
+    -------
+    Formula
+    """
     recorder = Recorder(np.dtype(dtype))
     operands = SymbolicInputs(recorder, forms, limits, polynomials=True, axes=axes)
     symbols, carrier = operands.of(program), MatrixCarrier(operands.primitives)

@@ -27,6 +27,10 @@ def stages(whole: Formula, axes: frozenset[int], last: int | None) -> tuple[Form
         The axes of the batch.
     last : int or None
         The innermost axis, where it is long enough for a loop of its own.
+
+    Returns
+    -------
+    tuple of Formula
     """
     known: list[Symbol] = []
     found: list[Formula] = []

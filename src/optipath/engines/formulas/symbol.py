@@ -14,7 +14,19 @@ class Record(Protocol):
     pairs: dict[int, tuple[Any, Any]]
 
     def record(self, operation: str, *operands: Any) -> Any:
-        """Return what an operation comes to: a symbol, or a number where that is known."""
+        """Return what an operation comes to: a symbol, or a number where that is known.
+
+        Parameters
+        ----------
+        operation : str
+            One of `OPERATIONS`.
+        *operands : Symbol or number
+            What it is done to.
+
+        Returns
+        -------
+        Symbol or number
+        """
 
     def require(self, condition: Any) -> None:
         """Note what must be true for the formula to hold."""
@@ -38,6 +50,8 @@ class Symbol:
 
     Attributes
     ----------
+    recorder : Record
+        Where it is recorded.
     operation : str
         What is done; ``"input"`` for a number that is given.
     operands : tuple

@@ -16,7 +16,19 @@ from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 
 
 def record(operation: str, *operands: Any) -> Any:
-    """Return what an operation on symbols comes to, or on numbers if all are known."""
+    """Return what an operation on symbols comes to, or on numbers if all are known.
+
+    Parameters
+    ----------
+    operation : str
+        One of `OPERATIONS`.
+    *operands : Symbol or number
+        What it is done to.
+
+    Returns
+    -------
+    Symbol or number
+    """
     for operand in operands:
         if isinstance(operand, Symbol):
             return operand.recorder.record(operation, *operands)

@@ -112,6 +112,10 @@ def whole_matrices(
     ----------
     program, operands, carrier, number
         As `execute` takes them.
+
+    Returns
+    -------
+    dict of int to tuple
     """
     return {i: evaluated(program, i, operands, carrier, number) for i in program.matrices}
 

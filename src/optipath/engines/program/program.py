@@ -24,7 +24,15 @@ if TYPE_CHECKING:
 
 
 class Result(NamedTuple):
-    """One of the numbers that an earlier evaluation comes to."""
+    """One of the numbers that an earlier evaluation comes to.
+
+    Attributes
+    ----------
+    evaluation : int
+        Which evaluation.
+    place : int
+        Which of its numbers.
+    """
 
     evaluation: int
     place: int

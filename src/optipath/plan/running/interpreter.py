@@ -43,7 +43,19 @@ _TINY = np.finfo(np.float64).tiny * UNDERFLOW
 
 
 def carrier_of(program: Program, composing: str) -> type[Carrier]:
-    """Return how light is carried along a program."""
+    """Return how light is carried along a program.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    composing : str
+        ``stokes`` or ``jones``.
+
+    Returns
+    -------
+    type
+    """
     if composing == "jones":
         return JonesCarrier
     return ScaledCarrier if len(program.steps) > _LONG else StokesCarrier
@@ -108,6 +120,17 @@ class Interpreter:
         """Return Stokes vectors (..., 4) and exponents at every end.
 
         What several parts of a batch have in common may be given, see `shared`.
+
+        Parameters
+        ----------
+        given : ResolvedInputs
+            The numbers.
+        shared : mapping of int to tuple, optional
+            What some evaluations come to.
+
+        Returns
+        -------
+        list of (ndarray, ndarray)
         """
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
         found = self._stacked(given, self._carriers[self.carrier], own)
@@ -136,7 +159,21 @@ class Interpreter:
         return found
 
     def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
-        """Return Mueller matrices (..., 4, 4) from a source to a reading."""
+        """Return Mueller matrices (..., 4, 4) from a source to a reading.
+
+        Parameters
+        ----------
+        given : ResolvedInputs
+            The numbers.
+        source : str
+            Where light is emitted.
+        reading : Reading
+            Where it is read.
+
+        Returns
+        -------
+        ndarray
+        """
         none = self.dtype.type(0.0)
         begin, _ = self.program.sources[source]
 
