@@ -15,7 +15,6 @@ LATER = {
     "elements",
     "engines",
     "plan",
-    "composer",
     "paths",
     "lab",
 }

@@ -34,7 +34,17 @@ _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 def lower(wiring: Wiring, method: str) -> Program:
     """Return the program of a path: ports in the order of travel, each a step or none.
 
-    Ports from which no light reaches a detector or a dump are left out.
+    Parameters
+    ----------
+    wiring : Wiring
+        The path, which has no fault.
+    method : str
+        How Fresnel's equations are computed.
+
+    Returns
+    -------
+    Program
+        Without ports from which no light reaches a detector or a dump.
     """
     lowering = _Lowering(wiring, method)
     for stretch in wiring.stretches:

@@ -21,13 +21,39 @@ if TYPE_CHECKING:
 
 
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
-    """Return the world frame of a port; None for a port placed relatively."""
+    """Return the world frame of a port; None for a port placed relatively.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    name, port : str
+        The port of a node.
+
+    Returns
+    -------
+    Frame or None
+        As it was given, or follows from what was.
+    """
     frames = wiring.graph.nodes[name]["frames"]
     return wiring.elements[name].frame_of(port, frames) if frames else None
 
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
-    """Return the turn of a relatively placed link: its own, or else its element's."""
+    """Return the turn of a relatively placed link: its own, or else its element's.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    link : Link
+        Which link.
+
+    Returns
+    -------
+    float, ndarray or Parameter
+        In radians.
+    """
     own = wiring.graph.edges[link]["azimuth"]
     return _element_turn(wiring, link) if own is None else own
 
@@ -44,9 +70,19 @@ def _element_turn(wiring: Wiring, link: Link) -> Any:
 
 
 def alignment(wiring: Wiring, link: Link) -> Operation | None:
-    """Return the turn from the frame that light leaves in to the one it enters; None for none.
+    """Return the turn from the frame that light leaves in to the one it enters.
 
-    It comes from the link's own two port frames alone and is never accumulated.
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    link : Link
+        Of whose own two port frames alone it comes; it is never accumulated.
+
+    Returns
+    -------
+    Operation or None
+        None where light is not turned.
     """
     start, end, (leaves, enters) = link
     if start in wiring.self_placed and end in wiring.self_placed:

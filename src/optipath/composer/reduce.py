@@ -109,6 +109,18 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
 def by_name(exact: Reduction, model: str) -> Reduction:
     """Return the smallest exact program carried by a model that may be larger.
 
+    Parameters
+    ----------
+    exact : Reduction
+        The smallest exact program.
+    model : str
+        The model that is asked for.
+
+    Returns
+    -------
+    Reduction
+        Every light carried by as many components.
+
     Raises
     ------
     ComposerError
@@ -128,7 +140,21 @@ def by_name(exact: Reduction, model: str) -> Reduction:
 
 
 def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
-    """Return which model is taken where a certificate allows it; None where none is cheaper.
+    """Return which model is taken where a certificate allows it.
+
+    Parameters
+    ----------
+    exact : Reduction
+        The smallest exact program.
+    model : str
+        The model that is asked for; ``"auto"`` means the scalar one.
+    most : float
+        The largest error, as a share of the intensity.
+
+    Returns
+    -------
+    Tolerance or None
+        None where no model is cheaper than the exact one.
 
     Raises
     ------

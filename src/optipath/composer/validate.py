@@ -33,6 +33,11 @@ def validate(graph: nx.MultiDiGraph) -> None:
 def refuse_faults(values: Values, wiring: Wiring) -> None:
     """Raise unless values and wiring can be composed.
 
+    Parameters
+    ----------
+    values, wiring
+        What is known of a path.
+
     Raises
     ------
     PathError
@@ -60,6 +65,11 @@ def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -
         called unreached.
     whole : bool
         Whether all nodes are there, so that a missing source or detector says something.
+
+    Returns
+    -------
+    list of str
+        A sentence for each.
     """
     values, wiring = Values(graph), Wiring(graph)
     unsure: set[str] = set()

@@ -7,11 +7,11 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
-from optipath.elements.fields import domains_of, same_value
+from optipath.elements.fields import domains_of, faults_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
-from optipath.errors import PathError, ValueFault, shown
+from optipath.errors import PathError, shown
 from optipath.kernels import REFLECTION, Kernel
 from optipath.light.frames import Frame
 from optipath.light.mueller import Mueller
@@ -130,7 +130,20 @@ class Element:
         return {}
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
-        """Return the numbers that must be something besides, where a link leads to a port."""
+        """Return the numbers that must be something besides, where a link leads to a port.
+
+        Parameters
+        ----------
+        owner : str
+            The name of the node.
+        port : str
+            The in-port.
+
+        Returns
+        -------
+        list of Use
+            By `domains_entered`.
+        """
         return [
             Use(f"{owner}.{name}", value, domain)
             for field, limits in self.domains_entered(port).items()
@@ -143,7 +156,7 @@ class Element:
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""
-        return _faults(self._uses(owner))
+        return faults_of(self._uses(owner))
 
     def _uses(self, owner: str) -> list[Use]:
         return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
@@ -156,7 +169,8 @@ class Element:
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Return what is wrong with the world frames of the ports, a sentence each."""
-        if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):
+        first, *others = frames.values() or [None]
+        if self.straight and not all(same_frame(frame, first) for frame in others):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
 
@@ -270,7 +284,7 @@ class Element:
             for port, frame in ((enters, frame_in), (leaves, frame_out))
             if frame is not None
         }
-        faults = list(dict.fromkeys(_faults(uses) + open_ones))
+        faults = list(dict.fromkeys(faults_of(uses) + open_ones))
         faults = faults or broadcast_fault(shapes) or self.frame_faults(owner, frames)
         if faults:
             raise PathError(*faults)
@@ -297,18 +311,3 @@ class Element:
         )
 
     __hash__ = None  # type: ignore[assignment]
-
-
-def _faults(uses: list[Use]) -> list[str]:
-    found: list[str] = []
-    for use in uses:
-        try:
-            use.check()
-        except ValueFault as fault:
-            found += fault.faults
-    return found
-
-
-def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:
-    each = list(frames.values())
-    return [(frame, each[0]) for frame in each[1:]]
