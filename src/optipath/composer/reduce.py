@@ -55,18 +55,14 @@ def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...]
         How often at most.
     """
     stokes, doubles = composing == "stokes", dtype != "longdouble"
-    if model == "full":
-        return (), 0
-    found = [
-        Pass("cheaper kernels", cheaper_kernels),
-        Pass("joined turns", partial(joined_turns, sums=doubles)),
-    ]
-    if doubles:
-        multiply = partial(multiplied_constants, matrices=stokes)
-        found.append(Pass("multiplied constants", multiply))
-    if stokes:
-        found.append(Pass("left out", left_out))
-    return tuple(found), 3 if stokes else 1
+    every = (
+        (True, Pass("cheaper kernels", cheaper_kernels)),
+        (True, Pass("joined turns", partial(joined_turns, sums=doubles))),
+        (doubles, Pass("multiplied constants", partial(multiplied_constants, matrices=stokes))),
+        (stokes, Pass("left out", left_out)),
+    )
+    found = () if model == "full" else every
+    return tuple(each for is_wanted, each in found if is_wanted), 3 if stokes else 1
 
 
 def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:

@@ -169,8 +169,8 @@ class Element:
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         """Return what is wrong with the world frames of the ports, a sentence each."""
-        first, *others = frames.values() or [None]
-        if self.straight and not all(same_frame(frame, first) for frame in others):
+        several = list(frames.values())
+        if self.straight and not all(same_frame(frame, several[0]) for frame in several[1:]):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
 
