@@ -94,7 +94,7 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
             return None
         return Operation(GIVEN_TURN, (Operand(c), Operand(s)))
     azimuth = azimuth_of(wiring, link)
-    return None if _is_zero(azimuth) else Operation(TURN, (azimuth,))
+    return None if is_zero(azimuth) else Operation(TURN, (azimuth,))
 
 
 def placement_faults(wiring: Wiring) -> list[str]:
@@ -153,7 +153,7 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     own, element_turn = wiring.graph.edges[link]["azimuth"], _element_turn(wiring, link)
     text = f"link '{link_text(link)}'"
-    if own is not None and not _is_zero(element_turn):
+    if own is not None and not is_zero(element_turn):
         return [f"{text} and '{end}' both give an azimuth; give it in one place"]
     ends = ((start, leaves, arriving), (end, enters, expected))
     for name, port, frame in ends:
@@ -170,7 +170,7 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
         return [f"{text}: '{has}' has a world frame but '{lacks}' has none; give both or neither"]
     if arriving is None or expected is None:
         return []
-    if not (own is None and _is_zero(element_turn)):
+    if not (own is None and is_zero(element_turn)):
         return [f"{text} is turned by its world frames and by an azimuth; give one of them"]
     try:
         arriving.turn_to(expected)
@@ -203,5 +203,6 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
     return []
 
 
-def _is_zero(azimuth: Any) -> bool:
+def is_zero(azimuth: Any) -> bool:
+    """Tell whether a turn is known to be none."""
     return isinstance(azimuth, (int, float)) and azimuth == 0.0

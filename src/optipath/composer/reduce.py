@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from optipath.composer.cheaper import cheaper_kernels
-from optipath.composer.live import fewest_components, left_out
+from optipath.composer.live import Live, left_out
 from optipath.composer.multiply import multiplied_constants
 from optipath.composer.turns import joined_turns
 from optipath.engines.program.reduction import MODELS, Reduction, Tolerance
@@ -89,17 +89,16 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
             notes += found
         if not found:
             break
-    smallest, _ = fewest_components(program)
     folded = tuple(dict.fromkeys(notes))
+    program = replace(program, live=program.live or Live(program).components)
+    if passes and composing == "stokes":
+        counts = tuple([alive[-1] + 1 for alive in program.live])
+        program, size = replace(program, counts=counts), max(counts)
+        return Reduction(program, MODELS[size - 1], _reason(program, size), folded)
+    reason = "Jones columns are carried whole"
     if not passes:
         reason = "asked for by name: every step as it stands"
-    elif composing == "jones":
-        reason = "Jones columns are carried whole"
-    else:
-        size = max(smallest.counts)
-        return Reduction(smallest, MODELS[size - 1], _reason(smallest, size), folded)
-    carried = replace(smallest, counts=())
-    return Reduction(carried, "full", reason, folded, unreduced=not passes)
+    return Reduction(program, "full", reason, folded, unreduced=not passes)
 
 
 def by_name(exact: Reduction, model: str) -> Reduction:
