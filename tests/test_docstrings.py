@@ -13,7 +13,6 @@ SOURCE = Path(op.__file__).parent
 LATER = {
     "engines",
     "plan",
-    "composer",
     "lab",
 }
 EXEMPT = {"property", "cached_property", "setter", "overload"}

@@ -1,10 +1,11 @@
 import os
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import optipath as op
-from optipath.composer.reduce import MODELS
+from optipath.composer.reduce import MODELS, passes_for
 from paths import chain
 from random_paths import Draw
 
@@ -32,6 +33,40 @@ def test_every_reduction_equals_the_full_composition(chunk):
             # can see: its own S0 says nothing of that then.
             slack = 1e-14 * whole[..., :1] + 1e-16 * brightest(path)
             assert np.all((np.abs(found - whole) <= slack) | np.isnan(whole)), f"seed {seed}"
+
+
+PASSES = passes_for("auto", "stokes", "float64")[0]
+
+
+@pytest.mark.parametrize("one", PASSES, ids=lambda one: one.name)
+def test_each_pass_by_itself_leaves_the_lights_equal(one):
+    told = 0
+    for seed in SEEDS[:40]:
+        draw = Draw(1000 + seed)
+        path = draw.path(loops=seed % 3 == 0)
+        plan = op.Composer(model="full").compose(path)
+        program, notes = one(plan.whole)
+        told += len(notes)
+        reduction = replace(plan.reduction, program=program, unreduced=False)
+        found = replace(plan, reduction=reduction).run_all(**draw.values)
+        for name, light in plan.run_all(**draw.values).items():
+            slack = 1e-14 * light.stokes[..., :1] + 1e-16 * brightest(path)
+            difference = np.abs(found[name].stokes - light.stokes)
+            assert np.all((difference <= slack) | np.isnan(light.stokes)), f"seed {seed}"
+    assert told, "no path had anything to be reduced"
+
+
+def test_every_step_as_it_stands_goes_through_no_pass():
+    assert passes_for("full", "stokes", "float64")[0] == ()
+    path = chain([op.Rotator(0.1), op.Rotator(0.2), op.Attenuator(1.0)])
+    plan = op.Composer(model="full").compose(path)
+    assert plan.program.steps == plan.whole.steps
+    assert not plan.reduction.folded
+
+
+def test_constants_are_not_multiplied_in_more_digits_than_doubles_have():
+    names = [one.name for one in passes_for("auto", "stokes", "longdouble")[0]]
+    assert [one.name for one in PASSES if one.name not in names] == ["multiplied constants"]
 
 
 ANGLES = np.random.default_rng(5).uniform(-3.0, 3.0, (2, 50))

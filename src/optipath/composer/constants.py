@@ -39,7 +39,15 @@ _LEAST = 1e-60
 
 
 class Constant(NamedTuple):
-    """The numbers of a step, as its structure has them."""
+    """The numbers of a step, as its structure has them.
+
+    Attributes
+    ----------
+    structure : Structure
+        The shape of its Mueller matrix.
+    numbers : tuple of float
+        What the structure makes a matrix of.
+    """
 
     structure: Structure
     numbers: tuple[float, ...]
@@ -95,7 +103,18 @@ class Constant(NamedTuple):
 
 
 def multiplied(first: Constant, second: Constant) -> Constant | None:
-    """Return two constants in the order of travel as one matrix; None if it is too faint."""
+    """Return two constants in the order of travel as one matrix; None if it is too faint.
+
+    Parameters
+    ----------
+    first, second : Constant
+        That which light meets first, and the other.
+
+    Returns
+    -------
+    Constant or None
+        With all sixteen entries.
+    """
     one, other = first.as_full().numbers, second.as_full().numbers
     rows, columns = [other[i : i + 4] for i in (0, 4, 8, 12)], [one[i::4] for i in range(4)]
     product = tuple(a * e + b * f + c * g + d * h for a, b, c, d in rows for e, f, g, h in columns)

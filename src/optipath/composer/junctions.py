@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 def in_order_of_elimination(
     steps: Sequence[Step], start: int, junctions: tuple[int, ...]
 ) -> dict[int, int]:
-    """Return the junctions of a loop in order, each with how many neighbours it has left.
+    """Return the junctions of a loop in the order of their elimination.
 
     A junction that is eliminated makes its neighbours neighbours of each other; taking the one
     with the fewest each time, as Markowitz does (Management Science 3, 1957), keeps them few.
@@ -28,6 +28,11 @@ def in_order_of_elimination(
         The first step of the loop.
     junctions : tuple of int
         Where lights meet in it.
+
+    Returns
+    -------
+    dict of int to int
+        How many neighbours each has left when its turn comes.
     """
     near = neighbours(steps, start, junctions)
     waiting = [(len(others), junction) for junction, others in near.items()]
@@ -48,7 +53,18 @@ def in_order_of_elimination(
 def neighbours(
     steps: Sequence[Step], start: int, junctions: tuple[int, ...]
 ) -> dict[int, set[int]]:
-    """Return which junctions of a loop light passes next to each other."""
+    """Return which junctions of a loop light passes next to each other.
+
+    Parameters
+    ----------
+    steps, start, junctions
+        As `in_order_of_elimination` takes them.
+
+    Returns
+    -------
+    dict of int to set of int
+        By junction.
+    """
     behind = {junction: junction for junction in junctions}
     for light in range(start, len(steps)):
         if light not in behind:

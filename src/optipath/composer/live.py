@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from dataclasses import replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -42,10 +41,10 @@ class Live:
         self.sources = [_sources(entries) for entries in self.entries]
         self.reached: list[set[int]] = [set() for _ in program.steps]
         self.needed: list[set[int]] = [set() for _ in program.steps]
-        _until_settled(range(len(places)), self._forward)
+        _until_settled(reversed(range(len(places))), self._forward)
         for reading in program.readings.values():
             self.needed[reading.light] |= set(range(reading.components))
-        _until_settled(reversed(range(len(places))), self._backward)
+        _until_settled(range(len(places)), self._backward)
 
     @property
     def components(self) -> tuple[tuple[int, ...], ...]:
@@ -101,16 +100,11 @@ def _changed(entries: Entries) -> tuple[tuple[int, int], ...]:
 
 
 def _until_settled(lights: Iterable[int], look: Callable[[int], Iterable[int]]) -> None:
-    """Look at lights, and again at those for which the look at another one asks."""
-    waiting = deque(lights)
-    there = set(waiting)
+    """Look at lights, the last one first, and again at those that the look at another asks for."""
+    waiting = dict.fromkeys(lights)
     while waiting:
-        light = waiting.popleft()
-        there.discard(light)
-        for other in look(light):
-            if other not in there:
-                there.add(other)
-                waiting.append(other)
+        light, _ = waiting.popitem()
+        waiting |= dict.fromkeys(look(light))
 
 
 def left_out(program: Program) -> tuple[Program, list[str]]:
@@ -142,9 +136,3 @@ def left_out(program: Program) -> tuple[Program, list[str]]:
         return [item for item in items if item.light not in idle]
 
     return along_chains(program, rest), notes
-
-
-def fewest_components(program: Program) -> tuple[Program, list[str]]:
-    """Return a program that carries the first components of each light that hold all alive."""
-    live = program.live or Live(program).components
-    return replace(program, live=live, counts=tuple([alive[-1] + 1 for alive in live])), []

@@ -34,7 +34,17 @@ _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 def lower(wiring: Wiring, method: str) -> Program:
     """Return the program of a path: ports in the order of travel, each a step or none.
 
-    Ports from which no light reaches a detector or a dump are left out.
+    Parameters
+    ----------
+    wiring : Wiring
+        The path, which has no fault.
+    method : str
+        How Fresnel's equations are computed.
+
+    Returns
+    -------
+    Program
+        Without ports from which no light reaches a detector or a dump.
     """
     lowering = _Lowering(wiring, method)
     for stretch in wiring.stretches:
@@ -50,16 +60,14 @@ def refuse_depolarizers(program: Program) -> None:
     ComposerError
         Naming each of them.
     """
-    faults = []
-    for step in program.steps:
-        if step.evaluation is None:
-            continue
-        structure = program.evaluations[step.evaluation].kernel.structure
-        if structure is not None and structure.jones is None:
-            faults.append(
-                f"'{step.label}' has a whole Mueller matrix, which may depolarise, and so no "
-                f"Jones matrix; compose with composing='stokes'"
-            )
+    structures = [evaluation.kernel.structure for evaluation in program.evaluations]
+    no_jones = {i for i, structure in enumerate(structures) if structure and not structure.jones}
+    faults = [
+        f"'{step.label}' has a whole Mueller matrix, which may depolarise, and so no Jones "
+        f"matrix; compose with composing='stokes'"
+        for step in program.steps
+        if step.evaluation in no_jones
+    ]
     if faults:
         raise ComposerError(*faults)
 

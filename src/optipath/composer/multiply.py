@@ -79,23 +79,15 @@ class _Multiplying:
 
     def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
-        items = [item for item, _ in run]
+        items, constants = [item for item, _ in run], [constant for _, constant in run]
         if not (self.matrices and len(run) > 1 and items[0].once):
             return items
-        constants = [constant for _, constant in run]
-        cost = sum(constant.cost for constant in constants)
-        dear = cost > Constant(FULL, ()).cost
+        dear = sum(constant.cost for constant in constants) > Constant(FULL, ()).cost
         if not (dear and all(constant.lets_through for constant in constants)):
             return items
-        found: list[Item] = []
-        for start in range(0, len(run), _MOST):
-            found += self._multiplied_out(run[start : start + _MOST])
-        return found
-
-    def _multiplied_out(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         found: list[tuple[Item, Constant]] = []
-        for item, constant in run:
-            both = multiplied(found[-1][1], constant) if found else None
+        for place, (item, constant) in enumerate(run):
+            both = multiplied(found[-1][1], constant) if place % _MOST else None
             if both:
                 found[-1] = self._joined([found[-1][0], item], both), both
             else:

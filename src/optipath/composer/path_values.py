@@ -126,21 +126,21 @@ class Values:
                 )
 
     def _optional_faults(self) -> Iterator[str]:
-        for name, element in self.graph.nodes(data="element"):
-            optional = {p.name for p in element.parameters() if p.optional}
-            if len(optional) > 1:
+        optional: dict[str, set[str]] = {}
+        for use in self.uses:
+            if isinstance(use.value, Parameter) and use.value.optional:
+                optional.setdefault(use.owner.partition(".")[0], set()).add(use.value.name)
+        for name, several in optional.items():
+            if len(several) > 1:
                 yield (
-                    f"'{name}' has several optional parameters ({', '.join(sorted(optional))}); "
+                    f"'{name}' has several optional parameters ({', '.join(sorted(several))}); "
                     f"one is enough to leave it out"
                 )
 
     @cached_property
     def _tails(self) -> dict[str, tuple[int, ...]]:
-        found: dict[str, tuple[int, ...]] = {}
-        for use in self.uses:
-            if isinstance(use.value, Parameter):
-                found.setdefault(use.value.name, use.domain.tail)
-        return found
+        uses = [use for use in reversed(self.uses) if isinstance(use.value, Parameter)]
+        return {use.value.name: use.domain.tail for use in uses}
 
     def _can_be_absent(self, owner: str) -> bool:
         name, _, part = owner.partition(".")

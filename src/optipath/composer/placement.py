@@ -21,13 +21,39 @@ if TYPE_CHECKING:
 
 
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
-    """Return the world frame of a port; None for a port placed relatively."""
+    """Return the world frame of a port; None for a port placed relatively.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    name, port : str
+        The port of a node.
+
+    Returns
+    -------
+    Frame or None
+        As it was given, or follows from what was.
+    """
     frames = wiring.graph.nodes[name]["frames"]
     return wiring.elements[name].frame_of(port, frames) if frames else None
 
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:
-    """Return the turn of a relatively placed link: its own, or else its element's."""
+    """Return the turn of a relatively placed link: its own, or else its element's.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    link : Link
+        Which link.
+
+    Returns
+    -------
+    float, ndarray or Parameter
+        In radians.
+    """
     own = wiring.graph.edges[link]["azimuth"]
     return _element_turn(wiring, link) if own is None else own
 
@@ -44,9 +70,19 @@ def _element_turn(wiring: Wiring, link: Link) -> Any:
 
 
 def alignment(wiring: Wiring, link: Link) -> Operation | None:
-    """Return the turn from the frame that light leaves in to the one it enters; None for none.
+    """Return the turn from the frame that light leaves in to the one it enters.
 
-    It comes from the link's own two port frames alone and is never accumulated.
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    link : Link
+        Of whose own two port frames alone it comes; it is never accumulated.
+
+    Returns
+    -------
+    Operation or None
+        None where light is not turned.
     """
     start, end, (leaves, enters) = link
     if start in wiring.self_placed and end in wiring.self_placed:
@@ -58,7 +94,7 @@ def alignment(wiring: Wiring, link: Link) -> Operation | None:
             return None
         return Operation(GIVEN_TURN, (Operand(c), Operand(s)))
     azimuth = azimuth_of(wiring, link)
-    return None if _is_zero(azimuth) else Operation(TURN, (azimuth,))
+    return None if is_zero(azimuth) else Operation(TURN, (azimuth,))
 
 
 def placement_faults(wiring: Wiring) -> list[str]:
@@ -117,7 +153,7 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
     own, element_turn = wiring.graph.edges[link]["azimuth"], _element_turn(wiring, link)
     text = f"link '{link_text(link)}'"
-    if own is not None and not _is_zero(element_turn):
+    if own is not None and not is_zero(element_turn):
         return [f"{text} and '{end}' both give an azimuth; give it in one place"]
     ends = ((start, leaves, arriving), (end, enters, expected))
     for name, port, frame in ends:
@@ -134,7 +170,7 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
         return [f"{text}: '{has}' has a world frame but '{lacks}' has none; give both or neither"]
     if arriving is None or expected is None:
         return []
-    if not (own is None and _is_zero(element_turn)):
+    if not (own is None and is_zero(element_turn)):
         return [f"{text} is turned by its world frames and by an azimuth; give one of them"]
     try:
         arriving.turn_to(expected)
@@ -167,5 +203,6 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
     return []
 
 
-def _is_zero(azimuth: Any) -> bool:
+def is_zero(azimuth: Any) -> bool:
+    """Tell whether a turn is known to be none."""
     return isinstance(azimuth, (int, float)) and azimuth == 0.0

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from optipath.composer.cheaper import cheaper_kernels
-from optipath.composer.live import fewest_components, left_out
+from optipath.composer.live import Live, left_out
 from optipath.composer.multiply import multiplied_constants
 from optipath.composer.turns import joined_turns
 from optipath.engines.program.reduction import MODELS, Reduction, Tolerance
@@ -55,18 +55,14 @@ def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...]
         How often at most.
     """
     stokes, doubles = composing == "stokes", dtype != "longdouble"
-    if model == "full":
-        return (), 0
-    found = [
-        Pass("cheaper kernels", cheaper_kernels),
-        Pass("joined turns", partial(joined_turns, sums=doubles)),
-    ]
-    if doubles:
-        multiply = partial(multiplied_constants, matrices=stokes)
-        found.append(Pass("multiplied constants", multiply))
-    if stokes:
-        found.append(Pass("left out", left_out))
-    return tuple(found), 3 if stokes else 1
+    every = (
+        (True, Pass("cheaper kernels", cheaper_kernels)),
+        (True, Pass("joined turns", partial(joined_turns, sums=doubles))),
+        (doubles, Pass("multiplied constants", partial(multiplied_constants, matrices=stokes))),
+        (stokes, Pass("left out", left_out)),
+    )
+    found = () if model == "full" else every
+    return tuple(each for is_wanted, each in found if is_wanted), 3 if stokes else 1
 
 
 def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction:
@@ -93,21 +89,32 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
             notes += found
         if not found:
             break
-    smallest, _ = fewest_components(program)
     folded = tuple(dict.fromkeys(notes))
+    program = replace(program, live=program.live or Live(program).components)
+    if passes and composing == "stokes":
+        counts = tuple([alive[-1] + 1 for alive in program.live])
+        program, size = replace(program, counts=counts), max(counts)
+        return Reduction(program, MODELS[size - 1], _reason(program, size), folded)
+    reason = "Jones columns are carried whole"
     if not passes:
         reason = "asked for by name: every step as it stands"
-    elif composing == "jones":
-        reason = "Jones columns are carried whole"
-    else:
-        size = max(smallest.counts)
-        return Reduction(smallest, MODELS[size - 1], _reason(smallest, size), folded)
-    carried = replace(smallest, counts=())
-    return Reduction(carried, "full", reason, folded, unreduced=not passes)
+    return Reduction(program, "full", reason, folded, unreduced=not passes)
 
 
 def by_name(exact: Reduction, model: str) -> Reduction:
     """Return the smallest exact program carried by a model that may be larger.
+
+    Parameters
+    ----------
+    exact : Reduction
+        The smallest exact program.
+    model : str
+        The model that is asked for.
+
+    Returns
+    -------
+    Reduction
+        Every light carried by as many components.
 
     Raises
     ------
@@ -128,7 +135,21 @@ def by_name(exact: Reduction, model: str) -> Reduction:
 
 
 def tolerated(exact: Reduction, model: str, most: float) -> Tolerance | None:
-    """Return which model is taken where a certificate allows it; None where none is cheaper.
+    """Return which model is taken where a certificate allows it.
+
+    Parameters
+    ----------
+    exact : Reduction
+        The smallest exact program.
+    model : str
+        The model that is asked for; ``"auto"`` means the scalar one.
+    most : float
+        The largest error, as a share of the intensity.
+
+    Returns
+    -------
+    Tolerance or None
+        None where no model is cheaper than the exact one.
 
     Raises
     ------

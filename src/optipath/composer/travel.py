@@ -83,7 +83,20 @@ def backwards(ways: Ways) -> Ways:
 
 
 def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
-    """Return the ports that light reaches from some."""
+    """Return the ports that light reaches.
+
+    Parameters
+    ----------
+    ways : Ways
+        Where light goes on from each port.
+    starts : iterable of Port
+        Where it begins.
+
+    Returns
+    -------
+    set of Port
+        The starts included.
+    """
     found = set(starts)
     waiting = list(found)
     while waiting:
@@ -95,7 +108,20 @@ def reached(ways: Ways, starts: Iterable[Port]) -> set[Port]:
 
 
 def among(ways: Ways, kept: set[Port]) -> Ways:
-    """Return the ways between some ports alone."""
+    """Return the ways between some ports alone.
+
+    Parameters
+    ----------
+    ways : Ways
+        All ways.
+    kept : set of Port
+        The ports.
+
+    Returns
+    -------
+    Ways
+        In the order in which all have them.
+    """
     return {
         port: [later for later in onwards if later in kept]
         for port, onwards in ways.items()

@@ -33,17 +33,17 @@ def validate(graph: nx.MultiDiGraph) -> None:
 def refuse_faults(values: Values, wiring: Wiring) -> None:
     """Raise unless values and wiring can be composed.
 
+    Parameters
+    ----------
+    values, wiring
+        What is known of a path.
+
     Raises
     ------
     PathError
         With all faults found.
     """
-    faults = [
-        *values.faults(),
-        *placement_faults(wiring),
-        *_link_faults(wiring),
-        *_end_faults(wiring),
-    ]
+    faults = _faults(values, wiring, set(), whole=True)
     if faults:
         raise PathError(*faults)
 
@@ -60,31 +60,29 @@ def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -
         called unreached.
     whole : bool
         Whether all nodes are there, so that a missing source or detector says something.
+
+    Returns
+    -------
+    list of str
+        A sentence for each.
     """
-    values, wiring = Values(graph), Wiring(graph)
     unsure: set[str] = set()
     for together in nx.weakly_connected_components(graph):
         if together & suspects:
             unsure |= together
-    found = [*values.faults(), *placement_faults(wiring), *_link_faults(wiring)]
+    return _faults(Values(graph), Wiring(graph), unsure, whole=whole)
+
+
+def _faults(values: Values, wiring: Wiring, unsure: set[str], *, whole: bool) -> list[str]:
+    found = [*values.faults(), *placement_faults(wiring)]
+    found += [*_feeding_faults(wiring), *_dark_link_faults(wiring)]
+    if wiring.loops != "sum":
+        found += _loop_faults(wiring.ports)
     if whole:
         found += _missing_end_faults(wiring)
     if wiring.starts and wiring.ends:
         found += _reach_faults(wiring, unsure)
     return found
-
-
-def _link_faults(wiring: Wiring) -> Iterator[str]:
-    yield from _feeding_faults(wiring)
-    yield from _dark_link_faults(wiring)
-    if wiring.loops != "sum":
-        yield from _loop_faults(wiring.ports)
-
-
-def _end_faults(wiring: Wiring) -> Iterator[str]:
-    yield from _missing_end_faults(wiring)
-    if wiring.starts and wiring.ends:
-        yield from _reach_faults(wiring, set())
 
 
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from optipath.composer.placement import azimuth_of
+from optipath.composer.placement import azimuth_of, is_zero
 from optipath.light.frames import Frame
 from optipath.values.operands import operand_of
 
@@ -93,7 +93,7 @@ def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
 
 def _turns(wiring: Wiring, link: Link) -> list[Operand]:
     azimuth = azimuth_of(wiring, link)
-    return [] if isinstance(azimuth, (int, float)) and azimuth == 0.0 else [operand_of(azimuth)]
+    return [] if is_zero(azimuth) else [operand_of(azimuth)]
 
 
 def _is_straight(wiring: Wiring, name: str, enters: str, leaves: str) -> bool:

@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
-from optipath.errors import PathError, ValueFault, shown
+from optipath.elements.fields import faults_of
+from optipath.errors import PathError, shown
 from optipath.kernels import REFLECTION
 from optipath.light.frames import Frame
 from optipath.light.mueller import Mueller
 from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 
-if TYPE_CHECKING:
-    from optipath.elements.element import Element
-    from optipath.values.inputs import Use
-
 _TWO_MATRICES = 256
 """How many bytes a matrix and what it is made of have."""
 
 
 def mueller_alone(
-    element: Element,
+    element: Any,
     enters: str,
     leaves: str,
     method: str,
@@ -82,17 +79,6 @@ def mueller_alone(
     raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
 
 
-def faults_of(uses: list[Use]) -> list[str]:
-    """Return what is wrong with the numbers that are known already, a sentence each."""
-    found: list[str] = []
-    for use in uses:
-        try:
-            use.check()
-        except ValueFault as fault:
-            found += fault.faults
-    return found
-
-
-def _own_frame(element: Element, port: str) -> Frame:
+def _own_frame(element: Any, port: str) -> Frame:
     own = element.own_frame(port)
-    return Frame() if own is None else own.frame({})
+    return own.frame({}) if own is not None else Frame()

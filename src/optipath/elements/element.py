@@ -6,9 +6,9 @@ from dataclasses import MISSING, dataclass, fields
 from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
-from optipath.elements.alone import faults_of, mueller_alone
+from optipath.elements.alone import mueller_alone
 from optipath.elements.coupling import Coupling, Operation, numbers_of
-from optipath.elements.fields import domains_of, same_value
+from optipath.elements.fields import domains_of, faults_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel

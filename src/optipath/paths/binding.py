@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer import parameters_of, value_faults
-from optipath.elements.vertices import VerticesByAngles
 from optipath.errors import OptipathError, ParameterError, did_you_mean
-from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -63,23 +61,23 @@ def bind(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
     return copy
 
 
-def _with_bound(element: Element, bound: Mapping[str, Parameter]) -> Element:
+def _with_bound(element: Element, bound: Mapping[str, Parameter]) -> Any:
     if not any(parameter.name in bound for parameter in element.parameters()):
         return element
-    names = [f.name for f in fields(element)]  # type: ignore[arg-type]
-    changed = {name: _bound_value(getattr(element, name), bound) for name in names}
-    return replace(element, **changed)  # type: ignore[type-var]
+    return _with_bound_fields(element, bound)
+
+
+def _with_bound_fields(whole: Any, bound: Mapping[str, Parameter]) -> Any:
+    changed = {f.name: _bound_value(getattr(whole, f.name), bound) for f in fields(whole)}
+    same = all(changed[name] is getattr(whole, name) for name in changed)
+    return whole if same else replace(whole, **changed)
 
 
 def _bound_value(value: Any, bound: Mapping[str, Parameter]) -> Any:
-    if isinstance(value, Material):
-        return Material(_bound_value(value.n, bound), _bound_value(value.k, bound))
-    if isinstance(value, VerticesByAngles):
-        angles = (value.incidences, value.turns)
-        return VerticesByAngles(*(tuple(_bound_value(a, bound) for a in each) for each in angles))
+    if isinstance(value, Parameter):
+        parameter = bound.get(value.name)
+        return value if parameter is None else -parameter if value.negative else parameter
     if isinstance(value, tuple):
         return tuple(_bound_value(one, bound) for one in value)
-    if isinstance(value, Parameter) and value.name in bound:
-        parameter = bound[value.name]
-        return -parameter if value.negative else parameter
-    return value
+    # What is made of several values, as a material and a chain of vertices are.
+    return _with_bound_fields(value, bound) if is_dataclass(value) else value
