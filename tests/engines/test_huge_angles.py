@@ -64,7 +64,7 @@ def assert_alike(found, dtype):
     first = next(iter(found.values()))
     for name, stokes in ((name, np.float64(stokes)) for name, stokes in found.items()):
         expected = first[: len(stokes)]
-        np.testing.assert_allclose(stokes, expected, atol=ROUNDINGS[dtype], err_msg=name)
+        np.testing.assert_allclose(stokes, expected, rtol=0, atol=ROUNDINGS[dtype], err_msg=name)
         polarised = np.linalg.norm(stokes[:, 1:], axis=-1)
         assert np.all(polarised <= stokes[:, 0] * (1.0 + ROUNDINGS[dtype])), name
 

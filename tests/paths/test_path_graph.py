@@ -69,7 +69,9 @@ QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm
 @given(azimuth=st.floats(-4, 4), quaternion=QUATERNIONS)
 def test_rotating_every_world_frame_changes_no_result(azimuth, quaternion):
     light = placed(azimuth, rotation_of(quaternion)).trace()
-    np.testing.assert_allclose(light.stokes, reflections(azimuth).trace().stokes, atol=1e-14)
+    np.testing.assert_allclose(
+        light.stokes, reflections(azimuth).trace().stokes, rtol=0, atol=1e-14
+    )
 
 
 def test_light_at_a_placed_detector_has_its_world_frame():
@@ -137,7 +139,7 @@ def test_branches_part_and_merge_incoherently():
     path.connect("split.transmitted", "along.in")
     path["across"] >> meet
     path["along"] >> meet >> path.add("eye", op.Detector())
-    np.testing.assert_allclose(path.trace().stokes, [0.5, 0.25, 0, 0], atol=1e-16)
+    np.testing.assert_allclose(path.trace().stokes, [0.5, 0.25, 0, 0], rtol=1e-15, atol=1e-16)
 
 
 def test_each_arriving_link_may_have_an_azimuth_of_its_own():
@@ -146,7 +148,7 @@ def test_each_arriving_link_may_have_an_azimuth_of_its_own():
     for name, azimuth in (("a", 0.0), ("b", np.pi / 2)):
         path.add(f"lamp-{name}", op.Source()) >> path.add(name, op.Polarizer())
         path.connect(f"{name}.out", "eye.in", azimuth=azimuth)
-    np.testing.assert_allclose(path.trace().stokes, [1.0, 0.0, 0, 0], atol=1e-16)
+    np.testing.assert_allclose(path.trace().stokes, [1.0, 0.0, 0, 0], rtol=1e-15, atol=1e-16)
     assert eye.name == "eye"
 
 
@@ -297,7 +299,7 @@ def test_a_chain_of_10000_elements_runs_and_multiplies_up():
     for i in range(10_000):
         node = node >> path.add(f"r{i}", op.Rotator(np.pi / 10_000))
     node >> path.add("eye", op.Detector())
-    np.testing.assert_allclose(path.trace().stokes, [1, 1, 0, 0], atol=1e-11)
+    np.testing.assert_allclose(path.trace().stokes, [1, 1, 0, 0], rtol=0, atol=1e-11)
 
 
 def test_steps_grow_with_the_elements():

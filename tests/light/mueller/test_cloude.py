@@ -18,7 +18,7 @@ def test_a_mixture_has_an_eigenvalue_for_each_jones_matrix(count, scale):
     values = mixed.cloude_eigenvalues / mixed.matrix[..., :1, 0]
     rank = min(count, 4)
     assert (values[:, :rank] > 1e-4).all()
-    np.testing.assert_allclose(values[:, rank:], 0.0, atol=1e-15)
+    np.testing.assert_allclose(values[:, rank:], 0.0, rtol=0, atol=1e-15)
     np.testing.assert_allclose(values.sum(axis=-1), 1.0, rtol=1e-14)
     assert (np.diff(values) <= 0.0).all()
     assert mixed.is_physical().all()
@@ -110,7 +110,7 @@ def test_no_physical_matrix_is_nearer_than_the_nearest(seed, power):
 def test_what_is_physical_is_its_own_nearest_and_keeps_its_frames():
     metal = op.Interface(0.6 + 2.1j, 0.8).mueller()
     nearest = metal.nearest_physical()
-    np.testing.assert_allclose(nearest.matrix, metal.matrix, atol=1e-15)
+    np.testing.assert_allclose(nearest.matrix, metal.matrix, rtol=0, atol=1e-15)
     assert (nearest.frame_in, nearest.frame_out) == (metal.frame_in, metal.frame_out)
 
 
