@@ -71,6 +71,8 @@ class EngineChoice:
         How many operations Numba is given at most.
     floats : bool
         Whether all that is given are floats of double precision.
+    runs : int, optional
+        How many there have been.
 
     Examples
     --------
@@ -78,12 +80,12 @@ class EngineChoice:
     'numpy, step by step'
     """
 
-    def __init__(self, engine: str, most: int, *, floats: bool) -> None:
+    def __init__(self, engine: str, most: int, *, floats: bool, runs: int = 0) -> None:
         self.engine = engine
-        self.most = most
+        self.most = most if engine != "numpy" and is_installed("numba") else -1
         self.floats = floats
         self.settled = NUMPY_STEPS if engine == "jax" else ""
-        self._runs = 0
+        self._runs = runs
         self._cost = 0.0
         self._looked = False
 
@@ -107,93 +109,43 @@ class EngineChoice:
         if self.settled:
             return self.settled
         self._runs += 1
-        auto = self.engine == "auto"
-        few = auto and self.floats and count < HANDFUL
-        soon = count < (FEW if self._runs <= SEVERAL or not auto else HANDFUL)
-        if (
-            soon
-            and self.engine != "numba"
-            and not (few and (self._runs > SEVERAL or work.has_floats))
-        ):
+        few = self.engine == "auto" and self.floats and count < HANDFUL
+        if count < self._least() and not (few and work.has_floats):
             return NUMPY_STEPS
         operations = work.operations(floats=few)
         if operations is None:
             self.settled = NUMPY_STEPS
-        elif self._pays(operations, max(count, ahead), work):
+        elif operations <= self.most and self._pays(operations, count, ahead, work):
             self.settled = "numba"
         elif self.engine == "numba":
             self.settled = "numpy"
-        self._cost += cost(operations or 0, count)
         return self.settled or (FLOATS if few else "numpy")
 
-    def _pays(self, operations: int, count: int, work: Work) -> bool:
+    def _least(self) -> int:
+        """Return for how many paths something is made, be it never asked for again."""
+        if self.engine == "numba":
+            return 0
+        if self.engine == "numpy" or self._runs <= SEVERAL:
+            return FEW
+        return 0 if self.floats else HANDFUL
+
+    def _pays(self, operations: int, count: int, ahead: int, work: Work) -> bool:
         """Tell whether Numba is worth its while."""
-        if operations > self.most or self.engine == "numpy" or not is_installed("numba"):
-            return False
         if self.engine == "numba":
             return True
-        earned = FORESIGHT * (self._cost + cost(operations, count))
+        self._cost += cost(operations, count)
+        earned = FORESIGHT * (self._cost + cost(operations, max(0, ahead - count)))
         if not self._looked:
             loaded = "optipath.engines.numba_engine" in sys.modules
             self._looked = earned > (_LOOKING_AGAIN if loaded else _LOOKING)
             if self._looked and work.is_kept:
                 return True
-        return earned > compiling(operations)
-
-
-def engine_for(
-    engine: str, count: int, operations: int | None, most: int, *, floats: bool, kept: bool = False
-) -> str:
-    """Return what runs so many paths, once that has been done several times.
-
-    Parameters
-    ----------
-    engine : str
-        What is asked for.
-    count : int
-        How many paths.
-    operations : int or None
-        How many operations each takes; None where there is no formula.
-    most : int
-        How many Numba is given at most.
-    floats : bool
-        Whether the precision is that of floats.
-    kept : bool, optional
-        Whether Numba has compiled it already.
-
-    Returns
-    -------
-    str
-        One of the engines, `FLOATS`, or `NUMPY_STEPS`.
-
-    Examples
-    --------
-    >>> engine_for("auto", 10, 300, 1500, floats=True)
-    'floats'
-    >>> engine_for("numba", 10, 300, 1500, floats=True)
-    'numba'
-    """
-    if engine == "jax":
-        return engine
-    if operations is None:
-        return NUMPY_STEPS
-    if engine != "numpy" and operations <= most and is_installed("numba"):
-        earned = FORESIGHT * cost(max(operations, 1), count)
-        if engine == "numba" or kept or earned > compiling(operations):
-            return "numba"
-    if engine == "auto" and count < HANDFUL:
-        return FLOATS if floats else NUMPY_STEPS
-    return NUMPY_STEPS if engine == "numpy" and count < FEW else "numpy"
+        return earned > _BEGINNING + _COMPILING * operations
 
 
 def cost(operations: int, count: int) -> float:
     """Return how many seconds so many paths take without Numba."""
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
-
-
-def compiling(operations: int) -> float:
-    """Return how many seconds Numba takes to compile so many operations."""
-    return _BEGINNING + _COMPILING * operations
 
 
 def batches(engine: str, operations: int | None) -> str:
@@ -205,7 +157,8 @@ def batches(engine: str, operations: int | None) -> str:
     runs = f"less than {HANDFUL} paths are run as floats one by one, more by numpy"
     if not operations or not is_installed("numba"):
         return runs
-    paths = compiling(operations) / (FORESIGHT * _BY_NUMPY * operations)
+    price = _BEGINNING + _COMPILING * operations
+    paths = price / (FORESIGHT * _BY_NUMPY * operations)
     return (
         f"{runs}, and all by numba where it has compiled the path before, or after some "
         f"{paths:.2g} paths, when compiling takes less time than it saves"

@@ -40,13 +40,14 @@ def _compiled(formula: Formula) -> ArrayPath:
     bits = np.dtype(f"i{formula.dtype.itemsize}")
     kinds = {"float": formula.dtype, "bool": np.dtype(bool), "mask": bits}
 
+    indices = [symbol.index for symbol in formula.inputs]
     places = [formula.place_of(symbol) for symbol in formula.inputs]
 
     @np.errstate(all="ignore")
     def path(
         rows: tuple[int, int], columns: tuple[int, int], given: list[Any], out: Any, at: int
     ) -> bool:
-        known = dict(zip((s.index for s in formula.inputs), given, strict=True))
+        known = dict(zip(indices, given, strict=True))
         uniform = [*_prologue(formula, known), *writer.constants.values()]
         (top, bottom), (start, stop), width = rows, columns, columns[1] - columns[0]
         alone = bottom - top == 1

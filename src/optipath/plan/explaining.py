@@ -127,13 +127,13 @@ def _notes(plan: Any) -> Iterator[str]:
             f"all batches are run step by step: paths of at most {LONGEST} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
         )
-    elif engine in ("auto", "numba") and (runner.operations or 0) > runner.most_operations:
+    elif engine in ("auto", "numba") and (runner.length or 0) > runner.most_operations:
         yield (
             f"large batches are run by numpy: formulas of more than "
             f"{runner.most_operations:,} operations take Numba too long to compile"
         )
     elif engine != "jax":
-        yield batches(engine, runner.operations)
+        yield batches(engine, runner.length)
     yield from _each(plan.copied, "feeds several links: each takes all its light")
 
 

@@ -406,9 +406,9 @@ class Plan:
 
     def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
         # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.running.runner import Runner  # noqa: PLC0415
+        from optipath.plan.running.shared import runner_for  # noqa: PLC0415
 
-        return Runner(program, self.inputs, self._manner, unreduced=unreduced)
+        return runner_for(program, self.inputs, self._manner, unreduced=unreduced)
 
     @property
     def _manner(self) -> RunOptions:

@@ -30,6 +30,8 @@ class Layout:
     ----------
     shape : tuple of int
         The lengths of the axes that are left.
+    paths : int
+        How many paths there are.
     axes : dict of str to frozenset of int
         Along which of them each array differs.
 
@@ -54,17 +56,13 @@ class Layout:
                 groups.append([axis])
             last = members
         self.batch = batch
+        self.paths = prod(batch)
         self.groups = groups
         self.shape = tuple(prod(batch[axis] for axis in group) for group in groups)
         self.axes = {
             name: frozenset(i for i, group in enumerate(groups) if group[0] in axes)
             for name, axes in own.items()
         }
-
-    @property
-    def paths(self) -> int:
-        """The number of paths."""
-        return prod(self.batch)
 
     @property
     def all_axes(self) -> frozenset[int]:

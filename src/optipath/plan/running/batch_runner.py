@@ -183,10 +183,9 @@ class BatchRunner:
 
     def _failures(self, grid: Grid, out: Array) -> list[Piece]:
         """Fill the results; return the pieces for which the formula does not hold."""
-        several = pieces(grid.batch, _AT_ONCE)
-        if self.threads == 1:
+        several = [*pieces(grid.batch, _AT_ONCE)]
+        if self.threads == 1 or len(several) == 1:
             return [piece for piece in several if not grid.fill(piece, out)]
-        several = list(several)
         with ThreadPoolExecutor(self.threads) as pool:
             held = pool.map(lambda piece: grid.fill(piece, out), several)
             return [piece for piece, holds in zip(several, held, strict=True) if not holds]

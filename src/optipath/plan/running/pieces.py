@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import prod
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -34,13 +35,13 @@ def pieces(batch: tuple[int, ...], size: int) -> Iterator[Piece]:
     >>> [piece.where for piece in pieces((2, 3), 4)]
     [(slice(0, 1, None),), (slice(1, 2, None),)]
     """
-    if not batch:
-        yield Piece((), 0, 1)
+    if 0 < prod(batch) <= size:
+        yield Piece((slice(0, batch[0]),) if batch else (), 0, prod(batch))
         return
     axis = 0
-    while axis < len(batch) - 1 and np.prod(batch[axis + 1 :], dtype=np.int64) > size:
+    while axis < len(batch) - 1 and prod(batch[axis + 1 :]) > size:
         axis += 1
-    inner = int(np.prod(batch[axis + 1 :], dtype=np.int64))
+    inner = prod(batch[axis + 1 :])
     step = max(1, size // max(inner, 1))
     start = 0
     for outer in np.ndindex(batch[:axis]):

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from optipath.plan.running.questions import Question
     from optipath.plan.running.reading import InputReader, ResolvedInputs
     from optipath.plan.running.runner import Runner
+    from optipath.plan.running.scalar_runner import FloatFunction
     from optipath.values.operands import InputKey
 
 
@@ -68,6 +69,12 @@ class Sort:
             staged=not runner.unreduced,
         )
 
+    @cached_property
+    def function(self) -> FloatFunction | None:
+        """What does one path after the other; None where it cannot be made."""
+        absent = frozenset([key.name for key, form in self.forms.items() if form == ABSENT])
+        return self.runner.single.function(absent)
+
     @property
     def has_floats(self) -> bool:
         """Whether a function of floats has been made."""
@@ -76,9 +83,7 @@ class Sort:
     def operations(self, *, floats: bool) -> int | None:
         """Return how many operations a path takes; None where no formula can be made."""
         if floats:
-            absent = frozenset([key.name for key, form in self.forms.items() if form == ABSENT])
-            function = self.runner.single.function(absent)
-            return None if function is None else function.operations
+            return None if self.function is None else self.function.operations
         return None if self.batches is None else len(self.batches.formula.steps)
 
     @property

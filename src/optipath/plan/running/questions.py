@@ -114,22 +114,22 @@ class LightQuestion:
 
     def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
         """Return the light by the name of each end."""
-        faint = any(
-            power.any() if isinstance(power, np.ndarray) else power
-            for power in results.each[self.read :]
-        )
-        return {
-            name: self._light(results, batch, end, faint=faint)
-            for end, name in enumerate(self.ends)
-        }
+        faint, found = False, {}
+        for power in results.each[self.read :]:
+            faint = faint or bool(power.any() if isinstance(power, np.ndarray) else power)
+        for end, name in enumerate(self.ends):
+            found[name] = self._light(results, batch, end, faint=faint)
+        return found
 
     def _light(self, results: Results, batch: Batch, end: int, *, faint: bool) -> tuple[Any, Any]:
         first, count = 4 * end, self.counts[end]
-        if not faint and (count < 4 or results.together(first, first + 4) is None):
+        block = None if count < 4 else results.together(first, first + 4)
+        if block is None and not faint:
             rest = [_in_shape(part, batch) for part in results.each[first + 1 : first + count]]
             return (results.array(first).reshape(batch), *rest, *[np.nan] * (4 - count)), 0
-        stokes = _behind(results.block(first, first + 4), batch, (4,))
-        stokes[..., count:] = np.nan
+        stokes = _behind(results.block(first, first + 4) if block is None else block, batch, (4,))
+        if count < 4:
+            stokes[..., count:] = np.nan
         if not faint:
             return stokes, 0
         power = np.broadcast_to(results.each[self.read + end], results.out.shape[1])

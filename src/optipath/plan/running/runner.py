@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from functools import cached_property
+from math import prod
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines import FLOATS, NUMPY_STEPS, engine_for, jax_path
+from optipath.engines import FLOATS, NUMPY_STEPS, SEVERAL, EngineChoice, jax_path
 from optipath.engines.formulas import lights_formula
 from optipath.errors import ParameterError
 from optipath.plan.running.batch import Layout
@@ -47,6 +49,9 @@ MOST_KEPT = 64
 
 LONGEST = 200
 """How many steps are compiled in one piece."""
+
+_LITTLE = 1 << 20
+"""How many bytes every machine has."""
 
 
 class RunOptions(NamedTuple):
@@ -217,7 +222,9 @@ class Runner:
             return question.rows(self, whole.part(piece.where), {})
 
         with self.enough_for(layout.batch, question.numbers(stepped=stepped), question.cure):
-            rows = self.single.rows(numbers, layout) if engine == FLOATS else None
+            rows = None
+            if engine == FLOATS and sort.function is not None:
+                rows = sort.function.rows(numbers, layout)
             if rows is not None:
                 results = Results.of(rows, question.read, self.dtype)
             elif stepped or engine == FLOATS:
@@ -264,7 +271,7 @@ class Runner:
         return self.formula(LightQuestion(self.program, polynomials=False), forms, {})
 
     @cached_property
-    def operations(self) -> int | None:
+    def length(self) -> int | None:
         """How many operations light takes; None where it cannot be made a formula."""
         made = self.formula(LightQuestion(self.program), self.all_given_as(ONE), {})
         return None if made is None else len(made.steps)
@@ -272,12 +279,14 @@ class Runner:
     def engine_for(self, count: int) -> str:
         """Return what runs a batch of so many paths, once that has been done several times."""
         engine, floats = self.options.engine, self.dtype == np.float64
-        if count == 1 and floats and engine != "jax":
+        if engine == "jax":
+            return engine
+        if count == 1 and floats:
             return FLOATS
-        kept = any(sort.choice.settled == "numba" for sort in self._sorts.values())
-        return engine_for(
-            engine, count, self.operations, self.most_operations, floats=floats, kept=kept
-        )
+        if any(sort.choice.settled == "numba" for sort in self._sorts.values()):
+            return "numba"
+        choice = EngineChoice(engine, self.most_operations, floats=floats, runs=SEVERAL)
+        return choice.of(count, _Unknown(self.length))
 
     @property
     def most_operations(self) -> int:
@@ -318,7 +327,10 @@ class Runner:
         ParameterError
             If the machine has no memory for them.
         """
-        return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
+        each = self.dtype.itemsize * numbers
+        if prod(batch) * each < _LITTLE:
+            return nullcontext()
+        return enough_for(batch, each, cure, ParameterError)
 
     def parts(self, given: ResolvedInputs) -> Iterator[ResolvedInputs]:
         """Return what is given in parts that stay in the cache, step after step."""
@@ -404,6 +416,17 @@ class Runner:
             raise ParameterError(
                 f"{what} of numbers, not of values that JAX traces; do it outside of jit and grad"
             )
+
+
+class _Unknown(NamedTuple):
+    """A batch of which nothing is known but how many operations a path takes."""
+
+    length: int | None
+    has_floats = is_kept = False
+
+    def operations(self, *, floats: bool) -> int | None:
+        del floats
+        return self.length
 
 
 def _is_of_jax(value: Any) -> bool:

@@ -49,6 +49,33 @@ class FloatFunction(NamedTuple):
     names: tuple[str, ...]
     operations: int
 
+    def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
+        """Return the results of a few paths, shape (results, paths); None where it takes care.
+
+        Parameters
+        ----------
+        numbers : mapping of str to float or ndarray
+            What is given, as formulas name it.
+        layout : Layout
+            The axes of the batch.
+        """
+        columns: list[Any] = []
+        for name in self.names:
+            number = numbers[name]
+            if isinstance(number, np.ndarray):
+                if number.shape != layout.batch:
+                    number = np.broadcast_to(number, layout.batch)
+                columns.append(number.ravel().tolist())
+            else:
+                columns.append(repeat(number))
+        try:
+            found = [self.path(*row) for row in islice(zip(*columns), layout.paths)]  # noqa: B905
+        except _REFUSED:
+            return None
+        if None in found or not found or len(found) < layout.paths:
+            return None
+        return np.array(found).T
+
 
 class ScalarRunner:
     """Runs a program on plain floats.
@@ -108,36 +135,6 @@ class ScalarRunner:
             self._usual = self._unread(given, function)
         numbers = {str(key): number for key, number in given.numbers.items()}
         return _called(function.path, [numbers[name] for name in function.names])
-
-    def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
-        """Return the results of a few paths, shape (results, paths); None where it takes care.
-
-        Parameters
-        ----------
-        numbers : mapping of str to float or ndarray
-            What is given, as formulas name it.
-        layout : Layout
-            The axes of the batch.
-        """
-        function = self.function(_absent(numbers))
-        if function is None:
-            return None
-        columns: list[Any] = []
-        for name in function.names:
-            number = numbers[name]
-            if isinstance(number, np.ndarray):
-                if number.shape != layout.batch:
-                    number = np.broadcast_to(number, layout.batch)
-                columns.append(number.ravel().tolist())
-            else:
-                columns.append(repeat(number))
-        try:
-            found = [function.path(*row) for row in islice(zip(*columns), layout.paths)]  # noqa: B905
-        except _REFUSED:
-            return None
-        if None in found or not found or len(found) < layout.paths:
-            return None
-        return np.array(found).T
 
     def function(self, absent: frozenset[str]) -> FloatFunction | None:
         """Return the function for when some optional elements are not there, if one can be made."""
