@@ -208,19 +208,12 @@ def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
 
     Parameters
     ----------
-    number : object
-        What was given.
-    least, most : int or infinity, optional
-        Within what it must be.
+    number, least, most : object, int, int or infinity
+        What was given, and within what it must be.
 
     Returns
     -------
     bool
-
-    Examples
-    --------
-    >>> is_whole(2), is_whole(0), is_whole(True), is_whole(2.0), is_whole(2, most=1)
-    (True, False, False, False, False)
     """
     with suppress(TypeError):  # NumPy's durations are Integral, and index nothing
         return (
