@@ -15,8 +15,6 @@ from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from copyreg import __newobj__  # type: ignore[attr-defined]
 from difflib import get_close_matches
-from numbers import Integral
-from operator import index
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any
 
@@ -201,54 +199,6 @@ def unknown(what: str, word: object, known: Collection[str]) -> list[str]:
     if isinstance(word, str) and word in known:
         return []
     return [f"{what} {shown(word)} is unknown{did_you_mean(word, known)}"]
-
-
-def is_whole(number: object, least: int = 1, most: float = math.inf) -> bool:
-    """Tell whether something is a whole number of any integer type, but no bool.
-
-    Parameters
-    ----------
-    number, least, most : object, int, int or infinity
-        What was given, and within what it must be.
-
-    Returns
-    -------
-    bool
-    """
-    with suppress(TypeError):  # NumPy's durations are Integral, and index nothing
-        return (
-            isinstance(number, Integral)
-            and not isinstance(number, bool)
-            and least <= index(number) <= most
-        )
-    return False
-
-
-def whole_number(what: str, number: object, least: int = 1) -> list[str]:
-    """Return the sentence for what is no whole number, or too small; none for one that serves.
-
-    Parameters
-    ----------
-    what, number : str, object
-        What is counted, and what was given; any integer type serves, but no bool.
-    least : int
-        The smallest that serves.
-
-    Returns
-    -------
-    list of str
-        The sentence, or nothing.
-
-    Examples
-    --------
-    >>> whole_number("threads", 1.5), whole_number("threads", 2)
-    (['threads must be a whole number of 1 or more, not 1.5'], [])
-    """
-    return (
-        []
-        if is_whole(number, least)
-        else [f"{what} must be a whole number of {least} or more, not {shown(number)}"]
-    )
 
 
 def listed(words: Sequence[str]) -> str:

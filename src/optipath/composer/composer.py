@@ -16,10 +16,11 @@ from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
 from optipath.engines.program.reduction import MODELS
-from optipath.errors import ComposerError, shown, unknown, whole_number
+from optipath.errors import ComposerError, shown, unknown
 from optipath.kernels import METHODS
 from optipath.plan.plan import Plan
 from optipath.values.precision import precision
+from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from optipath.engines.program.program import Program

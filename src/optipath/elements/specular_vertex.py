@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain
-from optipath.errors import is_whole
 from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
 from optipath.values.arrays.read_only import same
 from optipath.values.domains import Index, OutsideIndex
 from optipath.values.materials import Material
+from optipath.values.whole_numbers import is_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

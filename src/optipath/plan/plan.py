@@ -7,10 +7,11 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.engines import LARGE
-from optipath.errors import ParameterError, did_you_mean, shown, whole_number
+from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import Mueller
+from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -7,8 +7,9 @@ from typing import Any
 
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.coordinates import Coordinates, coordinates
-from optipath.errors import is_whole, shown
+from optipath.errors import shown
 from optipath.values.parameters import Parameter
+from optipath.values.whole_numbers import is_whole
 
 _MOST = (1 << 31) - 1
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import ParameterError, whole_number
+from optipath.errors import ParameterError
 from optipath.plan.light_paths.best_first import Search
 from optipath.plan.light_paths.cycles import endless
+from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
