@@ -275,10 +275,9 @@ def shown(value: object) -> str:
 
 def stop(*_: object) -> None:
     """End at once: what is being imported could swallow an exception."""
-    try:
+    with suppress(OSError):
         os.write(2, b"optipath: interrupted\n")
-    finally:
-        os._exit(INTERRUPTED)
+    os._exit(INTERRUPTED)
 
 
 def _is_command() -> bool:

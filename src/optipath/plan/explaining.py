@@ -33,7 +33,7 @@ def explanation_of(plan: Any) -> Explanation:
     }
     return Explanation(
         counts=counts,
-        options={
+        manner={
             "method": plan.method,
             "model": plan.model,
             "engine": plan.engine,

@@ -73,7 +73,7 @@ class Explanation:
     ----------
     counts : mapping of str to int
         How many sources, detectors, dumps and steps there are.
-    options : mapping of str to str
+    manner : mapping of str to str
         The method, model, engine, precision, and how light is composed.
     reason : str
         Why this model.
@@ -101,7 +101,7 @@ class Explanation:
     """
 
     counts: Mapping[str, int]
-    options: Mapping[str, str]
+    manner: Mapping[str, str]
     reason: str
     steps: tuple[ExplainedStep, ...]
     reads: Mapping[str, tuple[str, ...]]
@@ -120,10 +120,10 @@ class Explanation:
 
     def __str__(self) -> str:
         counted = [_count(n, what) for what, n in self.counts.items() if n or what != "dump"]
-        options = self.options
-        words = [f"{name} {options[name]}" for name in ("method", "model", "engine")]
-        words.append(options["dtype"])
-        if options["composing"] == "jones":
+        manner = self.manner
+        words = [f"{name} {manner[name]}" for name in ("method", "model", "engine")]
+        words.append(manner["dtype"])
+        if manner["composing"] == "jones":
             words.append("composing Jones columns")
         reads = [
             f"{name} reads {', '.join(self.reads[name])} of light {light}"
@@ -131,7 +131,7 @@ class Explanation:
         ]
         lines = [
             f"{', '.join(counted)}; {', '.join(words)}",
-            f"model {options['model']}: {self.reason}",
+            f"model {manner['model']}: {self.reason}",
             "",
             *self._heading(),
             *_step_lines(self.steps),
