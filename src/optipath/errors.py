@@ -11,7 +11,7 @@ import os
 import re
 import signal
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from contextvars import ContextVar
 from copyreg import __newobj__  # type: ignore[attr-defined]
 from difflib import get_close_matches
