@@ -14,6 +14,8 @@ from optipath.engines.program.program import Result
 from optipath.kernels import FLOAT, Kernel
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from optipath.engines.program.program import Program
     from optipath.values.operands import Operand
 
@@ -72,7 +74,7 @@ def entries_of(program: Program) -> list[Entries]:
     found: list[Entries] = []
     for evaluation, result in zip(program.evaluations, evaluated, strict=True):
         given = [
-            _zero_or_one(found[argument.evaluation][0][argument.place])
+            _zero_or_one(_result(program, found, argument))
             if isinstance(argument, Result)
             else known[argument]
             for argument in evaluation.arguments
@@ -89,6 +91,13 @@ def _evaluated(kernel: Kernel, numbers: tuple[float, ...]) -> tuple[float, ...] 
         return tuple(map(float, kernel.made_for(FLOAT)(*numbers)))
     except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
         return None
+
+
+def _result(program: Program, found: Sequence[Entries], result: Result) -> Entry:
+    """Return what is known of a result: that of a kernel without structure has one row."""
+    structure = program.evaluations[result.evaluation].kernel.structure
+    row = found[result.evaluation][0]
+    return row[result.place] if structure is None and result.place < len(row) else None
 
 
 def _zero_or_one(number: Entry) -> Entry:

@@ -146,3 +146,25 @@ def test_a_matrix_and_its_kernels_take_it_too():
     plan = dispersive(op.Parameter("wavelength")).compose()
     assert plan.evaluations(wavelength=np.array([0.4, 0.5]))["one.reflected"] == 2
     assert plan.paths(wavelength=0.5)[0].light.intensity == pytest.approx(plain(0.5).intensity)
+
+
+def table(xp):
+    """Make a wavelength -> six numbers, by what no formula can be made of."""
+    del xp
+    return lambda wavelength: (0.0,) * 4 + (1.5 + 0.004 / float(wavelength) ** 2, 0.0)
+
+
+class Tabulated(Glass, kind="example-tabulated-glass"):
+    """Glass whose index is looked up by a kernel of one's own, among other results."""
+
+    def couplings(self):
+        *_, n, k = Operation(Kernel("table", None, table), (self.wavelength,)).results(6)
+        operation = Operation(REFLECTION, (1.0, n, k, COSINE, SINE))
+        return (Coupling("in", "reflected", (operation,), reflects=True),)
+
+
+def test_results_of_kernels_that_take_no_symbols_are_unknown_when_composing():
+    path = op.PathGraph()
+    first = path.add("lamp", op.Source()) >> path.add("one", Tabulated(op.Parameter("length")))
+    first >> path.add("eye", op.Detector())
+    np.testing.assert_allclose(path.trace(length=0.5).stokes, wanted(0.5), rtol=1e-14, atol=1e-17)
