@@ -42,9 +42,12 @@ class Engine(ABC, Generic[Given, Path]):
         """Return the function of a formula."""
 
     def is_ready(self, formula: Given) -> bool:
-        """Tell whether a formula can be run at once: nothing is left to compile that takes time."""
+        """Tell whether a formula can be run at once: nothing is left to compile that takes time.
+
+        Of what an extra brings, it is not known unless the engine says so.
+        """
         del formula
-        return True
+        return not self.extra
 
     def takes(self, dtype: str, operations: int = 0) -> bool:
         """Tell whether formulas of a precision and a length can be run.
