@@ -49,22 +49,6 @@ class Engine(ABC, Generic[Given, Path]):
         del formula
         return not self.extra
 
-    def takes(self, dtype: str, operations: int = 0) -> bool:
-        """Tell whether formulas of a precision and a length can be run.
-
-        Parameters
-        ----------
-        dtype : str
-            Their precision.
-        operations : int, optional
-            How many they have.
-
-        Returns
-        -------
-        bool
-        """
-        return dtype in self.precisions and operations <= self.longest
-
     @property
     def is_installed(self) -> bool:
         """Whether what it needs is there, found without importing it."""
