@@ -28,13 +28,6 @@ def test_an_engine_whose_package_is_not_there_names_what_brings_it():
     assert "optipath[fast]" in str(Absent().missing)
 
 
-def test_an_engine_takes_formulas_of_its_precisions_and_no_longer_than_it_says():
-    assert Absent().takes("float32", 100)
-    assert not Absent().takes("float32", 101)
-    assert not Absent().takes("longdouble")
-    assert REGISTRY["numpy"].takes("float64", 10**6)
-
-
 def test_what_needs_no_compiler_is_always_ready():
     assert FLOATS.is_ready(doubled())
     assert REGISTRY["numpy"].is_ready(doubled())

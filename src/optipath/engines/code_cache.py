@@ -6,7 +6,7 @@ import hashlib
 import logging
 import os
 from collections import OrderedDict
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from threading import RLock
 from typing import TYPE_CHECKING
 
@@ -24,7 +24,7 @@ from optipath.errors import CacheError
 from optipath.values.written_files import write_own_file
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     from optipath.engines.machine_code import MachineCode
@@ -107,7 +107,7 @@ class CodeCache:
         """
         with self._lock:
             if text not in self._functions:
-                self._functions[text] = self._kept(text) or self._made(text, compiled)
+                self._functions[text] = self._loaded(text, compiled)
             self._functions.move_to_end(text)
             found = self._functions[text]
             try:
@@ -119,19 +119,15 @@ class CodeCache:
                 self._functions.popitem(last=False)
             return found
 
-    def _kept(self, text: str) -> MachineCode | None:
+    def _loaded(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
 
         code = self.load(text)
-        try:
-            return None if code is None else MachineCode(code)
-        except (RuntimeError, ValueError):
-            self.tell("a file of compiled code cannot be run; it is compiled anew")
-        return None
-
-    def _made(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
-        from optipath.engines.machine_code import MachineCode  # noqa: PLC0415 - not to clear
-
+        if code is not None:
+            try:
+                return MachineCode(code)
+            except (RuntimeError, ValueError):
+                self.tell("a file of compiled code cannot be run; it is compiled anew")
         _LOGGER.warning("compiling a path for Numba")
         code = compiled(text)
         self.keep(text, code)
@@ -198,12 +194,9 @@ class CodeCache:
         CacheError
             If the folder is not to be used, or cannot be read.
         """
-        try:
+        with self._told_as_fault():
             return entries_in(self._folder(), CODE_SUFFIX)
-        except FileNotFoundError:
-            return []
-        except (OSError, RuntimeError) as error:
-            raise self._fault(error) from None
+        return []
 
     def clear(self) -> int:
         """Remove what is on disk, drafts too; return how many entries there were.
@@ -214,14 +207,9 @@ class CodeCache:
             If the folder is not to be used, or nothing can be removed from it.
         """
         entries = self.entries()
-        try:
-            drafts = entries_in(self._folder(), _DRAFT)
-            for entry in (*entries, *drafts):
+        with self._told_as_fault():
+            for entry in (*entries, *entries_in(self._folder(), _DRAFT)):
                 entry.file.unlink(missing_ok=True)
-        except FileNotFoundError:
-            pass
-        except (OSError, RuntimeError) as error:
-            raise self._fault(error) from None
         return len(entries)
 
     def tell(self, what: str) -> None:
@@ -232,6 +220,16 @@ class CodeCache:
 
     def _tell_of(self, error: BaseException) -> None:
         self.tell(f"compiled code is not kept: {self._fault(error)}")
+
+    @contextmanager
+    def _told_as_fault(self) -> Iterator[None]:
+        """Raise what is wrong with the folder as a CacheError; that it is not there is no fault."""
+        try:
+            yield
+        except FileNotFoundError:
+            pass
+        except (OSError, RuntimeError) as error:
+            raise self._fault(error) from None
 
     def _fault(self, error: BaseException) -> CacheError:
         """Return what is wrong with the folder as a sentence with its cure."""

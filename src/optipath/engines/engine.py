@@ -42,25 +42,12 @@ class Engine(ABC, Generic[Given, Path]):
         """Return the function of a formula."""
 
     def is_ready(self, formula: Given) -> bool:
-        """Tell whether a formula can be run at once: nothing is left to compile that takes time."""
-        del formula
-        return True
+        """Tell whether a formula can be run at once: nothing is left to compile that takes time.
 
-    def takes(self, dtype: str, operations: int = 0) -> bool:
-        """Tell whether formulas of a precision and a length can be run.
-
-        Parameters
-        ----------
-        dtype : str
-            Their precision.
-        operations : int, optional
-            How many they have.
-
-        Returns
-        -------
-        bool
+        Of what an extra brings, it is not known unless the engine says so.
         """
-        return dtype in self.precisions and operations <= self.longest
+        del formula
+        return not self.extra
 
     @property
     def is_installed(self) -> bool:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.engine import Engine
-from optipath.engines.expressions import EXPRESSIONS
 from optipath.engines.formulas import Symbol
+from optipath.engines.formulas.operations import OPERATIONS
 from optipath.kernels import FLOAT
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def source(formula: Formula) -> str:
         if isinstance(o, Symbol)
     }
     for step in formula.steps:
-        text = EXPRESSIONS[step.operation].format(*map(written, step.operands))
+        text = OPERATIONS[step.operation].text.format(*map(written, step.operands))
         deep = 1 + max(
             (depth.get(o.index, 0) for o in step.operands if isinstance(o, Symbol)), default=0
         )

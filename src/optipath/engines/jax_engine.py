@@ -50,8 +50,3 @@ class JaxEngine(Engine[CarriedProgram, "JaxPath"]):
             raise self.missing
         path: JaxPath = import_module("optipath.engines.jax_path").JaxPath(*formula)
         return path
-
-    def is_ready(self, formula: CarriedProgram) -> bool:
-        """Tell that it is never known what JAX keeps compiled."""
-        del formula
-        return False

@@ -219,7 +219,16 @@ class JaxPath:
 
         Cosines and sines are among them that are given, or of angles that JAX would round.
         """
-        values, absent = _split(resolved)
+        values: dict[str, Any] = {}
+        absent = set()
+        for name, (value, present) in resolved.items():
+            # In a precision and an order of bytes that JAX has.
+            sort = np.complex128 if np.iscomplexobj(value) else np.float64
+            values[name] = value if is_jax(value) else np.asarray(value, sort)
+            if not np.all(present) and np.any(present):
+                values[f"{name} present"] = present
+            elif not np.all(present):
+                absent.add(name)
         kind = wide(self.dtype)
         for place, operand in enumerate(self.program.operands):
             if operand.part not in ("cos", "sin") or operand.known:
@@ -230,7 +239,7 @@ class JaxPath:
                 values[_place(place)] = operand.evaluated(JAX, (pair.cos, pair.sin))
             elif kind != self.dtype and not is_jax(angle):
                 values[_place(place)] = operand.evaluated(NUMPY, np.asarray(angle).astype(kind))
-        return values, absent
+        return values, frozenset(absent)
 
     def _precision(self, values: Mapping[str, Any]) -> Any:
         """Return a context in which JAX computes in the precision of the plan.
@@ -266,26 +275,6 @@ def _double() -> Any:
     return enable_x64
 
 
-def _split(resolved: Mapping[str, Resolved]) -> tuple[dict[str, Any], frozenset[str]]:
-    """Return the values, and the names of what is not there at all."""
-    values: dict[str, Any] = {}
-    absent = set()
-    for name, (value, present) in resolved.items():
-        values[name] = value if is_jax(value) else _known_to_jax(value)
-        if not np.all(present):
-            if np.any(present):
-                values[f"{name} present"] = present
-            else:
-                absent.add(name)
-    return values, frozenset(absent)
-
-
 def _place(place: int) -> str:
     """Return what an operand is called that is computed before JAX is asked."""
     return f".{place}"
-
-
-def _known_to_jax(value: Any) -> Any:
-    """Return an array in a precision and an order of bytes that JAX has."""
-    kind = np.complex128 if np.iscomplexobj(value) else np.float64
-    return np.asarray(value, kind)

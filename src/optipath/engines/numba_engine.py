@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.engine import Engine
-from optipath.engines.expressions import assignments
 from optipath.engines.formulas import Symbol, left_formula
+from optipath.engines.formulas.operations import OPERATIONS
 from optipath.engines.numpy_engine import NumpyEngine
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from optipath.engines.array_path import ArrayPath
     from optipath.engines.code_cache import CodeCache
     from optipath.engines.formulas import Formula
@@ -100,8 +102,8 @@ def source(formula: Formula) -> str:
         return constants.setdefault(repr(float(operand)), f"c{len(constants)}")
 
     before, in_row, cuts, inside = _loads(formula)
-    before += assignments(formula.prologue, written)
-    inside += assignments(formula.body, written)
+    before += _assignments(formula.prologue, written)
+    inside += _assignments(formula.body, written)
     for row, result in enumerate(formula.computed):
         cuts.append(f"o{row} = {row} * paths + at + first + begin")
         inside.append(f"out[o{row} + i] = {written(result)}")
@@ -201,8 +203,16 @@ def _left(left: Symbol, angle: str) -> list[str]:
             return repr(operand.item())
         return f"d{left.index}_{operand.index}" if operand is not given else angle
 
-    return assignments(formula.steps, written)
+    return _assignments(formula.steps, written)
 
 
 def _indented(*lines: str) -> list[str]:
     return ["    " + line for line in lines]
+
+
+def _assignments(steps: Iterable[Symbol], written: Callable[[Any], str]) -> list[str]:
+    """Return a line for each operation, its operands written as a function says."""
+    return [
+        f"{written(step)} = {OPERATIONS[step.operation].text.format(*map(written, step.operands))}"
+        for step in steps
+    ]

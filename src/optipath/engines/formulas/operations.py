@@ -21,45 +21,48 @@ class About(NamedTuple):
         Does it to NumPy's arrays and scalars.
     kind : str
         ``"float"``, ``"bool"`` or ``"int"``; ``"same"`` as its operands.
+    text : str
+        How Python writes it, for engines that compile scalars.
     commutes : bool
         Whether its two operands may change places.
     """
 
     ufunc: Callable[..., Any]
     kind: str
+    text: str
     commutes: bool = False
 
 
 OPERATIONS = {
-    "absolute": About(np.absolute, "same"),
-    "add": About(np.add, "same", commutes=True),
-    "arctan2": About(np.arctan2, "float"),
-    "cos": About(np.cos, "float"),
-    "divide": About(np.divide, "float"),
-    "equal": About(np.equal, "bool", commutes=True),
-    "exp": About(np.exp, "float"),
-    "exponent": About(lambda number: np.frexp(number)[1], "int"),
-    "fixed": About(lambda number: number, "same"),
-    "floor_divide": About(np.floor_divide, "same"),
-    "greater": About(np.greater, "bool"),
-    "greater_equal": About(np.greater_equal, "bool"),
-    "ldexp": About(np.ldexp, "float"),
-    "less": About(np.less, "bool"),
-    "less_equal": About(np.less_equal, "bool"),
-    "logical_and": About(np.logical_and, "bool", commutes=True),
-    "logical_not": About(np.logical_not, "bool"),
-    "logical_or": About(np.logical_or, "bool", commutes=True),
-    "maximum": About(np.maximum, "same", commutes=True),
-    "minimum": About(np.minimum, "same", commutes=True),
-    "multiply": About(np.multiply, "same", commutes=True),
-    "multiply_add": About(lambda a, b, c: a * b + c, "float"),
-    "negative": About(np.negative, "same"),
-    "not_equal": About(np.not_equal, "bool", commutes=True),
-    "power": About(np.power, "float"),
-    "product_rest": About(product_rest, "float", commutes=True),
-    "remainder": About(np.remainder, "same"),
-    "sin": About(np.sin, "float"),
-    "sqrt": About(np.sqrt, "float"),
-    "subtract": About(np.subtract, "same"),
-    "where": About(np.where, "same"),
+    "absolute": About(np.absolute, "same", "abs({0})"),
+    "add": About(np.add, "same", "{0} + {1}", commutes=True),
+    "arctan2": About(np.arctan2, "float", "atan2({0}, {1})"),
+    "cos": About(np.cos, "float", "cos({0})"),
+    "divide": About(np.divide, "float", "{0} / {1}"),
+    "equal": About(np.equal, "bool", "{0} == {1}", commutes=True),
+    "exp": About(np.exp, "float", "exp({0})"),
+    "exponent": About(lambda number: np.frexp(number)[1], "int", "exponent({0})"),
+    "fixed": About(lambda number: number, "same", "{0}"),
+    "floor_divide": About(np.floor_divide, "same", "{0} // {1}"),
+    "greater": About(np.greater, "bool", "{0} > {1}"),
+    "greater_equal": About(np.greater_equal, "bool", "{0} >= {1}"),
+    "ldexp": About(np.ldexp, "float", "ldexp({0}, {1})"),
+    "less": About(np.less, "bool", "{0} < {1}"),
+    "less_equal": About(np.less_equal, "bool", "{0} <= {1}"),
+    "logical_and": About(np.logical_and, "bool", "{0} & {1}", commutes=True),
+    "logical_not": About(np.logical_not, "bool", "not {0}"),
+    "logical_or": About(np.logical_or, "bool", "{0} | {1}", commutes=True),
+    "maximum": About(np.maximum, "same", "{0} if {0} >= {1} else {1}", commutes=True),
+    "minimum": About(np.minimum, "same", "{0} if {0} <= {1} else {1}", commutes=True),
+    "multiply": About(np.multiply, "same", "{0} * {1}", commutes=True),
+    "multiply_add": About(lambda a, b, c: a * b + c, "float", "multiply_add({0}, {1}, {2})"),
+    "negative": About(np.negative, "same", "-{0}"),
+    "not_equal": About(np.not_equal, "bool", "{0} != {1}", commutes=True),
+    "power": About(np.power, "float", "{0} ** {1}"),
+    "product_rest": About(product_rest, "float", "product_rest({0}, {1})", commutes=True),
+    "remainder": About(np.remainder, "same", "{0} % {1}"),
+    "sin": About(np.sin, "float", "sin({0})"),
+    "sqrt": About(np.sqrt, "float", "sqrt({0})"),
+    "subtract": About(np.subtract, "same", "{0} - {1}"),
+    "where": About(np.where, "same", "{1} if {0} else {2}"),
 }
