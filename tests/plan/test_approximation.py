@@ -50,6 +50,28 @@ def test_a_tolerated_intensity_is_as_near_as_it_may_be(size, tolerance):
     np.testing.assert_array_equal(found.intensity[~beyond], certificate.scalar[~beyond])
 
 
+@pytest.mark.parametrize("size", [(), (5,), (3000,)])
+def test_each_of_several_tolerated_intensities_is_as_near_as_it_may_be(rng, size):
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("first", op.Interface(1.5, op.Parameter("a")))
+    for way, turn in (("reflected", 0.3), ("transmitted", op.Parameter("turn"))):
+        path.add(f"pane {way}", op.Interface(2.0, op.Parameter("b"), azimuth=turn))
+        path.add(f"eye {way}", op.Detector("intensity"))
+        path.connect(f"first.{way}", f"pane {way}.in")
+        path.connect(f"pane {way}.reflected", f"eye {way}.in")
+    plan = op.Composer(tolerance=0.1).compose(path)
+    for most in (0.3, 1.4):
+        values = {name: rng.uniform(0.1, most, size) for name in ("a", "b", "turn")}
+        exact, found = path.trace_all(**values), plan.run_all(**values)
+        bounds = {name: plan.certificate(name, **values) for name in found}
+        near = np.max([each.error for each in bounds.values()], axis=0) <= 0.1
+        for name, light in found.items():
+            wanted = exact[name].intensity
+            assert np.all(np.abs(light.intensity - wanted) <= 0.1 * wanted)
+            expected = np.where(near, bounds[name].scalar, wanted)
+            np.testing.assert_allclose(light.intensity, expected, rtol=1e-13)
+
+
 def test_the_certificate_of_two_interfaces_is_reached():
     path = two_panes()
     values = {"a": 0.7, "b": 0.7}

@@ -82,14 +82,17 @@ def test_every_run_brings_each_of_several_detectors_its_own_light(count):
         )
 
 
+@pytest.mark.parametrize("size", [(), (5,), (3000,)])
 @pytest.mark.parametrize("composing", ["stokes", "jones"])
-def test_every_run_brings_each_of_several_detectors_its_own_exponent(composing):
+def test_every_run_brings_each_of_several_detectors_its_own_exponent(composing, size):
     plan = op.Composer(composing=composing).compose(splitters(2))
     for run in range(1, 9):
-        lights = plan.run_all(r0=1e-250, r1=10.0**-run, t=1e-100)
+        second = np.full(size, 10.0**-run) if size else 10.0**-run
+        lights = plan.run_all(r0=1e-250, r1=second, t=1e-100)
         found = [lights[end].log10_intensity for end in ("side0", "side1")]
-        np.testing.assert_allclose(found, [-350.0, -100.0 - run], rtol=1e-14)
-        assert lights["end"].intensity == pytest.approx(1.0 - 10.0**-run, rel=1e-15)
+        for power, expected in zip(found, (-350.0, -100.0 - run), strict=True):
+            np.testing.assert_allclose(power, np.full(size, expected), rtol=1e-14)
+        np.testing.assert_allclose(lights["end"].intensity, 1.0 - 10.0**-run, rtol=1e-15)
 
 
 @pytest.mark.parametrize("shapes", [((1,), ()), ((10,), (10,)), ((3, 1), (4,)), ((40, 1), (1, 30))])
