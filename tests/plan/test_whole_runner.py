@@ -20,7 +20,7 @@ def test_long_paths_whose_plan_is_short_have_matrices_without_waiting():
     path = chain([*plates, op.Polarizer(0.1)], reads="intensity")
     plan = path.compose()
     assert len(plan.program.steps) < 64 < len(plan.whole.steps)
-    assert plan.engine_for(70_000) != plan.whole_runner.engine_for(70_000)
+    assert plan.engine_for(70_000) != plan.answers.whole.engine_for(70_000)
 
 
 def test_certificates_of_traced_values_are_refused_in_words():

@@ -92,7 +92,9 @@ class Outcome:
 
     @cached_property
     def _errors(self) -> Any:
-        return self.plan.errors({})
+        approximation = self.plan.answers.approximation
+        assert approximation is not None  # noqa: S101 - asked for by who knows
+        return approximation.errors_for({})
 
     def published(self, detector: str) -> tuple[float, ...] | None:
         """Return the published Stokes vector, if these are the values it belongs to."""

@@ -6,7 +6,6 @@ from optipath.engines.automatic import (
     FLOATS,
     LARGE,
     NUMPY_STEPS,
-    SEVERAL,
     EngineChoice,
     batches,
     compile_array_path,
@@ -14,6 +13,7 @@ from optipath.engines.automatic import (
     is_kept,
     jax_path,
     missing,
+    usual_engine,
 )
 
 __all__ = [
@@ -21,7 +21,6 @@ __all__ = [
     "FLOATS",
     "LARGE",
     "NUMPY_STEPS",
-    "SEVERAL",
     "ArrayPath",
     "EngineChoice",
     "batches",
@@ -30,4 +29,5 @@ __all__ = [
     "is_kept",
     "jax_path",
     "missing",
+    "usual_engine",
 ]

@@ -85,6 +85,8 @@ class EngineChoice:
         self.most = most if engine != "numpy" and is_installed("numba") else -1
         self.floats = floats
         self.settled = NUMPY_STEPS if engine == "jax" else ""
+        # For how many paths something is made, be it never asked for again.
+        self._least = 0 if engine == "numba" else FEW
         self._runs = runs
         self._cost = 0.0
         self._looked = False
@@ -110,7 +112,9 @@ class EngineChoice:
             return self.settled
         self._runs += 1
         few = self.engine == "auto" and self.floats and count < HANDFUL
-        if count < self._least() and not (few and work.has_floats):
+        if self._runs > SEVERAL and self.engine == "auto":
+            self._least = 0 if self.floats else HANDFUL
+        if count < self._least and not (few and work.has_floats):
             return NUMPY_STEPS
         operations = work.operations(floats=few)
         if operations is None:
@@ -121,14 +125,6 @@ class EngineChoice:
             self.settled = "numpy"
         return self.settled or (FLOATS if few else "numpy")
 
-    def _least(self) -> int:
-        """Return for how many paths something is made, be it never asked for again."""
-        if self.engine == "numba":
-            return 0
-        if self.engine == "numpy" or self._runs <= SEVERAL:
-            return FEW
-        return 0 if self.floats else HANDFUL
-
     def _pays(self, operations: int, count: int, ahead: int, work: Work) -> bool:
         """Tell whether Numba is worth its while."""
         if self.engine == "numba":
@@ -136,11 +132,54 @@ class EngineChoice:
         self._cost += cost(operations, count)
         earned = FORESIGHT * (self._cost + cost(operations, max(0, ahead - count)))
         if not self._looked:
-            loaded = "optipath.engines.numba_engine" in sys.modules
+            loaded = "llvmlite" in sys.modules
             self._looked = earned > (_LOOKING_AGAIN if loaded else _LOOKING)
             if self._looked and work.is_kept:
                 return True
         return earned > _BEGINNING + _COMPILING * operations
+
+
+class _Unseen:
+    """Paths of which nothing is known but how many operations each takes."""
+
+    has_floats = is_kept = False
+
+    def __init__(self, length: int | None) -> None:
+        self.length = length
+
+    def operations(self, *, floats: bool) -> int | None:
+        del floats
+        return self.length
+
+
+def usual_engine(
+    engine: str, count: int, operations: int | None, most: int, *, floats: bool
+) -> str:
+    """Return what runs so many paths once that has been done several times.
+
+    Parameters
+    ----------
+    engine, most, floats
+        As `EngineChoice` takes them.
+    count : int
+        How many paths.
+    operations : int or None
+        How many operations each takes; None where there is no formula.
+
+    Returns
+    -------
+    str
+        One of the engines, `FLOATS`, or `NUMPY_STEPS`.
+
+    Examples
+    --------
+    >>> usual_engine("auto", 10, 300, 1500, floats=True)
+    'floats'
+    >>> usual_engine("numba", 10, 300, 1500, floats=True)
+    'numba'
+    """
+    choice = EngineChoice(engine, most, floats=floats, runs=SEVERAL)
+    return choice.of(count, _Unseen(operations))
 
 
 def cost(operations: int, count: int) -> float:

@@ -56,7 +56,7 @@ class Approximation:
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         """Return the light at every end."""
-        if self.exact.is_for_jax(parameters):
+        if self.exact.for_jax.is_asked(parameters):
             return self.exact.answer(question, parameters)
         return self._of(question, self.whole.read_for_bounds(parameters), parameters)
 
@@ -64,7 +64,7 @@ class Approximation:
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
         """Yield the index of a part of the batch, and the light at every end for it."""
-        if self.exact.is_for_jax(parameters):
+        if self.exact.for_jax.is_asked(parameters):
             yield from self.exact.stream(question, size, parameters)
             return
         given = self.whole.read_for_bounds(parameters)

@@ -11,7 +11,7 @@ from optipath.errors import ParameterError
 from optipath.kernels import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.plan.running.counts import operations
-from optipath.plan.running.runner import LONGEST
+from optipath.plan.running.formula_maker import LONGEST
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -55,8 +55,8 @@ def explanation_of(plan: Any) -> Explanation:
 
 
 def _operations(plan: Any) -> dict[str, dict[str, int]] | None:
-    own = operations(plan.light_runner, unreduced=plan.reduction.unreduced)
-    full = operations(plan.whole_runner, unreduced=True, carrier=StokesCarrier)
+    own = operations(plan.answers.light, unreduced=plan.reduction.unreduced)
+    full = operations(plan.answers.whole, unreduced=True, carrier=StokesCarrier)
     return None if own is None or full is None else {"plan": own, "full": full}
 
 
@@ -89,10 +89,10 @@ def _certified(plan: Any) -> dict[str, Any] | None:
         return {"text": f"depends on {_first_few(missing)}; see plan.certificate(...)"}
     if plan.whole.loops:
         return {"text": "none, since light goes round"}
-    if plan.whole_runner.has_traced:
+    if plan.answers.whole.for_jax.has_traced:
         return {"text": "depends on values that JAX traces"}
     try:
-        found = plan.certificates({})
+        found = plan.answers.certificates({})
     except ParameterError as fault:
         return {"text": f"none, since {fault}"}
     bounds = {name: _extremes(one) for name, one in found.items()}
@@ -121,19 +121,19 @@ def _extremes(certificate: Certificate) -> dict[str, float] | None:
 
 def _notes(plan: Any) -> Iterator[str]:
     yield from _each(plan.outlets, "has no link: its light leaves the path")
-    runner, engine = plan.light_runner, plan.chosen
+    runner, engine = plan.answers.light, plan.chosen
     if plan.engine_for(LARGE) != plan.engine:
         yield (
             f"all batches are run step by step: paths of at most {LONGEST} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
         )
-    elif engine in ("auto", "numba") and (runner.length or 0) > runner.most_operations:
+    elif engine in ("auto", "numba") and (runner.formulas.length or 0) > runner.most_operations:
         yield (
             f"large batches are run by numpy: formulas of more than "
             f"{runner.most_operations:,} operations take Numba too long to compile"
         )
     elif engine != "jax":
-        yield batches(engine, runner.length)
+        yield batches(engine, runner.formulas.length)
     yield from _each(plan.copied, "feeds several links: each takes all its light")
 
 

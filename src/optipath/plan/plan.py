@@ -11,23 +11,21 @@ from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import Mueller
+from optipath.plan.plan_texts import PlanTexts
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices import VertexFrame
     from optipath.engines.program.program import Program
     from optipath.engines.program.reduction import Reduction, Tolerance
-    from optipath.plan.approximation import Approximation
+    from optipath.plan.answers import Answers
     from optipath.plan.certificate import Certificate
-    from optipath.plan.explanation import Explanation
     from optipath.plan.light_paths import LightPath
-    from optipath.plan.running.runner import Runner, RunOptions
     from optipath.values.inputs import Inputs
 
 
-_MADE = ("_approximation", "_detector", "_light", "light_runner", "whole_runner")
+_MADE = ("_detector", "answers")
 
 
 class Part(NamedTuple):
@@ -38,7 +36,7 @@ class Part(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Plan:
+class Plan(PlanTexts):
     """What a composer makes of a path: steps in order, and nothing of the graph.
 
     Attributes
@@ -109,7 +107,7 @@ class Plan:
         """
         if faults := whole_number("the number of paths", count, 0):
             raise ParameterError(*faults)
-        return self.light_runner.engine_for(count)
+        return self.answers.light.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
         """Return the light at the only detector.
@@ -134,13 +132,13 @@ class Plan:
         name, place, frame = self._detector
         if self.instead is not None:
             return self.run_all(**parameters)[name]
-        runner = self.light_runner
-        fast_path = runner.single.fast_path(parameters)
+        answers = self.answers
+        fast_path = answers.light.single.fast_path(parameters)
         if type(frame) is not Frame:
-            frame = self._made(frame, parameters)
+            frame = self.answers.framed(frame, parameters)
         if fast_path is not None:
             return Light.of(fast_path[place][:4], frame, fast_path[place][4])
-        stokes, exponent = runner.answer(self._light, parameters)[name]
+        stokes, exponent = answers.lights(parameters)[name]
         return Light.of(stokes, frame, exponent)
 
     def run_all(self, /, **parameters: Any) -> dict[str, Light]:
@@ -154,7 +152,7 @@ class Plan:
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        return self._in_frames(self._runner.answer(self._light, parameters), parameters)
+        return self._in_frames(self.answers.lights(parameters), parameters)
 
     def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
         """Yield the light of a batch part by part, in memory that the parts need.
@@ -187,7 +185,7 @@ class Plan:
         name, _, _ = self._detector
         if faults := whole_number("the size of a part", size):
             raise ParameterError(*faults)
-        for where, lights in self._runner.stream(self._light, size, parameters):
+        for where, lights in self.answers.stream(size, parameters):
             yield Part(where, self._in_frames(lights, parameters, where)[name])
 
     def _in_frames(
@@ -195,20 +193,10 @@ class Plan:
     ) -> dict[str, Light]:
         found = {}
         for name, reading in self.program.readings.items():
-            frame = self._made(reading.frame, parameters, where)
+            frame = self.answers.framed(reading.frame, parameters, where)
             stokes, exponent = lights[name]
             found[name] = Light.of(stokes, frame, exponent)
         return found
-
-    def _made(
-        self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
-    ) -> Any:
-        """Return a frame, or what makes it of the values that a run was given."""
-        if isinstance(frame, Frame):
-            return frame
-        from optipath.plan.running.outlet_frames import LaterFrame  # noqa: PLC0415 - not for every import
-
-        return LaterFrame(frame, self.inputs, parameters, where)
 
     def mueller(
         self, source: str | None = None, detector: str | None = None, /, **parameters: Any
@@ -234,11 +222,10 @@ class Plan:
         ends = tuple(program.readings if detector is not None else program.detectors)
         end = self._only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
-        from optipath.plan.running.questions import MatrixQuestion  # noqa: PLC0415 - not for every import
-
-        question = MatrixQuestion(program, begin, reading)
-        matrix = self.whole_runner.answer(question, parameters)
-        frames = (self._made(f, parameters) for f in (program.sources[begin][1], reading.frame))
+        matrix = self.answers.matrix(begin, reading, parameters)
+        frames = (
+            self.answers.framed(f, parameters) for f in (program.sources[begin][1], reading.frame)
+        )
         return Mueller(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
 
     def certificate(self, detector: str | None = None, /, **parameters: Any) -> Certificate:
@@ -268,19 +255,7 @@ class Plan:
         """
         ends = tuple(self.whole.readings if detector is not None else self.whole.detectors)
         end = self._only("detector", ends, "certificate(detector)", detector)
-        return self.certificates(parameters)[end]
-
-    def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
-        """Return the certificate of every end, for parameters by name; as `certificate`."""
-        from optipath.plan.running.questions import BoundsQuestion  # noqa: PLC0415 - as above
-
-        whole = self.whole_runner
-        given = whole.read_for_bounds(parameters)
-        return dict(whole.answer_for(BoundsQuestion(self.whole), given, parameters))
-
-    def errors(self, parameters: Mapping[str, Any]) -> Any:
-        """Return the largest error of the cheaper model of each path, as its certificates say."""
-        return self._approximation and self._approximation.errors_for(parameters)
+        return self.answers.certificates(parameters)[end]
 
     def paths(
         self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
@@ -315,54 +290,9 @@ class Plan:
         from optipath.plan.light_paths import light_paths  # noqa: PLC0415 - not for every import
 
         def framed(frame: Any) -> Any:
-            return self._made(frame, parameters)
+            return self.answers.framed(frame, parameters)
 
-        return light_paths(self.whole_runner, limit, bounces, parameters, framed)
-
-    def explain(self) -> str:
-        """Return the plan in words: its steps in order, what it reads, what leaves unread.
-
-        Examples
-        --------
-        >>> import optipath as op
-        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
-        >>> print(plan.explain().splitlines()[0])
-        1 source, 1 detector, 5 steps; method stable, model linear, engine numpy, float64
-        """
-        return str(self.explanation())
-
-    def explanation(self) -> Explanation:
-        """Return the plan explained, part by part, as `explain` writes it down."""
-        # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.explaining import explanation_of  # noqa: PLC0415
-
-        return explanation_of(self)
-
-    def evaluations(self, /, **parameters: Any) -> dict[str, int]:
-        """Return how often each step's numbers are computed for a batch.
-
-        An element is evaluated only along those axes of a batch on which it depends: an
-        interface that sees one of the two axes of a grid once for each value on it, and one
-        without open values once.
-
-        Raises
-        ------
-        ParameterError
-            As `run`.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import optipath as op
-        >>> plan = op.load_preset("npgr026").compose()
-        >>> delta, phi = np.linspace(0, 1, 1000)[:, np.newaxis], np.linspace(0, 1, 1000)
-        >>> found = plan.evaluations(delta=delta, phi=phi)
-        >>> found["X1.reflected"], found["X2.reflected"]
-        (1000, 1000)
-        """
-        from optipath.plan.running.counts import evaluations  # noqa: PLC0415 - not for every import
-
-        return evaluations(self.light_runner, parameters)
+        return light_paths(self.answers.whole, limit, bounces, parameters, framed)
 
     @cached_property
     def _detector(self) -> tuple[str, int, Any]:
@@ -372,50 +302,12 @@ class Plan:
         return name, place, self.program.detectors[name].frame
 
     @cached_property
-    def _light(self) -> Any:
-        """What is asked for light."""
-        from optipath.plan.running.questions import LightQuestion  # noqa: PLC0415 - as below
-
-        return LightQuestion(self.program)
-
-    @cached_property
-    def light_runner(self) -> Runner:
-        """What gives light."""
-        return self._run_by(self.program, unreduced=self.reduction.unreduced)
-
-    @cached_property
-    def whole_runner(self) -> Runner:
-        """What gives matrices, and bounds of intensities."""
-        return self._run_by(self.whole)
-
-    @cached_property
-    def _approximation(self) -> Approximation | None:
-        if self.instead is None:
-            return None
+    def answers(self) -> Answers:
+        """What answers all that is asked, and keeps what it has prepared."""
         # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.approximation import Approximation  # noqa: PLC0415
-        from optipath.plan.running.questions import ErrorsQuestion  # noqa: PLC0415
+        from optipath.plan.answers import Answers  # noqa: PLC0415
 
-        model = self.instead.model
-        cheap = None if model == "scalar" else self._run_by(self.reduction.by(model).program)
-        errors = ErrorsQuestion(self.whole, model)
-        return Approximation(self.whole_runner, errors, self.light_runner, cheap, self.instead.most)
-
-    @property
-    def _runner(self) -> Runner | Approximation:
-        return self._approximation or self.light_runner
-
-    def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
-        # Imported where it is needed, so that the library itself is there quickly.
-        from optipath.plan.running.shared import runner_for  # noqa: PLC0415
-
-        return runner_for(program, self.inputs, self._manner, unreduced=unreduced)
-
-    @property
-    def _manner(self) -> RunOptions:
-        from optipath.plan.running.runner import RunOptions  # noqa: PLC0415 - not for every import
-
-        return RunOptions(self.method, self.composing, self.dtype, self.chosen, self.threads)
+        return Answers(self)
 
     def __getstate__(self) -> dict[str, Any]:
         # What has been compiled stays here.

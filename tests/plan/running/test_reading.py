@@ -1,48 +1,67 @@
-"""Values that are given: what cannot be is refused, however often the plan has run."""
+"""What is given is read once: numbers, or every fault of it in one error."""
 
 import numpy as np
 import pytest
 
 import optipath as op
-from paths import chain
-
-FEW, MANY = np.full(5, 0.5), np.full(3000, 0.5)
-REFUSED = {
-    "an unknown name": ({"typo": 0.3}, "'typo' is unknown"),
-    "an unknown name of a batch": ({"t": FEW, "typo": FEW}, "'typo' is unknown"),
-    "a float out of range": ({"t": 1.5}, "'t' .* is 1.5"),
-    "a float out of range beside few": ({"t": 1.5, "d": FEW}, "'t' .* is 1.5"),
-    "a float out of range beside many": ({"t": 1.5, "d": MANY}, "'t' .* is 1.5"),
-    "a default out of place": ({"t": None}, "'t' has no value"),
-    "a word": ({"t": "half"}, "'t' .*'half'"),
-    "a complex number": ({"t": 0.5 + 0.5j}, "parameter 't'.* real"),
-    "shapes that differ": ({"t": np.ones(3), "d": np.ones(4)}, "do not broadcast|shape"),
-}
 
 
-@pytest.mark.parametrize("wrong", REFUSED)
-def test_what_cannot_be_is_refused_however_often_the_plan_has_run(wrong):
-    elements = [op.Attenuator(op.Parameter("t")), op.Depolarizer(op.Parameter("d", 0.5))]
-    plan = op.Composer(engine="numpy").compose(chain(elements, [1.0, 0.5, 0.3, 0.2]))
-    given, words = REFUSED[wrong]
+def path():
+    made = op.PathGraph()
+    lamp = made.add("lamp", op.Source(intensity=op.Parameter("power", default=2.0)))
+    pane = made.add("pane", op.Interface(1.5, op.Parameter("theta")))
+    filtered = made.add("filter", op.Polarizer(op.Parameter("turn", optional=True, default=0.0)))
+    lamp >> pane >> filtered >> made.add("eye", op.Detector())
+    return made
+
+
+def faults(**given):
+    with pytest.raises(op.ParameterError) as raised:
+        path().trace(**given)
+    return raised.value.faults
+
+
+def test_every_fault_of_what_is_given_is_told_at_once():
+    found = faults(theta=np.array([0.1, 2.0]), power=-1.0, turn="sideways", thta=0.1)
+    assert len(found) == 4
+    for name in ("'thta'", "'turn'", "'theta'", "'power'"):
+        assert any(name in fault for fault in found), found
+
+
+def test_a_value_out_of_range_is_told_beside_shapes_that_do_not_fit():
+    found = faults(theta=np.array([0.1, 2.0]), power=np.ones(3))
+    assert any("'theta'" in fault for fault in found)
+
+
+def test_values_in_range_of_shapes_that_do_not_fit_are_named_with_their_shapes():
+    (fault,) = faults(theta=np.full(2, 0.1), power=np.ones(3))
+    assert "theta (2,)" in fault
+    assert "power (3,)" in fault
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -0.1, 2.0])
+def test_a_float_out_of_range_is_refused_by_prepared_batches_too(bad):
+    plan = path().compose()
+    power = np.linspace(1.0, 2.0, 2000)
+    for _ in range(3):
+        plan.run(theta=0.3, power=power)
+    with pytest.raises(op.ParameterError, match="'theta'"):
+        plan.run(theta=bad, power=power)
+
+
+@pytest.mark.parametrize("count", [5, 200, 2000])
+def test_an_array_out_of_range_is_refused_by_prepared_batches_too(count):
+    plan = path().compose()
     for _ in range(6):
-        for right in (
-            {"t": 0.4},
-            {"t": 0.4, "d": FEW},
-            {"t": FEW, "d": FEW},
-            {"t": 0.4, "d": MANY},
-        ):
-            plan.run(**right)
-        with pytest.raises(op.ParameterError, match=words):
-            plan.run(**given)
+        plan.run(theta=np.linspace(0.0, 1.0, count))
+    with pytest.raises(op.ParameterError, match="'theta'.* give a real angle"):
+        plan.run(theta=np.linspace(0.0, 2.0, count))
 
 
-@pytest.mark.parametrize("value", [1, np.float64(1.0), np.float32(1.0), np.array(1.0), "whole"])
-def test_numbers_of_any_sort_are_numbers_however_often_the_plan_has_run(value):
-    plan = chain(
-        [op.Attenuator(op.Parameter("t", 0.5, words={"whole": 1.0}))], [1.0, 0.5, 0.3, 0.2]
-    )
-    for _ in range(6):
-        assert plan.trace(t=0.25).intensity == 0.25
-        assert plan.trace(t=value).intensity == 1.0
-        assert plan.trace().intensity == 0.5
+def test_a_word_that_takes_an_element_out_is_another_batch_than_one_that_does_not():
+    plan, theta = path().compose(), np.linspace(0.0, 1.0, 2000)
+    for _ in range(2):
+        crossed = plan.run(theta=theta, turn=np.pi / 2)
+        there, absent = plan.run(theta=theta, turn=0.0), plan.run(theta=theta, turn="none")
+        total = crossed.intensity + there.intensity
+        np.testing.assert_allclose(absent.intensity, total, rtol=1e-12)

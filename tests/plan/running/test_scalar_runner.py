@@ -166,3 +166,22 @@ def test_the_later_runs_of_any_intensity_are_the_first(intensity):
     lamp = path.add("lamp", op.Source(op.Parameter("v"), [1.0, 0.5, 0.3, 0.4]))
     lamp >> path.add("metal", op.Interface(0.2 + 3j, 0.7)) >> path.add("eye", op.Detector())
     assert_alike(runs(path, {"v": intensity}))
+
+
+def test_several_detectors_are_given_their_own_light_by_every_run():
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=[1.0, 0.6, 0.0, 0.3]))
+    lamp >> path.add("pane", op.Interface(1.5, op.Parameter("theta")))
+    for port in ("reflected", "transmitted"):
+        path.add(port, op.Detector())
+        path.connect(f"pane.{port}", f"{port}.in")
+    plan = path.compose()
+    runs_of_one = [plan.run_all(theta=0.4) for _ in range(6)]
+    batch = plan.run_all(theta=np.linspace(0.4, 0.5, 3))
+    for end in ("reflected", "transmitted"):
+        for found in runs_of_one:
+            stokes = found[end].stokes
+            np.testing.assert_allclose(stokes, runs_of_one[0][end].stokes, rtol=1e-13)
+            np.testing.assert_allclose(stokes, batch[end].stokes[0], rtol=1e-13)
+    total = sum(light.intensity for light in runs_of_one[-1].values())
+    np.testing.assert_allclose(total, 1.0, rtol=1e-13)

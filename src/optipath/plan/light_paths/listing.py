@@ -50,7 +50,7 @@ def light_paths(
     if limit is None and (place := endless(whole.program, bounces)):
         cure = "a limit" if bounces is not None else "a limit, or a number of bounces"
         raise ParameterError(f"light goes round at '{place}' for ever; give {cure}")
-    whole.refuse_traced(parameters, "light paths are listed")
+    whole.for_jax.refuse_traced(parameters, "light paths are listed")
     _, batch = whole.inputs.resolve(parameters)
     found: list[LightPath] = []
     with whole.enough_for(batch, 4 * len(whole.program.readings) + 16):

@@ -169,8 +169,8 @@ class BatchRunner:
         stage, rows = compiled.stages[-1], compiled.rows
         out = np.empty((compiled.room, layout.paths), stage.formula.dtype)
         failed = self._failures(Grid(stage, layout, numbers, axes, last=True), out)
-        for row, number in compiled.known:
-            out[row] = number
+        for at, number in compiled.known:
+            out[at] = number
         each = list(compiled.results)
         for place, row in enumerate(rows):
             if row is not None:
@@ -221,9 +221,9 @@ class _Compiled(NamedTuple):
         place = {symbol.index: row for row, symbol in reversed([*enumerate(computed)])}
         rows = [place.get(r.index) if isinstance(r, Symbol) else None for r in results]
         # Numbers that are known follow, so that all of a light may stand together.
-        known = []
+        known: list[tuple[int, Any]] = []
         for at, result in enumerate(results[:read]):
             if not (isinstance(result, Symbol) or np.isnan(result)):
-                rows[at] = len(computed) + len(known)
-                known.append((rows[at], result))
+                known.append((len(computed) + len(known), result))
+                rows[at] = known[-1][0]
         return cls(several, results, rows, known, len(computed) + len(known))

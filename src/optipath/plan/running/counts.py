@@ -26,13 +26,12 @@ def operations(
 
     None for what cannot be compiled, and so not counted.
     """
-    if not runner.may_compile:
+    formulas = runner.formulas
+    if not formulas.may_make:
         return None
     options: dict[str, Any] = {"polynomials": False, "unreduced": unreduced}
     try:
-        return runner.lights_formula(
-            runner.all_given_as(MANY), carrier=carrier, **options
-        ).operations
+        return formulas.lights(formulas.all_given_as(MANY), carrier=carrier, **options).operations
     except Exception:  # noqa: BLE001 - an element of one's own may ask what its numbers are
         return None
 
@@ -45,7 +44,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
     ParameterError
         With every fault of what is given.
     """
-    runner.refuse_traced(parameters, "evaluations are counted")
+    runner.for_jax.refuse_traced(parameters, "evaluations are counted")
     runner.inputs.resolve(parameters)
     given, program = runner.reader.read(parameters), runner.program
     found: dict[str, int] = {}
@@ -56,7 +55,7 @@ def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]
         for place in program.given_to[step.evaluation]:
             operand = program.operands[place]
             if operand.known:
-                array = runner.known_arrays.get(f".{place}")
+                array = runner.formulas.known_arrays.get(f".{place}")
                 shapes.append(() if array is None else array.shape)
             else:
                 keys = (

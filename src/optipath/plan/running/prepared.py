@@ -58,7 +58,7 @@ class Sort:
     def batches(self) -> BatchRunner | None:
         """What does the formula to batches; None where it cannot be made."""
         runner = self.runner
-        made = runner.formula(self.question, self.forms, self.layout.axes)
+        made = runner.formulas.of(self.question, self.forms, self.layout.axes)
         if made is None:
             return None
         return BatchRunner(

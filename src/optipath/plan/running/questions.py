@@ -6,7 +6,8 @@ and what becomes of the results. How a batch is run is the same for all: see `Ru
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.running.batch_runner import Results
+    from optipath.plan.running.formula_maker import FormulaMaker
     from optipath.plan.running.interpreter import Shared
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.plan.running.runner import Runner
@@ -29,7 +31,7 @@ if TYPE_CHECKING:
     Batch = tuple[int, ...]
 
 
-class Question(Protocol):
+class Question(ABC):
     """What is asked of a runner.
 
     Attributes
@@ -40,35 +42,44 @@ class Question(Protocol):
         How many results are read; powers of two may follow, one for each end.
     cure : str
         What to do where there is no memory for a batch.
+    is_light : bool
+        Whether it is the light, for which there are functions of floats.
     """
 
     key: Hashable
     read: int
-    cure: str
+    cure = CURE
+    is_light = False
 
+    @abstractmethod
     def numbers(self, *, stepped: bool) -> int:
         """Return how many numbers a path takes at least, results and what is made on the way."""
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    @abstractmethod
+    def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         """Return the formula of the results, for numbers of some forms."""
 
+    @abstractmethod
     def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the results, shape (results, paths), step by step."""
 
     def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        """Return what the user gets of JAX; None where a loop needs a closer look."""
+        """Return what the user gets of JAX; None where NumPy is to be asked."""
+        del runner, resolved, batch, parameters
 
+    @abstractmethod
     def answer(self, results: Results, batch: Batch) -> Any:
         """Return what the user gets."""
 
 
-class LightQuestion:
+class LightQuestion(Question):
     """The light at every end, as (Stokes vectors, exponents of two).
 
     A Stokes vector is an array (..., 4), or a tuple of its four components.
     """
 
     key = "light"
+    is_light = True
     cure = "take it in smaller parts, plan.stream(size, ...), or give fewer values"
 
     def __init__(self, program: Program, *, polynomials: bool = True) -> None:
@@ -82,11 +93,11 @@ class LightQuestion:
         """Return how many numbers a path takes; step by step, parts with exponents are joined."""
         return (10 if stepped else 4) * len(self.ends)
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         """Return the formula of the components at every end, and of the exponents."""
         polynomials = self.polynomials
-        unreduced = runner.unreduced and polynomials
-        return runner.lights_formula(forms, axes=axes, unreduced=unreduced, polynomials=polynomials)
+        unreduced = maker.unreduced and polynomials
+        return maker.lights(forms, axes=axes, unreduced=unreduced, polynomials=polynomials)
 
     def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the components at every end, and the exponents."""
@@ -98,19 +109,14 @@ class LightQuestion:
 
     def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return the light by the name of each end."""
-        found, sound = runner.jax.lights(resolved, batch, parameters)
-        if runner.needs_closer_look(sound, resolved):
+        found, sound = runner.for_jax.path.lights(resolved, batch, parameters)
+        if runner.for_jax.needs_closer_look(sound, resolved):
             return None
         lights = {}
         for stokes, name, count in zip(found, self.ends, self.counts, strict=True):
-            lights[name] = runner.nan_outside(stokes, resolved, 1), 0
+            lights[name] = runner.for_jax.nan_outside(stokes, resolved, 1), 0
             runner.refuse_infinite(lights[name][0][..., :count])
         return lights
-
-    def of_floats(self, lights: list[tuple[Any, ...]]) -> dict[str, tuple[Any, Any]]:
-        """Return the light at every end of one path: four components and an exponent each."""
-        each = zip(self.ends, lights, strict=True)
-        return {name: (light[:4], light[4]) for name, light in each}
 
     def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
         """Return the light by the name of each end."""
@@ -136,11 +142,10 @@ class LightQuestion:
         return folded(stokes, power.astype(np.int64).reshape(batch))
 
 
-class MatrixQuestion:
+class MatrixQuestion(Question):
     """The Mueller matrix from a source to a reading, shape (..., 4, 4)."""
 
     read = 16
-    cure = CURE
 
     def __init__(self, program: Program, source: str, reading: Reading) -> None:
         self.program = program
@@ -153,9 +158,9 @@ class MatrixQuestion:
         del stepped
         return 32
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         """Return the formula of the matrix, row by row."""
-        limits, kind = runner.inputs.limits, runner.dtype.name
+        kind, limits = maker.dtype.name, maker.limits
         return matrix_formula(self.program, self.source, self.reading, kind, forms, limits, axes)
 
     def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
@@ -168,10 +173,10 @@ class MatrixQuestion:
     def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return the matrices."""
         name = next(n for n, end in self.program.readings.items() if end is self.reading)
-        found, sound = runner.jax.matrix(resolved, batch, parameters, self.source, name)
-        if runner.needs_closer_look(sound, resolved):
+        found, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
+        if runner.for_jax.needs_closer_look(sound, resolved):
             return None
-        found = runner.nan_outside(found, resolved, 2)
+        found = runner.for_jax.nan_outside(found, resolved, 2)
         runner.refuse_infinite(found[..., : self.reading.components, :])
         return found
 
@@ -180,25 +185,24 @@ class MatrixQuestion:
         return _behind(results.block(0, 16), batch, (4, 4))
 
 
-class BoundsQuestion:
+class BoundsQuestion(Question):
     """Bounds of the intensity at every end, as certificates."""
 
-    cure = CURE
     model: str | None = None
 
     def __init__(self, program: Program) -> None:
         self.program = program
         self.ends = program.readings
         self.read = 4 * len(self.ends)
-        self.key: Hashable = ("bounds", self.model)
+        self.key = ("bounds", self.model)
 
     def numbers(self, *, stepped: bool) -> int:
         """Return how many numbers a path takes; step by step, parts are joined."""
         return 8 * len(self.ends) if stepped else self.read
 
-    def formula(self, runner: Runner, forms: Mapping[Any, str], axes: Any) -> Formula:
+    def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         """Return the formula of the bounds, four numbers for each end."""
-        kind, limits = runner.dtype.name, runner.inputs.limits
+        kind, limits = maker.dtype.name, maker.limits
         return bounds_formula(self.program, kind, forms, limits, axes, self.model)
 
     def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:

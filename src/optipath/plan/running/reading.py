@@ -145,6 +145,7 @@ class InputReader:
         """
         resolved, batch = self.inputs.resolve(parameters, self.is_plain)
         numbers: dict[InputKey, Any] = {}
+        value: Any
         for name, (value, present) in resolved.items():
             if type(value) is CosSin:
                 for part in _PAIR:
@@ -161,7 +162,7 @@ class InputReader:
         tail = self.inputs.tails[name]
         if type(value) is float:
             return not tail
-        if type(value) is CosSin:
+        if isinstance(value, CosSin):
             return name in self._angles
         if type(value) is not np.ndarray or not value.dtype.isnative:
             return False

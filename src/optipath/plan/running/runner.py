@@ -3,41 +3,33 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from functools import cached_property
-from math import prod
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines import FLOATS, NUMPY_STEPS, SEVERAL, EngineChoice, jax_path
-from optipath.engines.formulas import lights_formula
+from optipath.engines import FLOATS, NUMPY_STEPS, usual_engine
 from optipath.errors import ParameterError
 from optipath.plan.running.batch import Layout
 from optipath.plan.running.batch_runner import Results
+from optipath.plan.running.for_jax import ForJax
+from optipath.plan.running.formula_maker import FormulaMaker
 from optipath.plan.running.interpreter import Interpreter, carrier_of
 from optipath.plan.running.pieces import pieces
 from optipath.plan.running.prepared import Prepared, Recipe, Sort
-from optipath.plan.running.questions import LightQuestion
 from optipath.plan.running.reading import InputReader
 from optipath.plan.running.scalar_runner import ScalarRunner
-from optipath.values.angles import CosSin
-from optipath.values.arrays.jax_values import is_jax, is_traced, namespace
+from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.memory import CURE, enough_for
-from optipath.values.operands import ONE
-from optipath.values.precision import wide
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from contextlib import AbstractContextManager
 
-    from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
-    from optipath.kernels import Carrier
+    from optipath.plan.running.options import RunOptions
     from optipath.plan.running.questions import Question
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
-    from optipath.values.operands import InputKey
-    from optipath.values.parameters import Resolved
 
     Array = np.ndarray[Any, Any]
 
@@ -46,22 +38,6 @@ CACHED = 8192
 
 MOST_KEPT = 64
 """How many sorts of batches are kept prepared; the oldest goes first."""
-
-LONGEST = 200
-"""How many steps are compiled in one piece."""
-
-_LITTLE = 1 << 20
-"""How many bytes every machine has."""
-
-
-class RunOptions(NamedTuple):
-    """How programs are run, as `Composer` takes it."""
-
-    method: str
-    composing: str
-    dtype: str
-    engine: str
-    threads: int
 
 
 class Runner:
@@ -88,15 +64,13 @@ class Runner:
         self.unreduced = unreduced
         self.dtype = np.dtype(options.dtype)
         self.carrier = carrier_of(program, options.composing)
+        self.for_jax = ForJax(program, inputs, self.carrier, options)
         self.reader = InputReader(program, inputs, self.dtype)
         self.interpreter = Interpreter(program, self.carrier, self.dtype)
-        self.single = ScalarRunner(program, inputs, self.interpreter, self._of_floats)
-        # Until a formula turns out not to be made.
-        self.may_compile = len(program.steps) <= LONGEST and options.dtype != "longdouble"
+        self.formulas = FormulaMaker(program, inputs, self.carrier, self.dtype, unreduced=unreduced)
+        self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas)
         self._sorts: dict[Any, Sort] = {}
         self._recipes: dict[Any, Recipe] = {}
-
-    # ---------------------------------------------------------------- what is asked
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         """Return what is asked for.
@@ -118,7 +92,7 @@ class Runner:
         numbers = None if recipe is None else recipe.numbers(parameters)
         if recipe is not None and numbers is not None:
             return self._run(question, recipe.prepared, numbers, parameters)
-        if self.is_for_jax(parameters):
+        if self.for_jax.is_asked(parameters):
             return self._by_jax(question, parameters)
         return self.answer_for(question, self.reader.read(parameters), parameters, key=key)
 
@@ -126,7 +100,7 @@ class Runner:
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
         """Yield the index of a part of the batch, and what is asked for it."""
-        if self.is_for_jax(parameters):
+        if self.for_jax.is_asked(parameters):
             raise ParameterError(
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
             )
@@ -159,12 +133,13 @@ class Runner:
         ahead : int, optional
             How many paths there are in all, where this is a part.
         """
-        floats = question.key == "light" and self.dtype == np.float64 and given.is_of_floats
+        floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
         if floats and not given.batch:
             lights = self.single.lights(given)
             if lights is not None:
-                return question.of_floats(lights)
-        known = {name: given.cut(array) for name, array in self.known_arrays.items()}
+                ends = zip(self.program.readings, lights, strict=True)
+                return {name: (light[:4], light[4]) for name, light in ends}
+        known = {name: given.cut(array) for name, array in self.formulas.known_arrays.items()}
         arrays = {str(key): n for key, n in given.numbers.items() if isinstance(n, np.ndarray)}
         layout = Layout(given.batch, arrays | known)
         prepared = Prepared(self._sort(question, given, layout, floats=floats), layout, known)
@@ -189,7 +164,7 @@ class Runner:
                 "there are no certificates for light that goes round in a loop; run the path, "
                 "which is exact"
             )
-        self.refuse_traced(parameters, "certificates are made")
+        self.for_jax.refuse_traced(parameters, "certificates are made")
         return self.reader.read(parameters)
 
     def _sort(
@@ -221,7 +196,9 @@ class Runner:
             whole = given or self.reader.read(parameters)
             return question.rows(self, whole.part(piece.where), {})
 
-        with self.enough_for(layout.batch, question.numbers(stepped=stepped), question.cure):
+        few = layout.paths <= CACHED  # which every machine has memory for
+        numbers_each = 0 if few else question.numbers(stepped=stepped)
+        with nullcontext() if few else self.enough_for(layout.batch, numbers_each, question.cure):
             rows = None
             if engine == FLOATS and sort.function is not None:
                 rows = sort.function.rows(numbers, layout)
@@ -240,7 +217,7 @@ class Runner:
     def _stepped(self, question: Question, given: ResolvedInputs) -> Any:
         """Return what is asked for, step by step."""
         several = given.paths > CACHED and not self.unreduced
-        shared = self.interpreter.shared(given) if several and question.key == "light" else {}
+        shared = self.interpreter.shared(given) if several and question.is_light else {}
         parts = [question.rows(self, part, shared) for part in self.parts(given)]
         rows = parts[0] if len(parts) == 1 else np.concatenate(parts, axis=1)
         return question.answer(Results.of(rows, question.read, self.dtype), given.batch)
@@ -254,28 +231,6 @@ class Runner:
             return self._stepped(question, self.reader.read(parameters))
         return found
 
-    # ---------------------------------------------------------------- what it is run by
-
-    def formula(self, question: Question, forms: Any, axes: Any) -> Formula | None:
-        """Return the formula of a question; None where it cannot be made."""
-        if not self.may_compile:
-            return None
-        try:
-            return question.formula(self, forms, axes)
-        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
-            self.may_compile = False
-            return None
-
-    def _of_floats(self, forms: Mapping[InputKey, str]) -> Formula | None:
-        """Return the formula of light for plain floats; None where it cannot be made."""
-        return self.formula(LightQuestion(self.program, polynomials=False), forms, {})
-
-    @cached_property
-    def length(self) -> int | None:
-        """How many operations light takes; None where it cannot be made a formula."""
-        made = self.formula(LightQuestion(self.program), self.all_given_as(ONE), {})
-        return None if made is None else len(made.steps)
-
     def engine_for(self, count: int) -> str:
         """Return what runs a batch of so many paths, once that has been done several times."""
         engine, floats = self.options.engine, self.dtype == np.float64
@@ -285,37 +240,14 @@ class Runner:
             return FLOATS
         if any(sort.choice.settled == "numba" for sort in self._sorts.values()):
             return "numba"
-        choice = EngineChoice(engine, self.most_operations, floats=floats, runs=SEVERAL)
-        return choice.of(count, _Unknown(self.length))
+        return usual_engine(
+            engine, count, self.formulas.length, self.most_operations, floats=floats
+        )
 
     @property
     def most_operations(self) -> int:
         """How many operations Numba is given in one piece; by name, as many as it can take."""
         return 3000 if self.options.engine == "numba" else 1500
-
-    def all_given_as(self, form: str) -> dict[InputKey, str]:
-        """Return one form for every number that is not known."""
-        return dict.fromkeys((v.input_key for v in self.program.operands if not v.known), form)
-
-    def lights_formula(
-        self, forms: Mapping[InputKey, str], *, carrier: type[Carrier] | None = None, **options: Any
-    ) -> Formula:
-        """Return the formula of the light at every end, as the function of that name does."""
-        kind, limits = self.dtype.name, self.inputs.limits
-        options = {"polynomials": True, **options}
-        return lights_formula(self.program, carrier or self.carrier, kind, forms, limits, **options)
-
-    @cached_property
-    def known_arrays(self) -> dict[str, Array]:
-        """The arrays that are known beforehand, as formulas name them."""
-        kind = wide(self.dtype)
-        return {
-            f".{place}": operand.numbers(kind=kind).astype(
-                bool if operand.part == "present" else self.dtype, copy=False
-            )
-            for place, operand in enumerate(self.program.operands)
-            if operand.known and operand.numbers().ndim
-        }
 
     def enough_for(
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE
@@ -327,10 +259,7 @@ class Runner:
         ParameterError
             If the machine has no memory for them.
         """
-        each = self.dtype.itemsize * numbers
-        if prod(batch) * each < _LITTLE:
-            return nullcontext()
-        return enough_for(batch, each, cure, ParameterError)
+        return enough_for(batch, self.dtype.itemsize * numbers, cure, ParameterError)
 
     def parts(self, given: ResolvedInputs) -> Iterator[ResolvedInputs]:
         """Return what is given in parts that stay in the cache, step after step."""
@@ -353,86 +282,6 @@ class Runner:
                 f"too extreme; give values nearer to 1"
                 + ("" if method == "stable" else ", or use method 'stable'")
             )
-
-    # ---------------------------------------------------------------- what is JAX's
-
-    @cached_property
-    def jax(self) -> Any:
-        """The program for JAX."""
-        return jax_path(self.program, self.carrier, self.dtype)
-
-    @cached_property
-    def has_traced(self) -> bool:
-        """Whether a value of the path is one that JAX traces."""
-        return any(operand.traced for operand in self.program.operands)
-
-    def is_for_jax(self, parameters: Mapping[str, Any]) -> bool:
-        """Tell whether a run is asked of JAX: by name, or by what is given."""
-        traced = self.has_traced or any(map(_is_of_jax, parameters.values()))
-        if traced and self.options.engine not in ("auto", "jax"):
-            raise ParameterError(
-                f"values of JAX were given, but the plan was composed for engine "
-                f"'{self.options.engine}'; compose with engine='jax' or 'auto'"
-            )
-        return traced or self.options.engine == "jax"
-
-    def needs_closer_look(self, sound: Any, resolved: Mapping[str, Resolved]) -> bool:
-        """Tell whether hardly any light leaves a loop, of values that are all known."""
-        traces = self.has_traced or any(is_traced(given.value) for given in resolved.values())
-        return not traces and not np.all(sound)
-
-    def nan_outside(self, numbers: Any, resolved: Mapping[str, Resolved], axes: int) -> Any:
-        """Return what JAX gives, NaN where a value that it traces is not allowed.
-
-        Parameters
-        ----------
-        numbers : Array
-            Of the shape of the batch, with some axes behind it.
-        resolved : mapping of str to Resolved
-            What is given.
-        axes : int
-            How many there are behind the batch.
-        """
-        inside = self.inputs.inside(resolved)
-        if inside is True:
-            return numbers
-        xp = namespace(numbers)
-        # As a factor it makes slopes NaN as well, and those of what is allowed stay as they are.
-        factor = xp.where(inside, 1.0, xp.nan).astype(numbers.dtype)
-        return numbers * factor.reshape(*factor.shape, *[1] * axes)
-
-    def refuse_traced(self, parameters: Mapping[str, Any], what: str) -> None:
-        """Refuse values that are not known yet.
-
-        Raises
-        ------
-        ParameterError
-            Telling what they are not for.
-        """
-        if self.has_traced or any(
-            value.is_traced if type(value) is CosSin else is_traced(value)
-            for value in parameters.values()
-        ):
-            raise ParameterError(
-                f"{what} of numbers, not of values that JAX traces; do it outside of jit and grad"
-            )
-
-
-class _Unknown(NamedTuple):
-    """A batch of which nothing is known but how many operations a path takes."""
-
-    length: int | None
-    has_floats = is_kept = False
-
-    def operations(self, *, floats: bool) -> int | None:
-        del floats
-        return self.length
-
-
-def _is_of_jax(value: Any) -> bool:
-    """Tell whether a value is JAX's, or an angle by such a cosine and sine."""
-    parts = (value.cos, value.sin) if type(value) is CosSin else (value,)
-    return any(map(is_jax, parts))
 
 
 def _kept(store: dict[Any, Any], key: Any, value: Any) -> None:

@@ -16,13 +16,12 @@ from optipath.values.parameters import ABSENT as WORD
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
     from optipath.plan.running.batch import Layout
+    from optipath.plan.running.formula_maker import FormulaMaker
     from optipath.plan.running.interpreter import Interpreter
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
-    from optipath.values.operands import InputKey
 
 Lights: TypeAlias = list[tuple[Any, ...]]
 
@@ -88,8 +87,8 @@ class ScalarRunner:
         What may be given.
     interpreter : Interpreter
         Runs it until a function is made.
-    formula : callable
-        Gives the formula of the function for what is given in some forms; None where none is.
+    formulas : FormulaMaker
+        Makes the formula of the function.
     """
 
     def __init__(
@@ -97,12 +96,12 @@ class ScalarRunner:
         program: Program,
         inputs: Inputs,
         interpreter: Interpreter,
-        formula: Callable[[dict[InputKey, str]], Formula | None],
+        formulas: FormulaMaker,
     ) -> None:
         self.program = program
         self.inputs = inputs
         self.interpreter = interpreter
-        self.formula = formula
+        self.formulas = formulas
         self.functions: dict[frozenset[str], FloatFunction | None] = {}
         self._runs = 0
         self._usual: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
@@ -150,7 +149,7 @@ class ScalarRunner:
     def _made(self, absent: frozenset[str]) -> FloatFunction | None:
         keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
         forms = {key: ABSENT if key.name in absent else ONE for key in keys}
-        formula = self.formula(forms)
+        formula = self.formulas.of_floats(forms)
         if formula is None:
             return None
         names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)

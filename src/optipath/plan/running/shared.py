@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
 
     from optipath.engines.program.program import Program
-    from optipath.plan.running.runner import RunOptions
+    from optipath.plan.running.options import RunOptions
     from optipath.values.inputs import Inputs
 
 _MOST = 32

@@ -1,0 +1,116 @@
+"""Answers: the runners of a plan, and what each of them is asked."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from optipath.light.frames import Frame
+from optipath.plan.running.options import RunOptions
+from optipath.plan.running.outlet_frames import LaterFrame
+from optipath.plan.running.questions import (
+    BoundsQuestion,
+    ErrorsQuestion,
+    LightQuestion,
+    MatrixQuestion,
+)
+from optipath.plan.running.shared import runner_for
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.elements.vertices import VertexFrame
+    from optipath.engines.program.program import Program, Reading
+    from optipath.plan.approximation import Approximation
+    from optipath.plan.certificate import Certificate
+    from optipath.plan.plan import Plan
+    from optipath.plan.running.runner import Runner
+
+
+class Answers:
+    """What answers all that a plan is asked.
+
+    Parameters
+    ----------
+    plan : Plan
+        What has been composed.
+
+    Attributes
+    ----------
+    light : Runner
+        What gives light.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self.question = LightQuestion(plan.program)
+        self.light = self._run_by(plan.program, unreduced=plan.reduction.unreduced)
+
+    @cached_property
+    def whole(self) -> Runner:
+        """What gives matrices, and bounds of intensities."""
+        return self._run_by(self.plan.whole)
+
+    @cached_property
+    def approximation(self) -> Approximation | None:
+        """What gives light by a cheaper model, where one is allowed."""
+        instead = self.plan.instead
+        if instead is None:
+            return None
+        from optipath.plan.approximation import Approximation  # noqa: PLC0415 - hardly ever needed
+
+        program = self.plan.reduction.by(instead.model).program
+        cheap = None if instead.model == "scalar" else self._run_by(program)
+        errors = ErrorsQuestion(self.plan.whole, instead.model)
+        return Approximation(self.whole, errors, self.light, cheap, instead.most)
+
+    def lights(self, parameters: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
+        """Return the light at every end, as Stokes vectors and exponents."""
+        return dict((self.approximation or self.light).answer(self.question, parameters))
+
+    def stream(self, size: int, parameters: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:
+        """Yield the index of each part of a batch, and the light at every end for it."""
+        return (self.approximation or self.light).stream(self.question, size, parameters)
+
+    def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Any:
+        """Return the Mueller matrices from a source to a reading.
+
+        Parameters
+        ----------
+        source : str
+            The name of the source.
+        reading : Reading
+            An end of the path as it stands.
+        parameters : mapping of str to Any
+            What is given.
+        """
+        question = MatrixQuestion(self.plan.whole, source, reading)
+        return self.whole.answer(question, parameters)
+
+    def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
+        """Return the certificate of every end."""
+        given = self.whole.read_for_bounds(parameters)
+        return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), given, parameters))
+
+    def framed(
+        self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
+    ) -> Any:
+        """Return a frame, or what makes it of the values that a run was given.
+
+        Parameters
+        ----------
+        frame : Frame or VertexFrame
+            That of an end.
+        parameters : mapping of str to Any
+            What was given.
+        where : tuple, optional
+            Which part of the batch the light is.
+        """
+        if isinstance(frame, Frame):
+            return frame
+        return LaterFrame(frame, self.plan.inputs, parameters, where)
+
+    def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
+        plan = self.plan
+        options = RunOptions(plan.method, plan.composing, plan.dtype, plan.chosen, plan.threads)
+        return runner_for(program, plan.inputs, options, unreduced=unreduced)

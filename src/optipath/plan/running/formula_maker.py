@@ -1,0 +1,128 @@
+"""The formulas of a program: of whatever is asked of it, for numbers given in some forms."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from optipath.engines.formulas import lights_formula
+from optipath.plan.running.questions import LightQuestion
+from optipath.values.operands import ONE
+from optipath.values.precision import wide
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy as np
+
+    from optipath.engines.formulas import Formula
+    from optipath.engines.program.program import Program
+    from optipath.kernels import Carrier
+    from optipath.plan.running.questions import Question
+    from optipath.values.inputs import Inputs
+    from optipath.values.operands import InputKey
+
+LONGEST = 200
+"""How many steps are compiled in one piece."""
+
+
+class FormulaMaker:
+    """Makes the formulas of one program.
+
+    Parameters
+    ----------
+    program : Program
+        The steps.
+    inputs : Inputs
+        What may be given.
+    carrier : type
+        How light is carried.
+    dtype : dtype
+        The precision.
+    unreduced : bool
+        Whether everything is done for each path.
+
+    Attributes
+    ----------
+    may_make : bool
+        Whether there may be a formula, as far as that is known.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        inputs: Inputs,
+        carrier: type[Carrier],
+        dtype: np.dtype[Any],
+        *,
+        unreduced: bool,
+    ) -> None:
+        self.program = program
+        self.limits = inputs.limits
+        self.carrier = carrier
+        self.dtype = dtype
+        self.unreduced = unreduced
+        self.may_make = len(program.steps) <= LONGEST and dtype.name in ("float64", "float32")
+
+    def of(self, question: Question, forms: Mapping[InputKey, str], axes: Any) -> Formula | None:
+        """Return the formula of a question; None where it cannot be made.
+
+        Parameters
+        ----------
+        question : Question
+            What is asked.
+        forms : mapping of InputKey to str
+            In which form each number is given.
+        axes : mapping of str to frozenset of int
+            Along which axes of the batch each array differs.
+        """
+        if not self.may_make:
+            return None
+        try:
+            return question.formula(self, forms, axes)
+        except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
+            self.may_make = False
+            return None
+
+    def of_floats(self, forms: Mapping[InputKey, str]) -> Formula | None:
+        """Return the formula of light for plain floats; None where it cannot be made."""
+        return self.of(LightQuestion(self.program, polynomials=False), forms, {})
+
+    def lights(
+        self, forms: Mapping[InputKey, str], *, carrier: type[Carrier] | None = None, **options: Any
+    ) -> Formula:
+        """Return the formula of the light at every end, as `lights_formula` takes options.
+
+        Parameters
+        ----------
+        forms : mapping of InputKey to str
+            In which form each number is given.
+        carrier : type, optional
+            How light is carried, if not as it is.
+        **options : Any
+            Handed on.
+        """
+        kind, carrier = self.dtype.name, carrier or self.carrier
+        return lights_formula(self.program, carrier, kind, forms, self.limits, **options)
+
+    def all_given_as(self, form: str) -> dict[InputKey, str]:
+        """Return one form for every number that is not known."""
+        return dict.fromkeys([o.input_key for o in self.program.operands if not o.known], form)
+
+    @cached_property
+    def length(self) -> int | None:
+        """How many operations light takes; None where there is no formula."""
+        made = self.of(LightQuestion(self.program), self.all_given_as(ONE), {})
+        return None if made is None else len(made.steps)
+
+    @cached_property
+    def known_arrays(self) -> dict[str, np.ndarray[Any, Any]]:
+        """The arrays that are known beforehand, as formulas name them."""
+        kind = wide(self.dtype)
+        return {
+            f".{place}": operand.numbers(kind=kind).astype(
+                bool if operand.part == "present" else self.dtype, copy=False
+            )
+            for place, operand in enumerate(self.program.operands)
+            if operand.known and operand.numbers().ndim
+        }

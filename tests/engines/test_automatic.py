@@ -1,0 +1,121 @@
+"""The rule of engine "auto": what costs least, compiling included."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.engines import automatic
+from optipath.engines.automatic import FLOATS, HANDFUL, NUMPY_STEPS, EngineChoice
+from optipath.plan.running import shared
+
+
+class Paths:
+    """Paths of so many operations, of which nothing has been compiled."""
+
+    has_floats = False
+
+    def __init__(self, operations=300, *, kept=False):
+        self.length = operations
+        self.kept = kept
+        self.asked = 0
+
+    def operations(self, *, floats):
+        del floats
+        return self.length
+
+    @property
+    def is_kept(self):
+        self.asked += 1
+        return self.kept
+
+
+@pytest.fixture(autouse=True)
+def _with_numba(monkeypatch):
+    monkeypatch.setattr(automatic, "is_installed", lambda _: True)
+
+
+def auto(*, floats=True):
+    return EngineChoice("auto", 1500, floats=floats)
+
+
+def test_the_first_runs_of_a_few_paths_make_nothing():
+    choice = auto()
+    assert [choice.of(10, Paths()) for _ in range(5)] == 3 * [NUMPY_STEPS] + 2 * [FLOATS]
+
+
+def test_a_handful_is_run_as_floats_and_more_by_numpy():
+    choice = auto()
+    for _ in range(4):
+        choice.of(10, Paths())
+    assert choice.of(HANDFUL - 1, Paths()) == FLOATS
+    assert choice.of(HANDFUL, Paths()) == "numpy"
+
+
+def test_a_first_large_batch_does_not_wait_for_numba():
+    work = Paths()
+    assert auto().of(100_000, work) == "numpy"
+    assert work.asked == 0
+
+
+def test_so_large_a_batch_that_compiling_takes_less_than_it_saves_is_compiled():
+    assert auto().of(10**8, Paths()) == "numba"
+
+
+def test_many_batches_earn_what_compiling_costs():
+    choice, work = auto(), Paths()
+    found = [choice.of(1_000_000, work) for _ in range(10)]
+    assert found[0] == "numpy"
+    assert found[-1] == "numba"
+    assert found == sorted(found, reverse=True)
+
+
+def test_a_part_of_a_stream_counts_all_that_is_to_come():
+    assert auto().of(1 << 20, Paths(), 10**8) == "numba"
+    assert auto().of(1 << 20, Paths()) == "numpy"
+
+
+def test_code_that_has_been_compiled_before_is_run_once_looking_for_it_pays():
+    work = Paths(kept=True)
+    assert auto().of(1_000_000, work) == "numba"
+    choice = auto()
+    found = [choice.of(1000, work) for _ in range(2000)]
+    assert found[3] == "numpy"
+    assert found[-1] == "numba"
+
+
+def test_what_has_no_formula_is_run_step_by_step_for_good():
+    choice = auto()
+    assert choice.of(10**8, Paths(None)) == NUMPY_STEPS
+    assert choice.of(10**8, Paths()) == NUMPY_STEPS
+
+
+def test_formulas_that_are_too_long_for_numba_are_run_by_numpy():
+    assert auto().of(10**8, Paths(1501)) == "numpy"
+    assert EngineChoice("numba", 3000, floats=True).of(10, Paths(3001)) == "numpy"
+
+
+def test_numba_by_name_compiles_at_once():
+    assert EngineChoice("numba", 3000, floats=True).of(2, Paths()) == "numba"
+
+
+def test_numpy_by_name_never_asks_for_anything_else():
+    choice = EngineChoice("numpy", 3000, floats=True)
+    found = [
+        choice.of(count, Paths(kept=True)) for count in (10, 10, 10, 10, 10, 1023, 1024, 10**8)
+    ]
+    assert found == 6 * [NUMPY_STEPS] + 2 * ["numpy"]
+
+
+def test_what_floats_cannot_hold_is_never_run_by_them():
+    choice = auto(floats=False)
+    found = [choice.of(10, Paths()) for _ in range(6)]
+    assert set(found) == {NUMPY_STEPS}
+
+
+def test_a_plan_says_what_ran():
+    shared._RUNNERS.clear()
+    plan = op.load_preset("malus").compose()
+    assert plan.engine_for(1) == FLOATS
+    assert plan.engine_for(1000) == "numpy"
+    stream = plan.stream(1000, angle=np.linspace(0.0, 1.0, 2500))
+    assert [part.light.stokes.shape[0] for part in stream] == [1000, 1000, 500]
