@@ -54,7 +54,7 @@ def test_an_array_out_of_range_is_refused_by_prepared_batches_too(count):
     plan = path().compose()
     for _ in range(6):
         plan.run(theta=np.linspace(0.0, 1.0, count))
-    with pytest.raises(op.ParameterError, match="'theta'.* give a real angle"):
+    with pytest.raises(op.ParameterError, match=r"'theta'.* give a real angle"):
         plan.run(theta=np.linspace(0.0, 2.0, count))
 
 
