@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 _OWN = ("exponent", "ldexp", "power", "product_rest", "where")
 """Operations that make their own arrays, unless said otherwise below."""
 
+_BY_KEYWORD = ("maximum", "minimum")
+"""Operations that may take more operands one day; others are told faster where to write."""
+
 
 class BlockWriter:
     """Writes the function of a block; an array is free again after its last use."""
@@ -101,20 +104,21 @@ class BlockWriter:
         if condition.index not in self._masks:
             mask = self._masks[condition.index] = self._buffer("mask")
             given = self._read(condition)
-            lines.append(f"negative({given}.view(numpy.int8), out={mask}, dtype=I)")
+            seen = f"{given}_" if given in self.buffers else f"{given}.view(numpy.int8)"
+            lines.append(f"negative({seen}, {mask}, dtype=I)")
         mask = self._masks[condition.index]
         first, second = self._bits(yes), self._bits(no)
         name = self._name(step)
         bits = self._bits_of(name)
         if second == "0":
-            lines.append(f"bitwise_and({first}, {mask}, out={bits})")
+            lines.append(f"bitwise_and({first}, {mask}, {bits})")
         else:
             if first == "0":
-                lines.append(f"bitwise_and({second}, {mask}, out={bits})")
+                lines.append(f"bitwise_and({second}, {mask}, {bits})")
             else:
-                lines.append(f"bitwise_xor({first}, {second}, out={bits})")
-                lines.append(f"bitwise_and({bits}, {mask}, out={bits})")
-            lines.append(f"bitwise_xor({bits}, {second}, out={bits})")
+                lines.append(f"bitwise_xor({first}, {second}, {bits})")
+                lines.append(f"bitwise_and({bits}, {mask}, {bits})")
+            lines.append(f"bitwise_xor({bits}, {second}, {bits})")
         self._names[step.index] = name
         self._release(step)
         self._chosen[condition.index] -= 1
@@ -139,7 +143,7 @@ class BlockWriter:
         name = self._name(step)
         self._names[step.index] = name
         self._release(step)
-        return [f"multiply({a}, {b}, out={name})", f"add({name}, {c}, out={name})"]
+        return [f"multiply({a}, {b}, {name})", f"add({name}, {c}, {name})"]
 
     def _line(self, step: Symbol) -> str:
         operands = ", ".join(map(self._read, step.operands))
@@ -148,7 +152,8 @@ class BlockWriter:
         self._names[step.index] = name
         if name.startswith("t"):
             return f"{name} = {step.operation}({operands})"
-        return f"{step.operation}({operands}, out={name})"
+        out = f"out={name}" if step.operation in _BY_KEYWORD else name
+        return f"{step.operation}({operands}, {out})"
 
     def _read(self, operand: Any) -> str:
         if isinstance(operand, Symbol):

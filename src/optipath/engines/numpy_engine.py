@@ -39,6 +39,7 @@ def _compiled(formula: Formula) -> ArrayPath:
     block, buffers = space["block"], tuple(writer.buffers.values())
     bits = np.dtype(f"i{formula.dtype.itemsize}")
     kinds = {"float": formula.dtype, "bool": np.dtype(bool), "mask": bits}
+    as_bits = {"float": bits, "bool": np.dtype(np.int8), "mask": bits}
 
     indices = [symbol.index for symbol in formula.inputs]
     places = [formula.place_of(symbol) for symbol in formula.inputs]
@@ -73,9 +74,7 @@ def _compiled(formula: Formula) -> ArrayPath:
                 if place != "one"
             ]
             own = [buffer[:tall, :long].reshape(shape) for buffer in free]
-            seen = [
-                buffer.view(bits) if buffer.dtype == formula.dtype else buffer for buffer in own
-            ]
+            seen = [buffer.view(as_bits[kind]) for buffer, kind in zip(own, buffers, strict=True)]
             results = [n[at:][cells].reshape(shape) for n in out]
             holds &= bool(np.all(block(*arrays, *uniform, *own, *seen, *results)))
         return holds
