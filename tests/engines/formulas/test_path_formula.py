@@ -94,9 +94,10 @@ def test_of_loops_no_formula_leaves_any_to_the_steps(rng, shape):
     assert steps_seen(plan, lambda plan: plan.run_all, rng, shape) == []
 
 
-def test_of_one_path_that_has_run_before_no_formula_leaves_any_to_the_steps(rng):
+@pytest.mark.parametrize("shape", [(), (2,), (10,), (300,)])
+def test_of_few_paths_that_have_run_before_no_formula_leaves_any_to_the_steps(rng, shape):
     plan = watched().compose()
-    assert steps_seen(plan, lambda plan: plan.run, rng, ()) == []
+    assert steps_seen(plan, lambda plan: plan.run, rng, shape) == []
 
 
 def behind_a_lamp():
