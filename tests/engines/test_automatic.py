@@ -35,7 +35,7 @@ def _with_numba(monkeypatch):
 
 
 def auto(*, floats=True):
-    return EngineChoice("auto", 1500, floats=floats)
+    return EngineChoice("auto", floats=floats)
 
 
 def test_the_first_runs_of_a_few_paths_make_nothing():
@@ -91,15 +91,15 @@ def test_what_has_no_formula_is_run_step_by_step_for_good():
 
 def test_formulas_that_are_too_long_for_numba_are_run_by_numpy():
     assert auto().of(10**8, Paths(1501)) == "numpy"
-    assert EngineChoice("numba", 3000, floats=True).of(10, Paths(3001)) == "numpy"
+    assert EngineChoice("numba", floats=True).of(10, Paths(3001)) == "numpy"
 
 
 def test_numba_by_name_compiles_at_once():
-    assert EngineChoice("numba", 3000, floats=True).of(2, Paths()) == "numba"
+    assert EngineChoice("numba", floats=True).of(2, Paths()) == "numba"
 
 
 def test_numpy_by_name_never_asks_for_anything_else():
-    choice = EngineChoice("numpy", 3000, floats=True)
+    choice = EngineChoice("numpy", floats=True)
     found = [
         choice.of(count, Paths(kept=True)) for count in (10, 10, 10, 10, 10, 1023, 1024, 10**8)
     ]

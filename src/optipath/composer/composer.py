@@ -57,8 +57,8 @@ class Composer:
         S2; or all four through every step as it stands, nothing folded. By default the
         smallest that is exact for what the detectors read, with all that is known done once.
     engine : {"auto", "numpy", "numba", "jax"}, optional
-        What runs large batches: by default Numba where it is installed, and else NumPy. One
-        path, and a few, never need more than NumPy.
+        What runs batches: by default what costs least, Numba only where its code is kept or
+        compiling it pays; by name, Numba compiles at once.
     dtype : {"float64", "float32", "longdouble"}, optional
         The precision of the steps, to which all values are rounded (1e-60 is 0 in
         float32); longdouble where the platform has it.

@@ -13,6 +13,7 @@ from optipath.engines.automatic import (
     is_kept,
     jax_path,
     missing,
+    most_operations,
     usual_engine,
 )
 
@@ -29,5 +30,6 @@ __all__ = [
     "is_kept",
     "jax_path",
     "missing",
+    "most_operations",
     "usual_engine",
 ]

@@ -67,8 +67,6 @@ class EngineChoice:
     ----------
     engine : str
         What is asked for; what JAX is not given is run step by step.
-    most : int
-        How many operations Numba is given at most.
     floats : bool
         Whether all that is given are floats of double precision.
     runs : int, optional
@@ -76,13 +74,13 @@ class EngineChoice:
 
     Examples
     --------
-    >>> EngineChoice("numpy", 3000, floats=True).of(10, ...)
+    >>> EngineChoice("numpy", floats=True).of(10, ...)
     'numpy, step by step'
     """
 
-    def __init__(self, engine: str, most: int, *, floats: bool, runs: int = 0) -> None:
+    def __init__(self, engine: str, *, floats: bool, runs: int = 0) -> None:
         self.engine = engine
-        self.most = most if engine != "numpy" and is_installed("numba") else -1
+        self.most = most_operations(engine) if is_installed("numba") else -1
         self.floats = floats
         self.settled = NUMPY_STEPS if engine == "jax" else ""
         # For how many paths something is made, be it never asked for again.
@@ -152,14 +150,12 @@ class _Unseen:
         return self.length
 
 
-def usual_engine(
-    engine: str, count: int, operations: int | None, most: int, *, floats: bool
-) -> str:
+def usual_engine(engine: str, count: int, operations: int | None, *, floats: bool) -> str:
     """Return what runs so many paths once that has been done several times.
 
     Parameters
     ----------
-    engine, most, floats
+    engine, floats
         As `EngineChoice` takes them.
     count : int
         How many paths.
@@ -173,18 +169,24 @@ def usual_engine(
 
     Examples
     --------
-    >>> usual_engine("auto", 10, 300, 1500, floats=True)
+    >>> usual_engine("auto", 10, 300, floats=True)
     'floats'
-    >>> usual_engine("numba", 10, 300, 1500, floats=True)
+    >>> usual_engine("numba", 10, 300, floats=True)
     'numba'
     """
-    choice = EngineChoice(engine, most, floats=floats, runs=SEVERAL)
+    choice = EngineChoice(engine, floats=floats, runs=SEVERAL)
     return choice.of(count, _Unseen(operations))
 
 
 def cost(operations: int, count: int) -> float:
     """Return how many seconds so many paths take without Numba."""
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
+
+
+def most_operations(engine: str) -> float:
+    """Return how many operations Numba is given: by name, as many as it can take."""
+    most = {"numba": REGISTRY["numba"].longest, "auto": 1500}
+    return most.get(engine, -1)
 
 
 def batches(engine: str, operations: int | None) -> str:

@@ -6,6 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from optipath.light.frames import Frame
+from optipath.light.light import Light
 from optipath.plan.running.options import RunOptions
 from optipath.plan.running.outlet_frames import LaterFrame
 from optipath.plan.running.questions import (
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.approximation import Approximation
     from optipath.plan.certificate import Certificate
-    from optipath.plan.plan import Plan
     from optipath.plan.running.runner import Runner
 
 
@@ -41,7 +41,7 @@ class Answers:
         What gives light.
     """
 
-    def __init__(self, plan: Plan) -> None:
+    def __init__(self, plan: Any) -> None:
         self.plan = plan
         self.question = LightQuestion(plan.program)
         self.light = self._run_by(plan.program, unreduced=plan.reduction.unreduced)
@@ -91,6 +91,25 @@ class Answers:
         """Return the certificate of every end."""
         given = self.whole.read_for_bounds(parameters)
         return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), given, parameters))
+
+    def in_frames(
+        self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()
+    ) -> dict[str, Light]:
+        """Return the light at every end in its frame.
+
+        Parameters
+        ----------
+        lights : mapping of str to (Stokes vectors, exponents)
+            As `lights` gives it.
+        parameters, where
+            As `framed` takes them.
+        """
+        found = {}
+        for name, reading in self.plan.program.readings.items():
+            stokes, exponent = lights[name]
+            frame = self.framed(reading.frame, parameters, where)
+            found[name] = Light.of(stokes, frame, exponent)
+        return found
 
     def framed(
         self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines import LARGE, batches
+from optipath.engines import LARGE, batches, most_operations
 from optipath.errors import ParameterError
 from optipath.kernels import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
@@ -127,10 +127,10 @@ def _notes(plan: Any) -> Iterator[str]:
             f"all batches are run step by step: paths of at most {LONGEST} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
         )
-    elif engine in ("auto", "numba") and (runner.formulas.length or 0) > runner.most_operations:
+    elif engine in ("auto", "numba") and (runner.formulas.length or 0) > most_operations(engine):
         yield (
             f"large batches are run by numpy: formulas of more than "
-            f"{runner.most_operations:,} operations take Numba too long to compile"
+            f"{most_operations(engine):,} operations take Numba too long to compile"
         )
     elif engine != "jax":
         yield batches(engine, runner.formulas.length)

@@ -15,7 +15,7 @@ from optipath.plan.plan_texts import PlanTexts
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from optipath.engines.program.program import Program
     from optipath.engines.program.reduction import Reduction, Tolerance
@@ -135,7 +135,7 @@ class Plan(PlanTexts):
         answers = self.answers
         fast_path = answers.light.single.fast_path(parameters)
         if type(frame) is not Frame:
-            frame = self.answers.framed(frame, parameters)
+            frame = answers.framed(frame, parameters)
         if fast_path is not None:
             return Light.of(fast_path[place][:4], frame, fast_path[place][4])
         stokes, exponent = answers.lights(parameters)[name]
@@ -152,7 +152,7 @@ class Plan(PlanTexts):
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
-        return self._in_frames(self.answers.lights(parameters), parameters)
+        return self.answers.in_frames(self.answers.lights(parameters), parameters)
 
     def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
         """Yield the light of a batch part by part, in memory that the parts need.
@@ -186,17 +186,7 @@ class Plan(PlanTexts):
         if faults := whole_number("the size of a part", size):
             raise ParameterError(*faults)
         for where, lights in self.answers.stream(size, parameters):
-            yield Part(where, self._in_frames(lights, parameters, where)[name])
-
-    def _in_frames(
-        self, lights: Mapping[str, tuple[Any, Any]], parameters: Mapping[str, Any], where: Any = ()
-    ) -> dict[str, Light]:
-        found = {}
-        for name, reading in self.program.readings.items():
-            frame = self.answers.framed(reading.frame, parameters, where)
-            stokes, exponent = lights[name]
-            found[name] = Light.of(stokes, frame, exponent)
-        return found
+            yield Part(where, self.answers.in_frames(lights, parameters, where)[name])
 
     def mueller(
         self, source: str | None = None, detector: str | None = None, /, **parameters: Any
@@ -289,10 +279,10 @@ class Plan(PlanTexts):
         """
         from optipath.plan.light_paths import light_paths  # noqa: PLC0415 - not for every import
 
-        def framed(frame: Any) -> Any:
-            return self.answers.framed(frame, parameters)
-
-        return light_paths(self.answers.whole, limit, bounces, parameters, framed)
+        answers = self.answers
+        return light_paths(
+            answers.whole, limit, bounces, parameters, lambda f: answers.framed(f, parameters)
+        )
 
     @cached_property
     def _detector(self) -> tuple[str, int, Any]:

@@ -22,7 +22,7 @@ def path(index=1.5):
 def prepared(monkeypatch):
     """Count the formulas and the layouts that are made."""
     counts = {"formulas": 0, "layouts": 0}
-    make, layout = formula_maker.FormulaMaker.of, runner.Layout
+    make, layout = formula_maker.FormulaMaker.attempt, runner.Layout
 
     def counted(self, *given):
         counts["formulas"] += 1
@@ -32,7 +32,7 @@ def prepared(monkeypatch):
         counts["layouts"] += 1
         return layout(*given)
 
-    monkeypatch.setattr(formula_maker.FormulaMaker, "of", counted)
+    monkeypatch.setattr(formula_maker.FormulaMaker, "attempt", counted)
     monkeypatch.setattr(runner, "Layout", laid)
     return counts
 

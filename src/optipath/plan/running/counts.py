@@ -27,13 +27,11 @@ def operations(
     None for what cannot be compiled, and so not counted.
     """
     formulas = runner.formulas
-    if not formulas.may_make:
-        return None
-    options: dict[str, Any] = {"polynomials": False, "unreduced": unreduced}
-    try:
-        return formulas.lights(formulas.all_given_as(MANY), carrier=carrier, **options).operations
-    except Exception:  # noqa: BLE001 - an element of one's own may ask what its numbers are
-        return None
+    forms = formulas.all_given_as(MANY)
+    made = formulas.attempt(
+        lambda: formulas.lights(forms, carrier=carrier, polynomials=False, unreduced=unreduced)
+    )
+    return None if made is None else made.operations
 
 
 def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]:

@@ -6,19 +6,17 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from optipath.engines.formulas import lights_formula
-from optipath.plan.running.questions import LightQuestion
 from optipath.values.operands import ONE
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     import numpy as np
 
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
     from optipath.kernels import Carrier
-    from optipath.plan.running.questions import Question
     from optipath.values.inputs import Inputs
     from optipath.values.operands import InputKey
 
@@ -64,29 +62,19 @@ class FormulaMaker:
         self.unreduced = unreduced
         self.may_make = len(program.steps) <= LONGEST and dtype.name in ("float64", "float32")
 
-    def of(self, question: Question, forms: Mapping[InputKey, str], axes: Any) -> Formula | None:
-        """Return the formula of a question; None where it cannot be made.
-
-        Parameters
-        ----------
-        question : Question
-            What is asked.
-        forms : mapping of InputKey to str
-            In which form each number is given.
-        axes : mapping of str to frozenset of int
-            Along which axes of the batch each array differs.
-        """
+    def attempt(self, make: Callable[[], Formula]) -> Formula | None:
+        """Return what makes a formula gives; None where it cannot be made."""
         if not self.may_make:
             return None
         try:
-            return question.formula(self, forms, axes)
+            return make()
         except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers
             self.may_make = False
             return None
 
     def of_floats(self, forms: Mapping[InputKey, str]) -> Formula | None:
         """Return the formula of light for plain floats; None where it cannot be made."""
-        return self.of(LightQuestion(self.program, polynomials=False), forms, {})
+        return self.attempt(lambda: self.lights(forms, polynomials=False))
 
     def lights(
         self, forms: Mapping[InputKey, str], *, carrier: type[Carrier] | None = None, **options: Any
@@ -112,7 +100,8 @@ class FormulaMaker:
     @cached_property
     def length(self) -> int | None:
         """How many operations light takes; None where there is no formula."""
-        made = self.of(LightQuestion(self.program), self.all_given_as(ONE), {})
+        forms, unreduced = self.all_given_as(ONE), self.unreduced
+        made = self.attempt(lambda: self.lights(forms, polynomials=True, unreduced=unreduced))
         return None if made is None else len(made.steps)
 
     @cached_property

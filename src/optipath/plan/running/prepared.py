@@ -15,10 +15,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.plan.running.batch import Layout
+    from optipath.plan.running.formula_maker import FormulaMaker
+    from optipath.plan.running.options import RunOptions
     from optipath.plan.running.questions import Question
     from optipath.plan.running.reading import InputReader, ResolvedInputs
-    from optipath.plan.running.runner import Runner
-    from optipath.plan.running.scalar_runner import FloatFunction
+    from optipath.plan.running.scalar_runner import FloatFunction, ScalarRunner
     from optipath.values.operands import InputKey
 
 
@@ -27,58 +28,63 @@ class Sort:
 
     Parameters
     ----------
-    runner : Runner
-        What runs them.
     question : Question
         What is asked.
     forms : mapping of InputKey to str
         In which form each number is given.
     layout : Layout
         The axes of one of the batches.
+    formulas : FormulaMaker
+        Makes the formula.
+    single : ScalarRunner
+        Has functions of floats.
+    options : RunOptions
+        How they are run.
     floats : bool
         Whether paths may be run as floats one by one.
     """
 
     def __init__(
         self,
-        runner: Runner,
         question: Question,
         forms: Mapping[InputKey, str],
         layout: Layout,
+        formulas: FormulaMaker,
+        single: ScalarRunner,
+        options: RunOptions,
         *,
         floats: bool,
     ) -> None:
-        self.runner = runner
         self.question = question
         self.forms = forms
         self.layout = layout
-        self.choice = EngineChoice(runner.options.engine, runner.most_operations, floats=floats)
+        self.formulas = formulas
+        self.single = single
+        self.options = options
+        self.choice = EngineChoice(options.engine, floats=floats)
 
     @cached_property
     def batches(self) -> BatchRunner | None:
         """What does the formula to batches; None where it cannot be made."""
-        runner = self.runner
-        made = runner.formulas.of(self.question, self.forms, self.layout.axes)
+        made = self.formulas.attempt(
+            lambda: self.question.formula(self.formulas, self.forms, self.layout.axes)
+        )
         if made is None:
             return None
-        return BatchRunner(
-            made,
-            self.layout,
-            threads=runner.options.threads,
-            read=self.question.read,
-            staged=not runner.unreduced,
-        )
+        threads, read = self.options.threads, self.question.read
+        staged = not self.formulas.unreduced
+        return BatchRunner(made, self.layout, threads=threads, read=read, staged=staged)
 
     @cached_property
     def function(self) -> FloatFunction | None:
         """What does one path after the other; None where it cannot be made."""
         absent = frozenset([key.name for key, form in self.forms.items() if form == ABSENT])
-        return self.runner.single.function(absent)
+        return self.single.function(absent)
 
     @property
     def has_floats(self) -> bool:
         """Whether a function of floats has been made."""
-        return bool(self.runner.single.functions)
+        return bool(self.single.functions)
 
     def operations(self, *, floats: bool) -> int | None:
         """Return how many operations a path takes; None where no formula can be made."""

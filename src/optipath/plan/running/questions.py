@@ -7,7 +7,7 @@ and what becomes of the results. How a batch is run is the same for all: see `Ru
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -22,13 +22,23 @@ if TYPE_CHECKING:
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.running.batch_runner import Results
+    from optipath.plan.running.for_jax import ForJax
     from optipath.plan.running.formula_maker import FormulaMaker
-    from optipath.plan.running.interpreter import Shared
+    from optipath.plan.running.interpreter import Interpreter, Shared
     from optipath.plan.running.reading import ResolvedInputs
-    from optipath.plan.running.runner import Runner
 
     Array = np.ndarray[Any, Any]
     Batch = tuple[int, ...]
+
+
+class Asked(Protocol):
+    """What a question asks: a program that is run step by step, or by JAX."""
+
+    interpreter: Interpreter
+    for_jax: ForJax
+
+    def refuse_infinite(self, numbers: Any) -> None:
+        """Refuse light that is not finite."""
 
 
 class Question(ABC):
@@ -60,10 +70,10 @@ class Question(ABC):
         """Return the formula of the results, for numbers of some forms."""
 
     @abstractmethod
-    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the results, shape (results, paths), step by step."""
 
-    def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return what the user gets of JAX; None where NumPy is to be asked."""
         del runner, resolved, batch, parameters
 
@@ -82,9 +92,8 @@ class LightQuestion(Question):
     is_light = True
     cure = "take it in smaller parts, plan.stream(size, ...), or give fewer values"
 
-    def __init__(self, program: Program, *, polynomials: bool = True) -> None:
+    def __init__(self, program: Program) -> None:
         self.program = program
-        self.polynomials = polynomials
         self.ends = program.readings
         self.read = 4 * len(self.ends)
         self.counts = [reading.components for reading in self.ends.values()]
@@ -95,11 +104,9 @@ class LightQuestion(Question):
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         """Return the formula of the components at every end, and of the exponents."""
-        polynomials = self.polynomials
-        unreduced = maker.unreduced and polynomials
-        return maker.lights(forms, axes=axes, unreduced=unreduced, polynomials=polynomials)
+        return maker.lights(forms, axes=axes, unreduced=maker.unreduced, polynomials=True)
 
-    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the components at every end, and the exponents."""
         found = runner.interpreter.lights(given, shared)
         for (stokes, _), count in zip(found, self.counts, strict=True):
@@ -107,7 +114,7 @@ class LightQuestion(Question):
         components = [stokes.reshape(-1, 4).T for stokes, _ in found]
         return np.concatenate([*components, *(power.reshape(1, -1) for _, power in found)])
 
-    def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return the light by the name of each end."""
         found, sound = runner.for_jax.path.lights(resolved, batch, parameters)
         if runner.for_jax.needs_closer_look(sound, resolved):
@@ -163,14 +170,14 @@ class MatrixQuestion(Question):
         kind, limits = maker.dtype.name, maker.limits
         return matrix_formula(self.program, self.source, self.reading, kind, forms, limits, axes)
 
-    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the sixteen entries."""
         del shared  # Each is needed in several columns.
         found = runner.interpreter.matrix(given, self.source, self.reading)
         runner.refuse_infinite(found[..., : self.reading.components, :])
         return found.reshape(-1, 16).T
 
-    def by_jax(self, runner: Runner, resolved: Any, batch: Batch, parameters: Any) -> Any:
+    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
         """Return the matrices."""
         name = next(n for n, end in self.program.readings.items() if end is self.reading)
         found, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
@@ -205,7 +212,7 @@ class BoundsQuestion(Question):
         kind, limits = maker.dtype.name, maker.limits
         return bounds_formula(self.program, kind, forms, limits, axes, self.model)
 
-    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the bounds, four numbers for each end."""
         del shared  # Those of bounds are of another sort.
         return np.concatenate([rows.reshape(4, -1) for rows in runner.interpreter.bounds(given)])
@@ -227,7 +234,7 @@ class ErrorsQuestion(BoundsQuestion):
         super().__init__(program)
         self.read = len(self.ends) + 1
 
-    def rows(self, runner: Runner, given: ResolvedInputs, shared: Shared) -> Array:
+    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         """Return the intensities, and the errors behind them."""
         bounds = super().rows(runner, given, shared).reshape(-1, 4, given.paths)
         assert self.model is not None  # noqa: S101 - for mypy

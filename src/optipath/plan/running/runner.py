@@ -175,7 +175,8 @@ class Runner:
         key = question.key, forms, layout.key, floats
         found = self._sorts.get(key)
         if found is None:
-            found = Sort(self, question, dict(forms), layout, floats=floats)
+            own = self.formulas, self.single, self.options
+            found = Sort(question, dict(forms), layout, *own, floats=floats)
             _kept(self._sorts, key, found)
         return found
 
@@ -240,14 +241,7 @@ class Runner:
             return FLOATS
         if any(sort.choice.settled == "numba" for sort in self._sorts.values()):
             return "numba"
-        return usual_engine(
-            engine, count, self.formulas.length, self.most_operations, floats=floats
-        )
-
-    @property
-    def most_operations(self) -> int:
-        """How many operations Numba is given in one piece; by name, as many as it can take."""
-        return 3000 if self.options.engine == "numba" else 1500
+        return usual_engine(engine, count, self.formulas.length, floats=floats)
 
     def enough_for(
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE
