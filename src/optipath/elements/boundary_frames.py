@@ -11,14 +11,14 @@ from optipath.elements.frame_checks import angle_between, incidence_between, sha
 from optipath.elements.fresnel import refraction_angle
 from optipath.light.frames import Frame
 from optipath.values.arrays.shapes import broadcast_fault
-from optipath.values.domains import LIT_BEHIND
+from optipath.values.domains.indices import LIT_BEHIND
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.values.domains import Domain
+    from optipath.values.domains.domain import Domain
 
 
 _TOLERANCE = 1e-7

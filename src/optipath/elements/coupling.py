@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.kernels import NUMPY, TURN, TURN_BACK
-from optipath.light.mueller import stacked
+from optipath.kernels.catalogue import TURN, TURN_BACK
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.light.mueller.matrix import stacked
 from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.materials import Material
 from optipath.values.operands import Operand, operand_of
@@ -16,8 +17,9 @@ from optipath.values.operands import Operand, operand_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from optipath.kernels import Kernel, KernelFamily, Primitives
-    from optipath.values.domains import Domain
+    from optipath.kernels.carriers.kernel import Kernel, KernelFamily
+    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.values.domains.domain import Domain
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import share_x
-from optipath.kernels import GIVEN_AMPLITUDES
-from optipath.values.domains import Amplitude, Angle
+from optipath.kernels.catalogue import GIVEN_AMPLITUDES
+from optipath.values.domains.quantities import Amplitude, Angle
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

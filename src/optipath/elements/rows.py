@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PathError
-from optipath.kernels import FULL, Kernel
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.structures import FULL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels import Primitives
+    from optipath.kernels.numbers.primitives import Primitives
 
 
 @dataclass(frozen=True)

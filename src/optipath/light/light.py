@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import FrameError, ShapeError, shown
-from optipath.kernels import turn_linear
+from optipath.kernels.carriers.structures import turn_linear
 from optipath.light import polarization_state
 from optipath.light.frames import Frame
 from optipath.light.underflow import times_two_to

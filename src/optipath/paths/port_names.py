@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.elements import Element
+    from optipath.elements.element import Element
 
 
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:

@@ -10,12 +10,12 @@ from optipath.engines import LARGE
 from optipath.errors import ParameterError, did_you_mean, shown, whole_number
 from optipath.light.frames import Frame
 from optipath.light.light import Light
-from optipath.light.mueller import Mueller
+from optipath.light.mueller.matrix import Mueller
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.engines.program.program import Program
     from optipath.engines.program.reduction import Reduction, Tolerance
     from optipath.plan.approximation import Approximation

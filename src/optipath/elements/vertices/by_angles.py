@@ -8,18 +8,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import PathError
-from optipath.kernels import NUMPY, PointsByAngles, cosine, sine
+from optipath.kernels.geometry.points_by_angles import PointsByAngles
+from optipath.kernels.numbers.circular import cosine, sine
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.read_only import read_only, same
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains import ANGLE, INCIDENCE, in_unit_of
+from optipath.values.domains.domain import in_unit_of
+from optipath.values.domains.quantities import ANGLE, INCIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     import numpy.typing as npt
 
-    from optipath.values.domains import Domain
+    from optipath.values.domains.domain import Domain
 
 
 @dataclass(frozen=True, eq=False)

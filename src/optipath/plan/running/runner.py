@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
-    from optipath.kernels import Carrier
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.questions import Question
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
