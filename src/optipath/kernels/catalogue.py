@@ -2,7 +2,7 @@
 
 from typing import TypeAlias
 
-from optipath.kernels.carriers.kernel import Factory, Kernel, KernelFamily
+from optipath.kernels.carriers.kernel import Kernel, KernelFamily
 from optipath.kernels.carriers.sloped import Sloped
 from optipath.kernels.carriers.structures import (
     BLOCK,
@@ -18,6 +18,7 @@ from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.refraction import Refracting
 from optipath.kernels.geometry import vertex_chain
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
+from optipath.kernels.numbers.primitives import Factory
 
 Factories: TypeAlias = tuple[Factory, ...]
 """One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""

@@ -15,10 +15,7 @@ from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.twice import twice
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.carriers.kernel import Factory
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives
 
 
 @dataclass(frozen=True)
@@ -27,7 +24,7 @@ class _Compensated:
 
     factory: Factory
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         kernel, sqrt = self.factory(twice(xp)), DoubleDouble.sqrt
 
         def rounded_once(*given: Any) -> tuple[Any, ...]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from optipath.kernels.geometry.vertex_chain import Leg
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 _PARALLEL = 2.0**-50
 """The sine of twice an incidence below which it is the rounding of the points."""
@@ -38,7 +38,7 @@ class OfPlanes:
 
     known: bool = False
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         raise NotImplementedError
 
@@ -67,7 +67,7 @@ class TurnBetweenPlanes(OfPlanes):
     (-1.0, 0.0)
     """
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, Any]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         met, aligned = self.met(xp), align(xp)
 
@@ -92,7 +92,7 @@ class AxesAtVertex(OfPlanes):
 
     leaves: bool = False
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         met, sqrt = self.met(xp), xp.sqrt
 
