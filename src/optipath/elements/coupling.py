@@ -37,7 +37,8 @@ class Operation:
     --------
     An index of refraction n = 1.5 + 0.004 / wavelength^2 (in um), as a kernel is given it:
 
-    >>> from optipath.kernels import FLOAT, Kernel
+    >>> from optipath.kernels.carriers.kernel import Kernel
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> cauchy = Kernel("Cauchy", None, lambda xp: lambda a, b, length: (a + b / length**2, 0.0))
     >>> n, k = Operation(cauchy, (1.5, 0.004, 0.5)).results(2)
     >>> n.operation.numbers(FLOAT, float)
@@ -197,7 +198,7 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
 
     Examples
     --------
-    >>> from optipath.values.domains import IndexDomain
+    >>> from optipath.values.domains.indices import IndexDomain
     >>> numbers_of(1.5 + 2j, IndexDomain("index"))
     (1.5, 2.0)
     """

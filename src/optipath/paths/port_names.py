@@ -35,7 +35,7 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
 
     Examples
     --------
-    >>> from optipath.elements import BeamSplitter
+    >>> from optipath.elements.beam_splitter import BeamSplitter
     >>> try:
     ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
     ... except PathError as error:

@@ -51,7 +51,7 @@ def brought_near_one(xp: Primitives) -> KernelFunction:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> brought_near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
     """
@@ -100,7 +100,7 @@ def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> hypotenuse(FLOAT)(3e-140, 4e-140), hypotenuse(FLOAT)(1e-240, 0.0)
     (5e-140, 1e-240)
     """
@@ -125,7 +125,7 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> complex_root(FLOAT)(-3.0, 2.0, 1.0)[:2]
     (1.0, 2.0)
     """

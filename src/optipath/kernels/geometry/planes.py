@@ -61,7 +61,7 @@ class TurnBetweenPlanes(OfPlanes):
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> up_sideways_on = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0)
     >>> TurnBetweenPlanes()(FLOAT)(*up_sideways_on)
     (-1.0, 0.0)

@@ -30,7 +30,7 @@ class PointsByAngles:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> PointsByAngles(1, 0, 2)(FLOAT)(0.0, 1.0)
     (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0)
     """

@@ -48,7 +48,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
 
     Examples
     --------
-    >>> from optipath.values.domains import REAL
+    >>> from optipath.values.domains.quantities import REAL
     >>> decode([1, 2.5], REAL, {})
     [1.0, 2.5]
     """
