@@ -192,7 +192,8 @@ class Element:
         list of str
             Empty where they fit together.
         """
-        if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):
+        each = list(frames.values())
+        if self.straight and not all(same_frame(frame, each[0]) for frame in each[1:]):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
 
@@ -299,8 +300,3 @@ class Element:
         )
 
     __hash__ = None  # type: ignore[assignment]
-
-
-def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:
-    each = list(frames.values())
-    return [(frame, each[0]) for frame in each[1:]]
