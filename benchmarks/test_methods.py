@@ -3,7 +3,7 @@
 import pytest
 
 import optipath as op
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 from subjects import ENGINES, METAL, angles, assignment, finished
 
 COUNT = 100_000

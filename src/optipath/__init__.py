@@ -21,34 +21,30 @@ from optipath.errors import (
 
 # isort: split
 from optipath.composer import Composer
-from optipath.elements import (
-    Attenuator,
-    BeamSplitter,
-    Combiner,
-    Coupling,
-    Depolarizer,
-    Detector,
-    Diattenuator,
-    Dump,
-    Element,
-    Interface,
-    LayerStack,
-    Medium,
-    Mirror,
-    MuellerElement,
-    Operation,
-    Polarizer,
-    Retarder,
-    Rotator,
-    Source,
-    SpecularVertex,
-)
+from optipath.elements.attenuator import Attenuator
+from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.combiner import Combiner
+from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.depolarizer import Depolarizer
+from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.element import Element
 from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
-from optipath.elements.vertices import VerticesByAngles, vertices_from_angles
+from optipath.elements.interface import Interface
+from optipath.elements.layer_stack import LayerStack
+from optipath.elements.medium import Medium
+from optipath.elements.mirror import Mirror
+from optipath.elements.mueller_element import MuellerElement
+from optipath.elements.polarizer import Polarizer
+from optipath.elements.retarder import Retarder
+from optipath.elements.rotator import Rotator
+from optipath.elements.source import Source
+from optipath.elements.specular_vertex import SpecularVertex
+from optipath.elements.terminal import Detector, Dump
+from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
 from optipath.light.frames import Frame
 from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
 from optipath.light.light import Light
-from optipath.light.mueller import LuChipman, Mueller
+from optipath.light.mueller.matrix import LuChipman, Mueller
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.polarization_matters import Polarization, polarization
 from optipath.paths.presets.loader import load_preset, preset_names
@@ -58,7 +54,7 @@ from optipath.plan.light_paths import LightPath
 from optipath.plan.plan import Plan
 from optipath.values.angles import CosSin
 from optipath.values.cases import Case
-from optipath.values.domains import (
+from optipath.values.domains.quantities import (
     Absorption,
     Amplitude,
     Angle,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.kernels import METHODS, REFLECTION, TRANSMISSION
+from optipath.kernels.catalogue import METHODS, REFLECTION, TRANSMISSION
 from optipath.lab.accuracy import reference
 from optipath.lab.accuracy.boundary_reference import stack
 from optipath.lab.accuracy.many_digits import cos_sin, exact_angle

@@ -5,7 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.engines.formulas import lights_formula
-from optipath.kernels import StokesCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.values.operands import MANY
 
 numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")

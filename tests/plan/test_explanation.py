@@ -28,7 +28,7 @@ def test_live_components_stand_beside_each_step():
     assert live["lamp.out"] == ("S0",)
     # S3 is made by the retarder, and nothing behind it asks for it.
     assert all("S3" not in components for components in live.values())
-    assert found.options["model"] == "linear"
+    assert found.manner["model"] == "linear"
 
 
 def test_operations_are_fewer_than_those_of_the_full_composition():

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 
 RANGES = {
     "delta": (0.0, np.pi / 2),

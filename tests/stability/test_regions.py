@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.kernels import REFLECTION
+from optipath.kernels.catalogue import REFLECTION
 from optipath.lab.accuracy.interface_errors import interface_errors, matrix_numbers
 from optipath.lab.accuracy.regions import REGIONS
 

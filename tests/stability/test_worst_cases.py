@@ -8,7 +8,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from optipath.kernels import NUMPY, REFLECTION
+from optipath.kernels.catalogue import REFLECTION
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.lab.accuracy import reference
 from optipath.lab.accuracy.error_measures import errors, in_ulp
 from optipath.lab.accuracy.interface_errors import matrix_numbers

@@ -6,7 +6,8 @@ import pytest
 import optipath as op
 from optipath.paths.presets.loader import preset_names
 from optipath.values import domains
-from optipath.values.domains import INCIDENCE, Domain
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.units import UNITS, format_quantity, parse_quantity
 
 NARROW = [np.float16, np.float32]

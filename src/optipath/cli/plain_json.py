@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from optipath.values.domains import AMPLITUDE
+from optipath.values.domains.quantities import AMPLITUDE
 from optipath.values.units import in_unit
 
 

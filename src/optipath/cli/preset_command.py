@@ -9,9 +9,9 @@ import click
 
 from optipath.composer import CHOICES
 from optipath.errors import OptipathError, ParameterError, PresetError, printable
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names, with_values
-from optipath.values.domains import READINGS
+from optipath.values.domains.quantities import READINGS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence

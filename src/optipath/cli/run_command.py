@@ -18,7 +18,7 @@ from optipath.cli.preset_command import PresetGroup
 from optipath.composer import Composer
 from optipath.paths.format import complex_parts_of
 from optipath.values.cases import Case
-from optipath.values.domains import AMPLITUDE
+from optipath.values.domains.quantities import AMPLITUDE
 
 if TYPE_CHECKING:
     from optipath.cli.preset_command import Chosen

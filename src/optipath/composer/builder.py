@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping, Sequence
 
     from optipath.elements.coupling import Operation
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.light.frames import Frame
     from optipath.values.operands import Operand
 

@@ -17,7 +17,7 @@ from optipath.composer.wiring import KEPT, LOOPS, Wiring
 from optipath.engines import ENGINES, is_installed, missing
 from optipath.engines.program.reduction import MODELS
 from optipath.errors import ComposerError, shown, unknown
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 from optipath.plan.plan import Plan
 from optipath.values.precision import precision
 from optipath.values.whole_numbers import whole_number

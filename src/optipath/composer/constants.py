@@ -5,24 +5,21 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
-from optipath.kernels import (
+from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, FULL, ROTATION, SCALE
+from optipath.kernels.catalogue import (
     ATTENUATOR,
-    BLOCK,
     CONSTANT_BLOCK,
     CONSTANT_DEPOLARIZING_BLOCK,
-    DEPOLARIZING_BLOCK,
-    FLOAT,
-    FULL,
     GIVEN_TURN,
     MATRIX,
-    ROTATION,
-    SCALE,
 )
+from optipath.kernels.numbers.primitives import FLOAT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from optipath.kernels import Kernel, Structure
+    from optipath.kernels.carriers.kernel import Kernel
+    from optipath.kernels.carriers.structures import Structure
 
 _KERNELS = {
     "scale": ATTENUATOR,

@@ -11,12 +11,13 @@ from optipath.engines.formulas import Symbol
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic import SYMBOLIC
 from optipath.engines.program.program import Result
-from optipath.kernels import FLOAT, Kernel
+from optipath.kernels.numbers.primitives import FLOAT
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.engines.program.program import Program
+    from optipath.kernels.carriers.kernel import Kernel
     from optipath.values.operands import Operand
 
 Entry: TypeAlias = float | None

@@ -20,8 +20,8 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from optipath.composer.travel import Port, Stretch
     from optipath.composer.wiring import Link, Wiring
-    from optipath.elements import Coupling
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.coupling import Coupling
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.engines.program.program import Program
 
 _FEW = 8

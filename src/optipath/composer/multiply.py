@@ -8,7 +8,7 @@ from optipath.composer.chains import Item, along_chains, label_of
 from optipath.composer.constants import Constant, multiplied
 from optipath.composer.entries import known_numbers
 from optipath.elements.coupling import Operation
-from optipath.kernels import FULL
+from optipath.kernels.carriers.structures import FULL
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:

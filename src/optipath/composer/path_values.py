@@ -10,7 +10,7 @@ import numpy as np
 from optipath.composer.wiring import link_text
 from optipath.errors import ValueFault
 from optipath.values.arrays.shapes import broadcast_fault
-from optipath.values.domains import ANGLE
+from optipath.values.domains.quantities import ANGLE
 from optipath.values.inputs import Inputs, Use
 from optipath.values.parameters import Parameter
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import link_text
-from optipath.elements import Operation
+from optipath.elements.coupling import Operation
 from optipath.errors import OptipathError
-from optipath.kernels import GIVEN_TURN, TURN
+from optipath.kernels.catalogue import GIVEN_TURN, TURN
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.operands import Operand
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from optipath.composer.chains import Item, along_chains, label_of
 from optipath.composer.entries import number_of
 from optipath.elements.coupling import Operation
-from optipath.kernels import TURN, TURN_BACK
+from optipath.kernels.catalogue import TURN, TURN_BACK
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
 from optipath.composer.travel import among, cycles
 from optipath.composer.wiring import Wiring, link_text
-from optipath.elements import Source
+from optipath.elements.source import Source
 from optipath.errors import PathError
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from optipath.composer.travel import Port
     from optipath.composer.wiring import Link, Wiring
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.values.operands import Operand
 
 

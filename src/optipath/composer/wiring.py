@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.composer.travel import Stretch
-    from optipath.elements import Coupling, Element
+    from optipath.elements.coupling import Coupling
+    from optipath.elements.element import Element
 
 Link: TypeAlias = tuple[str, str, tuple[str, str]]
 """(start node, end node, (out-port, in-port)), as networkx keys the edges."""

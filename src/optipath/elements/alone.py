@@ -6,9 +6,9 @@ from typing import Any
 
 from optipath.elements.fields import faults_of
 from optipath.errors import PathError, shown
-from optipath.kernels import REFLECTION
+from optipath.kernels.catalogue import REFLECTION
 from optipath.light.frames import Frame
-from optipath.light.mueller import Mueller
+from optipath.light.mueller.matrix import Mueller
 from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
-from optipath.kernels import ATTENUATOR
-from optipath.values.domains import Fraction
+from optipath.kernels.catalogue import ATTENUATOR
+from optipath.values.domains.quantities import Fraction
 
 
 class Attenuator(Element, kind="attenuator"):

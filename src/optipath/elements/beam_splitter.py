@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 from optipath.elements.coupling import Operation
 from optipath.elements.four_port import FourPort
 from optipath.elements.frame_checks import same_frame, share_x
-from optipath.kernels import COMPLEMENT, MIRROR
-from optipath.values.domains import Angle, Fraction
+from optipath.kernels.catalogue import COMPLEMENT, MIRROR
+from optipath.values.domains.quantities import Angle, Fraction
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault
 from optipath.values.arrays.jax_values import is_traced
-from optipath.values.domains import Domain
+from optipath.values.domains.domain import Domain
 
 if TYPE_CHECKING:
     from optipath.values.parameters import Parameter

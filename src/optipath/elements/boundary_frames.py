@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,29 +11,17 @@ from optipath.elements.frame_checks import angle_between, incidence_between, sha
 from optipath.elements.fresnel import refraction_angle
 from optipath.light.frames import Frame
 from optipath.values.arrays.shapes import broadcast_fault
-from optipath.values.domains import LIT_BEHIND
+from optipath.values.domains.indices import LIT_BEHIND
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.values.domains import Domain
+    from optipath.values.domains.domain import Domain
 
 
 _TOLERANCE = 1e-7
-
-
-class _HasTwoMedia(Protocol):
-    """An element that says the media on both sides, and the incidence from the front."""
-
-    @property
-    def incidence(self) -> Any: ...
-    @property
-    def index(self) -> Any: ...
-    @property
-    def outside(self) -> Any: ...
-    def faults(self, owner: str) -> list[str]: ...
 
 
 class BoundaryElement(FourPort):
@@ -46,10 +34,10 @@ class BoundaryElement(FourPort):
         """Return that the medium behind must not absorb where light comes from there."""
         return {"index": LIT_BEHIND} if port == "back" else {}
 
-    def frame_of(self: _HasTwoMedia, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+    def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
         return frames.get(port) or _refracted_frame(self, port, frames)
 
-    def frame_faults(self: _HasTwoMedia, owner: str, frames: Mapping[str, Frame]) -> list[str]:
+    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         placed = list(frames.items())
         faulty = [port for port, frame in placed if not share_x(frame, placed[0][1])]
         if faulty:
@@ -59,7 +47,7 @@ class BoundaryElement(FourPort):
         return [*_meeting_faults(owner, self, frames), *_passing_faults(owner, self, frames)]
 
 
-def _refracted_frame(element: _HasTwoMedia, port: str, frames: Mapping[str, Frame]) -> Frame | None:
+def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Frame | None:
     """Return the frame of refracted light, of that of the other; None where it is not known."""
     if port != "transmitted" or not {"in", "reflected"} <= frames.keys():
         return None
@@ -80,9 +68,7 @@ def _unit(vector: Any) -> Any:
     return vector / np.where(length > 0.0, length, 1.0)
 
 
-def _meeting_faults(
-    owner: str, element: _HasTwoMedia, frames: Mapping[str, Frame]
-) -> Iterator[str]:
+def _meeting_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[str]:
     if not {"in", "reflected"} <= frames.keys():
         return
     found = incidence_between(frames["in"], frames["reflected"])
@@ -95,9 +81,7 @@ def _meeting_faults(
         yield f"{problem}, but its incidence is {_degrees(angles[0])}; make them agree"
 
 
-def _passing_faults(
-    owner: str, element: _HasTwoMedia, frames: Mapping[str, Frame]
-) -> Iterator[str]:
+def _passing_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[str]:
     angles = _angles(owner, element) if len(frames) > 1 else None
     if not angles:
         return
@@ -120,7 +104,7 @@ def _passing_faults(
                 )
 
 
-def _angles(owner: str, element: _HasTwoMedia) -> tuple[Any, Any] | None:
+def _angles(owner: str, element: Any) -> tuple[Any, Any] | None:
     """Return the angles in front and behind, if they are known and allowed."""
     before = getattr(element, "incidence_in", None)
     values = [element.incidence, element.index, element.outside, before]

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.kernels import NUMPY, TURN, TURN_BACK
-from optipath.light.mueller import stacked
+from optipath.kernels.catalogue import TURN, TURN_BACK
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.light.mueller.matrix import stacked
 from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.materials import Material
 from optipath.values.operands import Operand, operand_of
@@ -16,8 +17,9 @@ from optipath.values.operands import Operand, operand_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from optipath.kernels import Kernel, KernelFamily, Primitives
-    from optipath.values.domains import Domain
+    from optipath.kernels.carriers.kernel import Kernel, KernelFamily
+    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.values.domains.domain import Domain
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,7 +37,8 @@ class Operation:
     --------
     An index of refraction n = 1.5 + 0.004 / wavelength^2 (in um), as a kernel is given it:
 
-    >>> from optipath.kernels import FLOAT, Kernel
+    >>> from optipath.kernels.carriers.kernel import Kernel
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> cauchy = Kernel("Cauchy", None, lambda xp: lambda a, b, length: (a + b / length**2, 0.0))
     >>> n, k = Operation(cauchy, (1.5, 0.004, 0.5)).results(2)
     >>> n.operation.numbers(FLOAT, float)
@@ -195,7 +198,7 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
 
     Examples
     --------
-    >>> from optipath.values.domains import IndexDomain
+    >>> from optipath.values.domains.indices import IndexDomain
     >>> numbers_of(1.5 + 2j, IndexDomain("index"))
     (1.5, 2.0)
     """

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
-from optipath.kernels import DEPOLARIZER
-from optipath.values.domains import Fraction
+from optipath.kernels.catalogue import DEPOLARIZER
+from optipath.values.domains.quantities import Fraction
 
 
 class Depolarizer(Element, kind="depolarizer"):

@@ -13,17 +13,17 @@ from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
 from optipath.elements.rows import rows_kernel
 from optipath.errors import PathError
-from optipath.kernels import Kernel  # noqa: TC001 - annotations of fields are read when it runs
-from optipath.values.domains import Domain, in_unit_of
+from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.values.domains.domain import Domain, in_unit_of
 from optipath.values.inputs import Use
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.light.frames import Frame
-    from optipath.light.mueller import Mueller
+    from optipath.light.mueller.matrix import Mueller
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
@@ -192,7 +192,8 @@ class Element:
         list of str
             Empty where they fit together.
         """
-        if self.straight and not all(same_frame(frame, first) for frame, first in _pairs(frames)):
+        each = list(frames.values())
+        if self.straight and not all(same_frame(frame, each[0]) for frame in each[1:]):
             return [f"'{owner}' lets light go straight through; give its ports one frame"]
         return []
 
@@ -299,8 +300,3 @@ class Element:
         )
 
     __hash__ = None  # type: ignore[assignment]
-
-
-def _pairs(frames: Mapping[str, Frame]) -> list[tuple[Frame, Frame]]:
-    each = list(frames.values())
-    return [(frame, each[0]) for frame in each[1:]]

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 from optipath.elements.coupling import numbers_of
 from optipath.errors import PathError, ValueFault
 from optipath.values.arrays.read_only import same
-from optipath.values.domains import REAL, Domain
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.quantities import REAL
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -7,17 +7,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault
-from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION, cosine, refraction, sine
+from optipath.kernels.carriers.structures import BLOCK
+from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
+from optipath.kernels.fresnel.refraction import refraction
+from optipath.kernels.numbers.circular import cosine, sine
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.angles import is_angle, within_right_angle
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains import INCIDENCE, INDEX, OUTSIDE, Domain
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.indices import INDEX, OUTSIDE
+from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.precision import precision
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.kernels import KernelFamily
+    from optipath.kernels.carriers.kernel import KernelFamily
 
 _COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
-from optipath.kernels import REFLECTION, TRANSMISSION
-from optipath.values.domains import Angle, Incidence, Index, OptionalIndex, OutsideIndex
+from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
+from optipath.values.domains.quantities import Angle, Incidence, Index, OptionalIndex, OutsideIndex
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 

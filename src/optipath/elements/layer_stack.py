@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
-from optipath.kernels import (
+from optipath.kernels.catalogue import (
     STACK_REFLECTION,
     STACK_REFLECTION_BACK,
     STACK_TRANSMISSION,
     STACK_TRANSMISSION_BACK,
 )
-from optipath.values.domains import INDEX, Angle, Incidence, Indices
+from optipath.values.domains.indices import INDEX
+from optipath.values.domains.quantities import Angle, Incidence, Indices
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from optipath.elements.beside_rotation import (
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.errors import ValueFault, did_you_mean
-from optipath.kernels import (
+from optipath.kernels.catalogue import (
     ABSORPTION_ALONG,
     DEXTROROTATION_ALONG,
     RETARDANCE_ALONG,
@@ -25,13 +25,20 @@ from optipath.kernels import (
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains import Absorption, Angle, AnglePerLength, Domain, Length, RotatoryPower
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.quantities import (
+    Absorption,
+    Angle,
+    AnglePerLength,
+    Length,
+    RotatoryPower,
+)
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.kernels import Kernel
+    from optipath.kernels.carriers.kernel import Kernel
 
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import share_x
-from optipath.kernels import GIVEN_AMPLITUDES
-from optipath.values.domains import Amplitude, Angle
+from optipath.kernels.catalogue import GIVEN_AMPLITUDES
+from optipath.values.domains.quantities import AMPLITUDE, Amplitude, Angle
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -49,14 +49,9 @@ class Mirror(Element, kind="mirror"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""
-        domains = self.domains()
-        numbers = (
-            *numbers_of(self.r_s, domains["r_s"]),
-            *numbers_of(self.r_p, domains["r_p"]),
-        )
-        return (
-            Coupling("in", "reflected", (Operation(GIVEN_AMPLITUDES, numbers),), reflects=True),
-        )
+        numbers = numbers_of(self.r_s, AMPLITUDE) + numbers_of(self.r_p, AMPLITUDE)
+        reflecting = Operation(GIVEN_AMPLITUDES, numbers)
+        return (Coupling("in", "reflected", (reflecting,), reflects=True),)
 
     def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
         if not {"in", "reflected"} <= frames.keys() or share_x(frames["in"], frames["reflected"]):

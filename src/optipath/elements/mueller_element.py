@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.kernels import MATRIX
-from optipath.values.domains import Angle, MuellerMatrix
+from optipath.kernels.catalogue import MATRIX
+from optipath.values.domains.quantities import Angle, MuellerMatrix
 
 
 class MuellerElement(Element, kind="mueller"):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
-from optipath.kernels import POLARIZER
-from optipath.values.domains import Angle, Fraction
+from optipath.kernels.catalogue import POLARIZER
+from optipath.values.domains.quantities import Angle, Fraction
 
 
 class Polarizer(Element, kind="polarizer"):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
-from optipath.kernels import RETARDER
-from optipath.values.domains import Angle
+from optipath.kernels.catalogue import RETARDER
+from optipath.values.domains.quantities import Angle
 
 
 class Retarder(Element, kind="retarder"):

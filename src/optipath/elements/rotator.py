@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
-from optipath.kernels import TURN_BACK
-from optipath.values.domains import Angle
+from optipath.kernels.catalogue import TURN_BACK
+from optipath.values.domains.quantities import Angle
 
 
 class Rotator(Element, kind="rotator"):

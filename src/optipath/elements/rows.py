@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PathError
-from optipath.kernels import FULL, Kernel
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.structures import FULL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class RowsFactory:
     name: str
     rows_of: Callable[..., Any]
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function that gives the sixteen numbers of the matrix."""
 
         def numbers(*values: Any) -> tuple[Any, ...]:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.kernels import POLARIZED, UNPOLARIZED
-from optipath.values.domains import NonNegative, StokesState
+from optipath.kernels.catalogue import POLARIZED, UNPOLARIZED
+from optipath.values.domains.quantities import NonNegative, StokesState
 
 if TYPE_CHECKING:
     from typing import Any

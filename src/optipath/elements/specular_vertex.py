@@ -7,10 +7,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
-from optipath.elements.vertices import PlaceInChain, VertexFrame, Vertices, VerticesDomain
-from optipath.kernels import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
+from optipath.elements.vertices.frame import VertexFrame
+from optipath.elements.vertices.place import PlaceInChain
+from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
+from optipath.kernels.catalogue import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
 from optipath.values.arrays.read_only import same
-from optipath.values.domains import Index, OutsideIndex
+from optipath.values.domains.quantities import Index, OutsideIndex
 from optipath.values.materials import Material
 from optipath.values.whole_numbers import is_whole
 
@@ -18,7 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from optipath.light.frames import Frame
-    from optipath.values.domains import Domain
+    from optipath.values.domains.domain import Domain
 
 
 class SpecularVertex(Element, kind="specular-vertex"):

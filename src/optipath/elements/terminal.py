@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from optipath.elements.element import Element
-from optipath.values.domains import Reads
+from optipath.values.domains.quantities import Reads
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling

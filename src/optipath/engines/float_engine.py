@@ -10,7 +10,7 @@ import numpy as np
 from optipath.engines.engine import Engine
 from optipath.engines.formulas import Symbol
 from optipath.engines.formulas.operations import OPERATIONS
-from optipath.kernels import FLOAT
+from optipath.kernels.numbers.primitives import FLOAT
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.jax_path import JaxPath
     from optipath.engines.program.program import Program
-    from optipath.kernels import Carrier
+    from optipath.kernels.carriers.carrier import Carrier
 
 
 class CarriedProgram(NamedTuple):

@@ -14,7 +14,8 @@ import numpy as np
 from optipath.engines.jax_primitives import JAX, sloped
 from optipath.engines.program.execute import execute
 from optipath.errors import ComposerError
-from optipath.kernels import NUMPY, MatrixCarrier
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced
 from optipath.values.operands import part_of
@@ -25,7 +26,8 @@ if TYPE_CHECKING:
 
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
-    from optipath.kernels import Carrier, Components
+    from optipath.kernels.carriers.carried import Components
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.values.operands import Operand
     from optipath.values.parameters import Resolved
 

@@ -11,8 +11,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.kernels import Primitives
-from optipath.kernels.numbers.primitives import is_below_rounding, product_and_rest
+from optipath.kernels.numbers.primitives import Primitives, is_below_rounding, product_and_rest
 from optipath.values.arrays.jax_values import is_jax
 
 if TYPE_CHECKING:

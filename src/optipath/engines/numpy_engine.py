@@ -11,7 +11,7 @@ from optipath.engines.block_writer import BlockWriter
 from optipath.engines.engine import Engine
 from optipath.engines.formulas import DOUBLE, LEFT, Symbol
 from optipath.engines.formulas.operations import OPERATIONS
-from optipath.kernels import NUMPY
+from optipath.kernels.numbers.primitives import NUMPY
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath

@@ -2,7 +2,7 @@
 
 from typing import TypeAlias
 
-from optipath.kernels.carriers.kernel import Factory, Kernel, KernelFamily
+from optipath.kernels.carriers.kernel import Kernel, KernelFamily
 from optipath.kernels.carriers.sloped import Sloped
 from optipath.kernels.carriers.structures import (
     BLOCK,
@@ -13,11 +13,13 @@ from optipath.kernels.carriers.structures import (
     SCALE,
 )
 from optipath.kernels.filters import emission, filters, rotation, stretch
-from optipath.kernels.fresnel import amplitude, compensated, powers, stable, textbook
+from optipath.kernels.fresnel import amplitude, powers, stable, textbook
+from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.refraction import Refracting
 from optipath.kernels.geometry import vertex_chain
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
+from optipath.kernels.numbers.primitives import Factory
 
 Factories: TypeAlias = tuple[Factory, ...]
 """One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
@@ -55,7 +57,7 @@ REFLECTION = _fresnel(
     "Fresnel reflection",
     (stable.stable_reflection, stable.lossless_reflection, stable.denser_reflection),
     (powers.reflected_powers, powers.lossless_powers, powers.denser_powers),
-    compensated=(compensated.compensated_reflection, compensated.compensated_lossless_reflection),
+    compensated=(Compensated(stable.stable_reflection), Compensated(stable.lossless_reflection)),
     amplitude=(Refracting(amplitude.amplitude_reflection),),
     textbook=(Refracting(textbook.textbook_reflection),),
 )
@@ -64,8 +66,8 @@ TRANSMISSION = _fresnel(
     (stable.stable_transmission, stable.lossless_transmission),
     (),
     compensated=(
-        compensated.compensated_transmission,
-        compensated.compensated_lossless_transmission,
+        Compensated(stable.stable_transmission),
+        Compensated(stable.lossless_transmission),
     ),
     amplitude=(Refracting(amplitude.amplitude_transmission),),
     textbook=(Refracting(textbook.textbook_transmission),),

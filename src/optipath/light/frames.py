@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import FrameError, ShapeError, shown
-from optipath.kernels import ALIGN, NUMPY
+from optipath.kernels.catalogue import ALIGN
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.read_only import Unchanging, read_only
 from optipath.values.arrays.shapes import check_broadcast

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import FrameError, shown
-from optipath.kernels import NUMPY, DoubleDouble
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.frames import Frame, vectors
 from optipath.light.underflow import normalise_exponent
 from optipath.values.arrays.shapes import check_broadcast

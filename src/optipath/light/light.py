@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import FrameError, ShapeError, shown
-from optipath.kernels import turn_linear
-from optipath.light import polarization_state
+from optipath.kernels.carriers.structures import turn_linear
 from optipath.light.frames import Frame
+from optipath.light.polarization_state import PolarizationState
 from optipath.light.underflow import times_two_to
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 _LARGEST = 2.0**40
 
 
-class Light(Unchanging):
+class Light(PolarizationState, Unchanging):
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
 
     Parameters
@@ -132,11 +132,6 @@ class Light(Unchanging):
         return f"Light(stokes={self.mantissa!r}, frame={self.frame!r}{faint})"
 
     @property
-    def _numbers(self) -> npt.NDArray[Any]:
-        """The mantissa, for NumPy unless JAX traces it."""
-        return known(self.mantissa)  # type: ignore[no-any-return]
-
-    @property
     def intensity(self) -> npt.NDArray[Any]:
         """S0, of shape (...)."""
         parts = self.__dict__.get("_stokes")
@@ -152,102 +147,6 @@ class Light(Unchanging):
         xp = namespace(s0)
         with np.errstate(divide="ignore", invalid="ignore"):
             return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
-
-    @property
-    def normalized(self) -> npt.NDArray[Any]:
-        """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
-        stokes = self._numbers
-        return polarization_state.ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
-
-    @property
-    def dop(self) -> npt.NDArray[Any]:
-        """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
-        return polarization_state.degree(self.normalized)
-
-    @property
-    def dolp(self) -> npt.NDArray[Any]:
-        """The degree of linear polarisation, hypot(S1, S2) / S0, of shape (...)."""
-        return polarization_state.linear_degree(self.normalized)
-
-    @property
-    def docp(self) -> npt.NDArray[Any]:
-        """The signed degree of circular polarisation, S3 / S0, of shape (...)."""
-        normalized = self.normalized
-        return namespace(normalized).asarray(normalized[..., 3])  # type: ignore[no-any-return]
-
-    @property
-    def aop(self) -> npt.NDArray[Any]:
-        """The angle of polarisation, of shape (...): of the major axis, from x towards y.
-
-        In radians, in (-pi/2, pi/2]; 0 where S1 and S2 are both 0, as in circular light.
-
-        Examples
-        --------
-        >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
-        0.7854
-        """
-        return polarization_state.major_axis(self.normalized)
-
-    @property
-    def ellipticity(self) -> npt.NDArray[Any]:
-        """The minor axis over the major axis, in [-1, 1], with the sign of S3; shape (...).
-
-        Of the polarised part; 0 where the light is linear or unpolarised.
-
-        Examples
-        --------
-        >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
-        -0.5
-        """
-        return polarization_state.ellipticity(self.normalized)
-
-    @property
-    def ellipticity_angle(self) -> npt.NDArray[Any]:
-        """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
-        return polarization_state.ellipticity_angle(self.normalized)
-
-    @property
-    def handedness(self) -> npt.NDArray[Any]:
-        """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
-
-        The sign of S3, be it but a rounding; 0 where S3 is 0 or not read. By IEEE and the IAU:
-        1 is a field that turns counter-clockwise to who looks at the source, which Hecht, and
-        Born & Wolf (sec. 1.4.2), call left-handed.
-
-        Examples
-        --------
-        A quarter-wave plate whose fast axis is x makes light of +45 degrees right-handed:
-
-        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
-        >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
-        1
-        """
-        return polarization_state.handedness(self.normalized)
-
-    @property
-    def psi(self) -> npt.NDArray[Any]:
-        """The ellipsometric psi of the polarised part, of shape (...), in [0, pi/2].
-
-        tan psi = abs(Ey) / abs(Ex). Behind a sample that light of +45 degrees has met, with
-        x along s and y along p, psi and `delta` are those of the sample.
-
-        Examples
-        --------
-        >>> mirror = [[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, -0.8, 0], [0, 0, 0, -0.8]]
-        >>> stokes = np.array(mirror) @ [1.0, 0.0, 1.0, 0.0]
-        >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
-        0.5 3.1416
-        """
-        return polarization_state.amplitude_angle(self.normalized)
-
-    @property
-    def delta(self) -> npt.NDArray[Any]:
-        """The ellipsometric Delta of the polarised part, of shape (...), in (-pi, pi].
-
-        The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
-        field exp(-i w t) of this library has the opposite sign.
-        """
-        return polarization_state.phase_difference(self.normalized)
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.

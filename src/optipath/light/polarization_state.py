@@ -1,6 +1,6 @@
 """What the numbers of a Stokes vector say of its ellipse, each angle in its own branch.
 
-The vectors, of shape (..., 4), are those over S0, so that light of any faintness will do.
+They are read off the vector over S0, so that light of any faintness will do.
 What is undefined is 0, there and in the slopes that JAX takes; what is not known is NaN.
 """
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.arrays.jax_values import namespace
+from optipath.values.arrays.jax_values import known, namespace
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -86,65 +86,132 @@ def direction(y: Any, x: Any) -> Any:
     return xp.where(angle <= -np.pi, -angle, angle)
 
 
-def degree(stokes: Array) -> Array:
-    """Return the degree of polarisation, the length of (S1, S2, S3) over S0."""
-    return _array(length(stokes[..., 1], stokes[..., 2], stokes[..., 3]))
+class PolarizationState:
+    """What can be read off a Stokes vector, whatever its frame is."""
 
+    mantissa: Array
 
-def linear_degree(stokes: Array) -> Array:
-    """Return the degree of linear polarisation, hypot(S1, S2) over S0."""
-    return _array(length(stokes[..., 1], stokes[..., 2]))
+    @property
+    def _numbers(self) -> Array:
+        """The mantissa, for NumPy unless JAX traces it."""
+        return known(self.mantissa)  # type: ignore[no-any-return]
 
+    @property
+    def normalized(self) -> Array:
+        """The Stokes vector over S0, of shape (..., 4), however faint; 0 where it is dark."""
+        stokes = self._numbers
+        return ratio(stokes, stokes[..., :1])  # type: ignore[no-any-return]
 
-def major_axis(stokes: Array) -> Array:
-    """Return the angle of the ellipse's major axis from x towards y, in (-pi/2, pi/2]."""
-    return _array(0.5 * direction(stokes[..., 2], stokes[..., 1]))
+    @property
+    def _polarised(self) -> tuple[Array, Array, Array]:
+        """S1, S2 and S3 over S0."""
+        stokes = self.normalized
+        return stokes[..., 1], stokes[..., 2], stokes[..., 3]
 
+    @property
+    def dop(self) -> Array:
+        """The degree of polarisation, of shape (...), however faint; 0 where it is dark."""
+        return _array(length(*self._polarised))
 
-def ellipticity(stokes: Array) -> Array:
-    """Return the signed ratio of the ellipse's axes, with all the digits that S3 has.
+    @property
+    def dolp(self) -> Array:
+        """The degree of linear polarisation, hypot(S1, S2) / S0, of shape (...)."""
+        return _array(length(*self._polarised[:2]))
 
-    tan(asin(S3 / p) / 2) is S3 / (p + hypot(S1, S2)), p the length of (S1, S2, S3).
+    @property
+    def docp(self) -> Array:
+        """The signed degree of circular polarisation, S3 / S0, of shape (...)."""
+        return _array(self.normalized[..., 3])
 
-    Examples
-    --------
-    >>> print(ellipticity(np.array([1.0, 0.6, 0.0, 0.8])))
-    0.5
-    """
-    xp, (_, s1, s2, s3) = namespace(stokes), _components(stokes)
-    linear = length(s1, s2)
-    # What is not physical may be infinite, and then is NaN here.
-    with np.errstate(over="ignore", invalid="ignore"):
-        axes = length(linear, s3) + linear
-        return _array(s3 / xp.where(axes == 0.0, 1.0, axes))
+    @property
+    def aop(self) -> Array:
+        """The angle of polarisation, of shape (...): of the major axis, from x towards y.
 
+        In radians, in (-pi/2, pi/2]; 0 where S1 and S2 are both 0, as in circular light.
 
-def ellipticity_angle(stokes: Array) -> Array:
-    """Return the arctangent of the ellipticity, in [-pi/4, pi/4]."""
-    _, s1, s2, s3 = _components(stokes)
-    return _array(0.5 * direction(s3, length(s1, s2)))
+        Examples
+        --------
+        >>> from optipath import Light
+        >>> print(Light([1.0, 0.0, 1.0, 0.0]).aop.round(4))
+        0.7854
+        """
+        s1, s2, _ = self._polarised
+        return _array(0.5 * direction(s2, s1))
 
+    @property
+    def ellipticity(self) -> Array:
+        """The minor axis over the major axis, in [-1, 1], with the sign of S3; shape (...).
 
-def handedness(stokes: Array) -> Array:
-    """Return the sign of S3 as an integer, 0 also where S3 is not known."""
-    s3 = stokes[..., 3]
-    return _array((s3 > 0.0).astype(int) - (s3 < 0.0).astype(int))
+        Of the polarised part; 0 where the light is linear or unpolarised. It is
+        tan(asin(S3 / p) / 2) = S3 / (p + hypot(S1, S2)), p the length of (S1, S2, S3), with all
+        the digits that S3 has.
 
+        Examples
+        --------
+        >>> from optipath import Light
+        >>> print(Light([2.0, 0.6, 0.0, -0.8]).ellipticity)
+        -0.5
+        """
+        s1, s2, s3 = self._polarised
+        xp, linear = namespace(s1), length(s1, s2)
+        # What is not physical may be infinite, and then is NaN here.
+        with np.errstate(over="ignore", invalid="ignore"):
+            axes = length(linear, s3) + linear
+            return _array(s3 / xp.where(axes == 0.0, 1.0, axes))
 
-def amplitude_angle(stokes: Array) -> Array:
-    """Return psi of the polarised part, tan psi = abs(Ey) / abs(Ex), in [0, pi/2]."""
-    _, s1, s2, s3 = _components(stokes)
-    return _array(0.5 * direction(length(s2, s3), s1))
+    @property
+    def ellipticity_angle(self) -> Array:
+        """The arctangent of `ellipticity`, in [-pi/4, pi/4], of shape (...)."""
+        s1, s2, s3 = self._polarised
+        return _array(0.5 * direction(s3, length(s1, s2)))
 
+    @property
+    def handedness(self) -> Array:
+        """Integers of shape (...): 1 right-handed about the direction of travel, -1 left-handed.
 
-def phase_difference(stokes: Array) -> Array:
-    """Return Delta of the polarised part in ellipsometry's exp(+i w t), in (-pi, pi]."""
-    _, _, s2, s3 = _components(stokes)
-    return _array(direction(-s3, s2))
+        The sign of S3, be it but a rounding; 0 where S3 is 0 or not read. By IEEE and the IAU:
+        1 is a field that turns counter-clockwise to who looks at the source, which Hecht, and
+        Born & Wolf (sec. 1.4.2), call left-handed.
 
+        Examples
+        --------
+        A quarter-wave plate whose fast axis is x makes light of +45 degrees right-handed:
 
-def _components(stokes: Array) -> tuple[Array, Array, Array, Array]:
-    return stokes[..., 0], stokes[..., 1], stokes[..., 2], stokes[..., 3]
+        >>> from optipath import Light
+        >>> quarter = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]]
+        >>> print(Light(np.array(quarter) @ [1.0, 0.0, 1.0, 0.0]).handedness)
+        1
+        """
+        s3 = self.normalized[..., 3]
+        return _array((s3 > 0.0).astype(int) - (s3 < 0.0).astype(int))
+
+    @property
+    def psi(self) -> Array:
+        """The ellipsometric psi of the polarised part, of shape (...), in [0, pi/2].
+
+        tan psi = abs(Ey) / abs(Ex). Behind a sample that light of +45 degrees has met, with
+        x along s and y along p, psi and `delta` are those of the sample.
+
+        Examples
+        --------
+        >>> from optipath import Light
+        >>> mirror = [[1, 0.6, 0, 0], [0.6, 1, 0, 0], [0, 0, -0.8, 0], [0, 0, 0, -0.8]]
+        >>> stokes = np.array(mirror) @ [1.0, 0.0, 1.0, 0.0]
+        >>> print(np.tan(Light(stokes).psi).round(12), Light(stokes).delta.round(4))
+        0.5 3.1416
+        """
+        s1, s2, s3 = self._polarised
+        return _array(0.5 * direction(length(s2, s3), s1))
+
+    @property
+    def delta(self) -> Array:
+        """The ellipsometric Delta of the polarised part, of shape (...), in (-pi, pi].
+
+        The phase of Ey / Ex in the exp(+i w t) of ellipsometry, atan2(-S3, S2); that of the
+        field exp(-i w t) of this library has the opposite sign.
+        """
+        _, s2, s3 = self._polarised
+        return _array(direction(-s3, s2))
 
 
 def _array(value: Any) -> Array:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.elements import Element
+    from optipath.elements.element import Element
 
 
 def bind(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:

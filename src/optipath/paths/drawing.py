@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer import Wiring
-from optipath.elements.vertices import VerticesByAngles
+from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
-    from optipath.elements import Element
+    from optipath.elements.element import Element
     from optipath.paths.path_graph import PathGraph
 
 

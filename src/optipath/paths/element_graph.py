@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 import networkx as nx
 
 from optipath.composer import LOOPS, parameters_of, validate
-from optipath.elements import Element
+from optipath.elements.element import Element
 from optipath.errors import PathError, shown, unknown
 from optipath.light.frames import Frame
 from optipath.paths.port_names import check_port, element_at, find_port
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.read_only import read_only, same
-from optipath.values.domains import ANGLE, in_unit_of
+from optipath.values.domains.domain import in_unit_of
+from optipath.values.domains.quantities import ANGLE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

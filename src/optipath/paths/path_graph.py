@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 from optipath.composer import KEPT, Composer
-from optipath.elements import Detector
+from optipath.elements.terminal import Detector
 from optipath.errors import ParameterError, PathError, shown, unknown
 from optipath.paths.binding import bind
 from optipath.paths.element_graph import ElementGraph
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.light.light import Light
-    from optipath.light.mueller import Mueller
+    from optipath.light.mueller.matrix import Mueller
     from optipath.plan.light_paths import LightPath
     from optipath.plan.plan import Plan
 

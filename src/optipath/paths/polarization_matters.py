@@ -10,7 +10,8 @@ import numpy as np
 from optipath.composer import Composer
 from optipath.engines.program.program import Evaluation
 from optipath.errors import ParameterError, listed, shown
-from optipath.kernels import DEPOLARIZING_BLOCK, Kernel
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.structures import DEPOLARIZING_BLOCK
 from optipath.values.arrays.read_only import same_fields
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from optipath.composer.composer import Path
     from optipath.engines.program.program import Program
-    from optipath.kernels import Primitives
+    from optipath.kernels.numbers.primitives import Primitives
     from optipath.plan.certificate import Certificate
     from optipath.plan.plan import Plan
 

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.elements import Element
+    from optipath.elements.element import Element
 
 
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
@@ -35,7 +35,7 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
 
     Examples
     --------
-    >>> from optipath.elements import BeamSplitter
+    >>> from optipath.elements.beam_splitter import BeamSplitter
     >>> try:
     ...     check_port(BeamSplitter(), "bs", "transmited", BeamSplitter.outputs)
     ... except PathError as error:

@@ -7,8 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements import Detector, Source, SpecularVertex
-from optipath.elements.vertices import VERTICES, VerticesByAngles, counted, normal_faults
+from optipath.elements.source import Source
+from optipath.elements.specular_vertex import SpecularVertex
+from optipath.elements.terminal import Detector
+from optipath.elements.vertices.by_angles import VerticesByAngles, counted
+from optipath.elements.vertices.normals import normal_faults
+from optipath.elements.vertices.vertex_domain import VERTICES
 from optipath.errors import PathError, ValueFault, shown
 from optipath.paths.path_graph import PathGraph
 from optipath.values.arrays.array_likes import as_given, entries_of

@@ -20,7 +20,7 @@ from optipath.plan.running.shared import runner_for
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.approximation import Approximation
     from optipath.plan.certificate import Certificate

@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ParameterError, ValueFault
-from optipath.kernels import NUMPY, Boosts, boosted, largest_error, ratio_bounds
+from optipath.kernels.carriers.bounds_carrier import Boosts, boosted, largest_error, ratio_bounds
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.underflow import underflows
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains import Domain
+from optipath.values.domains.domain import Domain
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.engines import LARGE, batches, most_operations
 from optipath.errors import ParameterError
-from optipath.kernels import StokesCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.plan.running.counts import operations
 from optipath.plan.running.formula_maker import LONGEST

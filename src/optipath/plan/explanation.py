@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels import FULL, ROTATION
+from optipath.kernels.carriers.structures import FULL, ROTATION
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

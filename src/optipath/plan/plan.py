@@ -10,7 +10,7 @@ from optipath.engines import LARGE
 from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frames import Frame
 from optipath.light.light import Light
-from optipath.light.mueller import Mueller
+from optipath.light.mueller.matrix import Mueller
 from optipath.plan.plan_texts import PlanTexts
 from optipath.values.whole_numbers import whole_number
 

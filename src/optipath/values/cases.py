@@ -8,7 +8,7 @@ from typing import Any
 
 from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import array_of
-from optipath.values.arrays.read_only import read_only, same
+from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.roundings import as_doubles
 
 
@@ -51,15 +51,7 @@ class Case:
         object.__setattr__(self, "values", values)
         object.__setattr__(self, "published", published)
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Case):
-            return NotImplemented
-        return (
-            self.values.keys() == other.values.keys()
-            and all(same(value, other.values[name]) for name, value in self.values.items())
-            and (self.published, self.note) == (other.published, other.note)
-        )
-
+    __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
 
 

@@ -19,7 +19,7 @@ from optipath.values.units import dimension_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from optipath.values.domains import Domain
+    from optipath.values.domains.domain import Domain
 
 _THERE = np.ones((), dtype=bool)
 

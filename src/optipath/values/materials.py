@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from optipath.values.arrays.read_only import read_only, same
+from optipath.values.arrays.read_only import read_only, same_fields
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,9 +32,5 @@ class Material:
         object.__setattr__(self, "n", read_only(self.n))
         object.__setattr__(self, "k", read_only(self.k))
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Material):
-            return NotImplemented
-        return same(self.n, other.n) and same(self.k, other.k)
-
+    __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels import NUMPY, cosine, sine
-from optipath.kernels.numbers.primitives import made
+from optipath.kernels.numbers.circular import cosine, sine
+from optipath.kernels.numbers.primitives import NUMPY, made
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same
 from optipath.values.parameters import Parameter, Resolved
@@ -19,7 +19,7 @@ from optipath.values.roundings import doubles
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
-    from optipath.kernels import Primitives
+    from optipath.kernels.numbers.primitives import Primitives
 
 
 _DOUBLE = np.dtype(np.float64)

@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.elements import Coupling, Operation
+from optipath.elements.coupling import Coupling, Operation
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic import SYMBOLIC
 from optipath.engines.program.execute import execute
 from optipath.engines.program.program import Evaluation, Program, Reading, Result, Step
-from optipath.kernels import FLOAT, NUMPY, REFLECTION, UNPOLARIZED, Kernel, StokesCarrier
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.catalogue import REFLECTION, UNPOLARIZED
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.values.operands import Operand
 
 CALLS = []

@@ -6,7 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels import FLOAT, NUMPY, add, carry, cosine, sine, stokes_of
+from optipath.kernels.carriers.carried import add, carry, stokes_of
+from optipath.kernels.numbers.circular import cosine, sine
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 
 COMPONENTS = st.tuples(st.floats(1e-3, 10), st.floats(-1, 1), st.floats(-5, 5), st.floats(-5, 5))
 

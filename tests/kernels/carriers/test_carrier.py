@@ -2,16 +2,14 @@ import inspect
 
 import pytest
 
-from optipath.kernels import (
-    FLOAT,
-    BoundsCarrier,
-    Carrier,
-    IntensityCarrier,
-    JonesCarrier,
-    MatrixCarrier,
-    ScaledCarrier,
-    StokesCarrier,
-)
+from optipath.kernels.carriers.bounds_carrier import BoundsCarrier
+from optipath.kernels.carriers.carrier import Carrier
+from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
+from optipath.kernels.carriers.jones_carrier import JonesCarrier
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.numbers.primitives import FLOAT
 
 ALL = [
     StokesCarrier,

@@ -2,7 +2,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.kernels import FLOAT, NUMPY, is_physical
+from optipath.kernels.carriers.coherency import is_physical
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from random_matrices import jones, of_jones
 
 ROUNDING = 20 * np.finfo(float).eps

@@ -5,17 +5,12 @@ from hypothesis import strategies as st
 
 import optipath as op
 from optipath.engines.program.execute import execute
-from optipath.kernels import (
-    BLOCK,
-    FLOAT,
-    NUMPY,
-    ROTATION,
-    SCALE,
-    JonesCarrier,
-    MatrixCarrier,
-    ScaledCarrier,
-    StokesCarrier,
-)
+from optipath.kernels.carriers.jones_carrier import JonesCarrier
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.carriers.structures import BLOCK, ROTATION, SCALE
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 
 SHARES = st.floats(-1.0, 1.0)
 ANGLES = st.floats(-4.0, 4.0)

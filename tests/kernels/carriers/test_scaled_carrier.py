@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from optipath.kernels import NUMPY, SCALE, ScaledCarrier
+from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
+from optipath.kernels.carriers.structures import SCALE
+from optipath.kernels.numbers.primitives import NUMPY
 
 
 class _Emptied:

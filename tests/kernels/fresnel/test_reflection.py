@@ -5,7 +5,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels import FLOAT, METHODS, NUMPY, REFLECTION, TRANSMISSION
+from optipath.kernels.catalogue import METHODS, REFLECTION, TRANSMISSION
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 
 INDICES = st.floats(0.1, 5.0)
 EXTINCTIONS = st.one_of(st.just(0.0), st.floats(1e-6, 8.0))

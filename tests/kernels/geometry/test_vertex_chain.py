@@ -3,15 +3,9 @@ import math
 import numpy as np
 import pytest
 
-from optipath.kernels import (
-    ARRIVING,
-    FLOAT,
-    INCIDENCE,
-    NUMPY,
-    REFLECTED,
-    TURN_BETWEEN_PLANES,
-    PointsByAngles,
-)
+from optipath.kernels.catalogue import ARRIVING, INCIDENCE, REFLECTED, TURN_BETWEEN_PLANES
+from optipath.kernels.geometry.points_by_angles import PointsByAngles
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 
 
 def at_angle(theta):

@@ -4,7 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optipath.kernels import FLOAT, NUMPY, DoubleDouble, twice
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.kernels.numbers.twice import twice
 
 NUMBERS = st.floats(1e-20, 1e20)
 PAIRS = st.tuples(NUMBERS, st.floats(-0.4, 0.4)).map(lambda p: (p[0], p[1] * 2.0**-53 * p[0]))

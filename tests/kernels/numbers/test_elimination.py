@@ -2,7 +2,10 @@ import numpy as np
 import pytest
 from mpmath import mp
 
-from optipath.kernels import FLOAT, DoubleDouble, Elimination, twice
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.elimination import Elimination
+from optipath.kernels.numbers.primitives import FLOAT
+from optipath.kernels.numbers.twice import twice
 
 
 def system(rng, size, leak):

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from optipath.kernels import FLOAT, NUMPY
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.kernels.numbers.trigonometry import (
     DIGITS,
     any_quadrant,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.kernels import REFLECTION
+from optipath.kernels.catalogue import REFLECTION
 from optipath.lab.accuracy.chart import Effort, interface_chart, path_chart
 from optipath.lab.accuracy.chart_drawing import check_form, draw
 from optipath.lab.accuracy.chart_file import chart_text, read_chart

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.elements import Coupling
+from optipath.elements.coupling import Coupling
 from optipath.lab.accuracy.element_reference import Reader, mueller
 from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
 from optipath.lab.accuracy.reference import reflection, transmission

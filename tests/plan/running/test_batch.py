@@ -3,7 +3,7 @@ import pytest
 
 import optipath as op
 from optipath.engines.formulas import Symbol, lights_formula, stages
-from optipath.kernels import StokesCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.running.batch import Layout, sliced
 from optipath.values.operands import MANY, InputKey
 

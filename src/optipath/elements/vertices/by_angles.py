@@ -8,18 +8,21 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import PathError
-from optipath.kernels import NUMPY, PointsByAngles, cosine, sine
+from optipath.kernels.geometry.points_by_angles import PointsByAngles
+from optipath.kernels.numbers.circular import cosine, sine
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import read_only, same
+from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains import ANGLE, INCIDENCE, in_unit_of
+from optipath.values.domains.domain import in_unit_of
+from optipath.values.domains.quantities import ANGLE, INCIDENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     import numpy.typing as npt
 
-    from optipath.values.domains import Domain
+    from optipath.values.domains.domain import Domain
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,14 +78,7 @@ class VerticesByAngles:
             for place, angle in enumerate(getattr(self, field)):
                 yield f"{name}.{field}[{place}]", angle, domain
 
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, VerticesByAngles):
-            return NotImplemented
-        mine, theirs = list(self.parts("")), list(other.parts(""))
-        return len(mine) == len(theirs) and all(
-            same(one, another) for (_, one, _), (_, another, _) in zip(mine, theirs, strict=True)
-        )
-
+    __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
 
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.elements.coupling import Operation
 from optipath.elements.vertices.by_angles import VerticesByAngles
-from optipath.kernels import Kernel, PointsByAngles
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:

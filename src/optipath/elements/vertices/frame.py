@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import FrameError
-from optipath.kernels import ARRIVING, NUMPY, REFLECTED
+from optipath.kernels.catalogue import ARRIVING, REFLECTED
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.frames import Frame
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.memory import enough_for

@@ -10,11 +10,12 @@ import numpy as np
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.naming import of_chain, pieces_of
 from optipath.errors import ValueFault
-from optipath.kernels import LONGEST, SHORTEST
+from optipath.kernels.geometry.vertex_chain import LONGEST, SHORTEST
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.read_only import read_only
-from optipath.values.domains import Domain, Quantity
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.quantities import Quantity
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -12,14 +12,11 @@ from optipath.engines.formulas.formula import Formula
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic_inputs import Limits, SymbolicInputs
 from optipath.engines.program.execute import execute, itself, whole_matrices
-from optipath.kernels import (
-    BoundsCarrier,
-    IntensityCarrier,
-    MatrixCarrier,
-    StokesCarrier,
-    is_physical,
-    largest_error,
-)
+from optipath.kernels.carriers.bounds_carrier import BoundsCarrier, largest_error
+from optipath.kernels.carriers.coherency import is_physical
+from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.light.underflow import UNDERFLOW
 
 if TYPE_CHECKING:
@@ -27,7 +24,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
-    from optipath.kernels import Carrier
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.values.operands import InputKey
 
 

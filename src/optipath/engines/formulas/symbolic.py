@@ -10,8 +10,7 @@ import numpy as np
 
 from optipath.engines.formulas.operations import OPERATIONS
 from optipath.engines.formulas.symbol import Symbol
-from optipath.kernels import Primitives
-from optipath.kernels.numbers.primitives import is_below_rounding
+from optipath.kernels.numbers.primitives import Primitives, is_below_rounding
 from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 
 

@@ -10,7 +10,7 @@ from optipath.engines.formulas.left import FROM_ANY, FROM_NEARER
 from optipath.engines.formulas.recorder import ONE_AXIS
 from optipath.engines.formulas.symbol import Symbol
 from optipath.engines.formulas.symbolic import SYMBOLIC, with_polynomials
-from optipath.kernels import without_rounding
+from optipath.kernels.numbers.circular import without_rounding
 from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant, first_quadrant
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO
 from optipath.values.precision import wide
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.formulas.recorder import Recorder
     from optipath.engines.program.program import Program
-    from optipath.kernels import Primitives
+    from optipath.kernels.numbers.primitives import Primitives
     from optipath.values.operands import InputKey, Operand
 
 Limits = tuple[float, float]

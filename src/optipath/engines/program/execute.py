@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from optipath.engines.program.program import Loop, Program
-    from optipath.kernels import Carrier, Components
+    from optipath.kernels.carriers.carried import Components
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.kernels.carriers.structures import Numbers
 
 

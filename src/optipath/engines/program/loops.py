@@ -12,23 +12,20 @@ from math import inf
 from operator import and_
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels import (
-    SCALE,
-    Elimination,
-    StokesCarrier,
-    energy,
-    is_zero,
-    not_above_rounding,
-    parts_of,
-    unit_light,
-)
+from optipath.kernels.carriers.parted import energy, parts_of, unit_light
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.carriers.structures import SCALE
+from optipath.kernels.numbers.elimination import Elimination, is_zero
+from optipath.kernels.numbers.vanishing import not_above_rounding
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from optipath.engines.program.program import Loop, Program
-    from optipath.kernels import Carried, Parts, Primitives
+    from optipath.kernels.carriers.carried import Carried
+    from optipath.kernels.carriers.parted import Parts
     from optipath.kernels.carriers.structures import Numbers
+    from optipath.kernels.numbers.primitives import Primitives
 
 
 LITTLE = 1e-2

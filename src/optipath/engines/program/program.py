@@ -12,13 +12,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 from optipath.elements.coupling import Operation, ResultOf
-from optipath.kernels import FULL
+from optipath.kernels.carriers.structures import FULL
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.elements.vertices import VertexFrame
-    from optipath.kernels import Kernel
+    from optipath.elements.vertices.frame import VertexFrame
+    from optipath.kernels.carriers.kernel import Kernel
     from optipath.light.frames import Frame
     from optipath.values.operands import Operand
 

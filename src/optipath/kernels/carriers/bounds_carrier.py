@@ -59,7 +59,7 @@ def boosted(xp: Primitives, boosts: Boosts, t: Any) -> Boosts:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> boosted(FLOAT, Boosts(0.5), 0.25)
     Boosts(most=0.5, more=1.25, less=0.75)
     """
@@ -84,7 +84,7 @@ def ratio_bounds(xp: Primitives, boosts: Boosts) -> tuple[Any, Any]:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> ratio_bounds(FLOAT, Boosts(0.5, 1.5, 0.5))
     (0.75, 1.25)
     """
@@ -130,7 +130,7 @@ def largest_error(xp: Primitives, lower: Any, upper: Any, model: str) -> Any:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> largest_error(FLOAT, 0.5, 1.25, "scalar"), largest_error(FLOAT, 0.5, 1.25, "sp")
     (1.0, 1.5)
     """
@@ -178,7 +178,8 @@ class BoundsCarrier(Carrier):
 
     Examples
     --------
-    >>> from optipath.kernels import BLOCK, FLOAT
+    >>> from optipath.kernels.carriers.structures import BLOCK
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> carrier, half = BoundsCarrier(FLOAT, slack=0.0), (0.75, 0.25, 0.25, 0.0, 0.0)
     >>> light = carrier.act(BLOCK, half, carrier.emit((1.0, 0.0, 0.0, 0.0)))
     >>> carrier.read(carrier.act(BLOCK, half, light))

@@ -47,7 +47,7 @@ def carry(xp: Primitives, stokes: Components, count: int = 4) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> carry(FLOAT, (1.0, -0.5, 0.0, 0.0)), carry(FLOAT, (1.0, 0.0, 0.0, 0.0), 1)
     ((0.25, -0.5, 0.0, 0.0), (0.5,))
     """
@@ -89,7 +89,7 @@ def leaving(xp: Primitives, carried: Carried, count: int) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> leaving(FLOAT, (0.25, -0.5, 0.1, 0.0), 2), leaving(FLOAT, (0.25, -0.5), 1)
     ((0.25, -0.5), (0.5,))
     """
@@ -117,7 +117,7 @@ def at_most_polarised(xp: Primitives, carried: Carried) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> at_most_polarised(FLOAT, (0.0, 1.0, 1e-8, 0.0))
     (2.5000000000000003e-17, 1.0, 1e-08, 0.0)
     """
@@ -152,7 +152,7 @@ def stokes_of(xp: Primitives, carried: Carried) -> Components:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> stokes_of(FLOAT, (0.25, -0.5, 0.0, 0.0))
     (1.0, -0.5, 0.0, 0.0)
     """
@@ -198,7 +198,7 @@ def add(xp: Primitives, first: Carried, second: Carried) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> add(FLOAT, (0.0, 1.0, 0.0, 0.0), (0.0, -1.0, 0.0, 0.5))
     (1.0, 0.0, 0.0, 0.5)
     """

@@ -49,7 +49,7 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> mirror, turned_over = np.diag([1.0, 1.0, -1.0, -1.0]), np.diag([1.0, 1.0, 1.0, -1.0])
     >>> [bool(is_physical(FLOAT, m.ravel().tolist(), 1e-14)) for m in (mirror, turned_over)]
     [True, False]

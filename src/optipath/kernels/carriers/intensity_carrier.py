@@ -25,7 +25,8 @@ class IntensityCarrier(Carrier):
 
     Examples
     --------
-    >>> from optipath.kernels import BLOCK, FLOAT
+    >>> from optipath.kernels.carriers.structures import BLOCK
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> carrier = IntensityCarrier(FLOAT)
     >>> light = carrier.emit((1.0, 0.0, 0.0, 0.0), 1)
     >>> carrier.read(carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), light, 1), 1)

@@ -34,7 +34,8 @@ class JonesCarrier(Carrier):
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT, SCALE
+    >>> from optipath.kernels.carriers.structures import SCALE
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> carrier = JonesCarrier(FLOAT)
     >>> light = carrier.act(SCALE, (0.25,), carrier.emit((1.0, 0.0, 0.0, 1.0)))
     >>> stokes, exponent = carrier.read(light)

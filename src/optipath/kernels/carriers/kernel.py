@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ComposerError, unknown
-from optipath.kernels.numbers.primitives import Primitives, made
+from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives, made
 
 if TYPE_CHECKING:
-    from optipath.kernels.carriers.structures import Structure
+    from collections.abc import Callable, Mapping, Sequence
 
-Factory: TypeAlias = Callable[[Primitives], Callable[..., tuple[Any, ...]]]
+    from optipath.kernels.carriers.structures import Structure
 
 
 @dataclass(frozen=True)
@@ -50,9 +49,9 @@ class Kernel:
         # Asked for once a step; what else belongs to a name is compared where names are equal.
         return hash(self.name)
 
-    def made_for(self, primitives: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def made_for(self, primitives: Primitives) -> KernelFunction:
         """Return the function in terms of these primitives, made once and kept."""
-        function: Callable[..., tuple[Any, ...]] = made(self.factory, primitives)
+        function: KernelFunction = made(self.factory, primitives)
         return function
 
     def specialised(

@@ -20,7 +20,8 @@ class MatrixCarrier(Carrier):
 
     Examples
     --------
-    >>> from optipath.kernels import BLOCK, FLOAT
+    >>> from optipath.kernels.carriers.structures import BLOCK
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> carrier = MatrixCarrier(FLOAT)
     >>> carrier.act(BLOCK, (0.5, 0.25, 0.125, 0.0, 0.0), carrier.emit((0.0, 1.0, 0.0, 0.0)))
     (0.125, 0.375, 0.0, 0.0)

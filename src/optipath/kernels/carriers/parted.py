@@ -77,7 +77,7 @@ def parts_of(xp: Primitives, carried: Carried, count: int) -> Parts:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> parts_of(FLOAT, (0.25, -0.5, 0.1, 0.0), 3), parts_of(FLOAT, (0.25, -0.5), 1)
     ((0.25, 0.75, 0.1), (1.0,))
     """
@@ -103,7 +103,7 @@ def light_of(xp: Primitives, parts: Parts) -> Carried:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> light_of(FLOAT, (0.25, 0.75, 0.1))
     (0.25, -0.5, 0.1)
     """

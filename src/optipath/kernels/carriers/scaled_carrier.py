@@ -40,7 +40,8 @@ class ScaledCarrier(Carrier):
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT, SCALE
+    >>> from optipath.kernels.carriers.structures import SCALE
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> carrier = ScaledCarrier(FLOAT)
     >>> state = carrier.emit((1.0, 0.0, 0.0, 0.0))
     >>> for _ in range(4):

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.carriers.kernel import Factory
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives
 
 
 @dataclass(frozen=True)
@@ -28,6 +25,6 @@ class Sloped:
     values: Factory
     slopes: Factory
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function in terms of these primitives."""
         return (self.slopes if xp.within else self.values)(xp)

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
-def unpolarized(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def unpolarized(xp: Primitives) -> KernelFunction:
     """Make ``(intensity,) -> (I, 0, 0, 0)``."""
     del xp
     return lambda intensity: (intensity, 0.0, 0.0, 0.0)
 
 
-def polarized(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def polarized(xp: Primitives) -> KernelFunction:
     """Make ``(I, s0, s1, s2, s3) -> (I s0, I s1, I s2, I s3)``."""
     del xp
     return lambda intensity, *state: tuple(intensity * component for component in state)

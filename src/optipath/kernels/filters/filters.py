@@ -7,12 +7,10 @@ from typing import TYPE_CHECKING, Any
 from optipath.kernels.numbers.circular import cosine, sine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
-def polarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def polarizer(xp: Primitives) -> KernelFunction:
     """Make ``(k1, k2) -> (Fs, Fp, B, C, S)`` from the principal transmittances.
 
     Chipman, Lam & Young, Polarized Light and Optical Systems (2018).
@@ -25,7 +23,7 @@ def polarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return polarize
 
 
-def retarder(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def retarder(xp: Primitives) -> KernelFunction:
     """Make ``(retardance,) -> (Fs, Fp, B, C, S)``, the fast axis along x.
 
     The slow component gains the phase exp(+i retardance), the field being exp(-i w t).
@@ -38,19 +36,19 @@ def retarder(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return retard
 
 
-def attenuator(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def attenuator(xp: Primitives) -> KernelFunction:
     """Make ``(transmittance,) -> (t,)``."""
     del xp
     return lambda transmittance: (transmittance,)
 
 
-def complement(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def complement(xp: Primitives) -> KernelFunction:
     """Make ``(reflectance,) -> (1 - reflectance,)``: what a lossless splitter lets through."""
     del xp
     return lambda reflectance: (1.0 - reflectance,)
 
 
-def depolarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def depolarizer(xp: Primitives) -> KernelFunction:
     """Make ``(depolarization,) ->`` the sixteen numbers of diag(1, p, p, p), p = 1 - d."""
     del xp
 
@@ -62,13 +60,13 @@ def depolarizer(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return depolarize
 
 
-def mirror(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def mirror(xp: Primitives) -> KernelFunction:
     """Make ``(reflectance,) -> (Fs, Fp, B, C, S)`` of an ideal mirror, r_p = -r_s."""
     del xp
     return lambda reflectance: (reflectance, reflectance, 0.0, -reflectance, 0.0)
 
 
-def given(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def given(xp: Primitives) -> KernelFunction:
     """Make the function that returns the numbers it is given."""
     del xp
     return lambda *numbers: numbers

@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING, Any
 from optipath.kernels.numbers.circular import cosine, sine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
-def turn(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def turn(xp: Primitives) -> KernelFunction:
     """Make ``(angle, ...) -> (cos 2a, sin 2a)``, for one angle or several turns in a row."""
     sin, cos = sine(xp), cosine(xp)
 
@@ -25,7 +23,7 @@ def turn(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return turned
 
 
-def turn_back(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def turn_back(xp: Primitives) -> KernelFunction:
     """Make ``(angle,) -> (cos 2a, -sin 2a)``, the turn undone."""
     turned = turn(xp)
 
@@ -36,7 +34,7 @@ def turn_back(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return turned_back
 
 
-def align(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def align(xp: Primitives) -> KernelFunction:
     """Make ``(d, e) -> (cos 2a, sin 2a)`` for d = x . x' and e = z . (x cross x').
 
     No angle is formed: (d - e)(d + e) and 2 d e over d^2 + e^2.

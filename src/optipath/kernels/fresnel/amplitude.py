@@ -9,13 +9,13 @@ from optipath.kernels.fresnel.boundary import complex_root
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 Complex: TypeAlias = tuple[Any, Any]
 """Real and imaginary part: every engine has real numbers, not every one complex ones."""
 
 
-def amplitude_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def amplitude_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
 
     With the relative index m and g = sqrt(m^2 - sin^2): r_s = (cos - g) / (cos + g) and
@@ -36,7 +36,7 @@ def amplitude_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return reflect
 
 
-def given_amplitudes(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def given_amplitudes(xp: Primitives) -> KernelFunction:
     """Make ``(Re rs, Im rs, Re rp, Im rp) -> (Fs, Fp, B, C, S)``.
 
     B = Re((rs - rp) conj(rs + rp)) / 2, which keeps the digits of what is given where the
@@ -52,7 +52,7 @@ def given_amplitudes(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return reflect
 
 
-def amplitude_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def amplitude_transmission(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
 
     t_s = 2 cos / (cos + g), t_p = 2 m cos / (m^2 cos + g), T_s = |t_s|^2 Re g / cos,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
 class Boundary(NamedTuple):
@@ -46,12 +46,12 @@ class Boundary(NamedTuple):
     k: Any
 
 
-def brought_near_one(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def brought_near_one(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, ...) ->`` the same, divided by a power of two near the largest.
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> brought_near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
     """
@@ -100,7 +100,7 @@ def hypotenuse(xp: Primitives) -> Callable[[Any, Any], Any]:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> hypotenuse(FLOAT)(3e-140, 4e-140), hypotenuse(FLOAT)(1e-240, 0.0)
     (5e-140, 1e-240)
     """
@@ -125,7 +125,7 @@ def complex_root(xp: Primitives) -> Callable[[Any, Any, Any], tuple[Any, Any, An
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> complex_root(FLOAT)(-3.0, 2.0, 1.0)[:2]
     (1.0, 2.0)
     """
@@ -159,7 +159,7 @@ def absorbing_boundary(xp: Primitives) -> Callable[..., Boundary]:
     return boundary
 
 
-def absorbing_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def absorbing_wave(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, k, [n0,] cos, sin) -> (n1, n, k, cos, sin, p, n^2 - n1^2, Re g^2)``.
 
     The indices come out divided; the angle is that in the medium n1.
@@ -211,7 +211,7 @@ def denser_boundary(xp: Primitives) -> Callable[..., Boundary]:
     return boundary
 
 
-def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def _lossless_wave(xp: Primitives) -> KernelFunction:
     divided, wave = brought_near_one(xp), _wave(xp)
 
     def lossless(n1: Any, n: Any, *angle: Any) -> tuple[Any, ...]:
@@ -222,7 +222,7 @@ def _lossless_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return lossless
 
 
-def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def _wave(xp: Primitives) -> KernelFunction:
     where, behind, inside = xp.where, refracted_wave(xp), from_within(xp)
 
     def wave(n1: Any, n: Any, k: Any, *angle: Any) -> tuple[Any, ...]:
@@ -241,7 +241,7 @@ def _wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return wave
 
 
-def refracted_wave(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def refracted_wave(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, n0, cos0, sin0) -> (cos, sin, p, n^2 - (n0 sin0)^2)`` for the angle in n1.
 
     Parallel boundaries have refracted the light from n0 into n1; n0 sin0 is what Snell's law

@@ -1,33 +1,31 @@
-"""Fresnel's equations as `stable` has them, in twice the precision, rounded once at the end."""
+"""Kernels of an angle in twice the precision, rounded once at the end."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.fresnel.stable import (
-    lossless_reflection,
-    lossless_transmission,
-    stable_reflection,
-    stable_transmission,
-)
 from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.twice import twice
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.carriers.kernel import Factory
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives
 
 
 @dataclass(frozen=True)
-class _Compensated:
-    """Makes a kernel in twice the precision; a class, so that plans can be pickled."""
+class Compensated:
+    """Makes a kernel in twice the precision; a class, so that plans can be pickled.
+
+    Attributes
+    ----------
+    factory : callable
+        Makes the kernel.
+    """
 
     factory: Factory
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Make the kernel, which rounds what it returns once."""
         kernel, sqrt = self.factory(twice(xp)), DoubleDouble.sqrt
 
         def rounded_once(*given: Any) -> tuple[Any, ...]:
@@ -39,9 +37,3 @@ class _Compensated:
             return tuple(n.high if isinstance(n, DoubleDouble) else n for n in numbers)
 
         return rounded_once
-
-
-compensated_reflection = _Compensated(stable_reflection)
-compensated_transmission = _Compensated(stable_transmission)
-compensated_lossless_reflection = _Compensated(lossless_reflection)
-compensated_lossless_transmission = _Compensated(lossless_transmission)

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 from optipath.kernels.numbers.elimination import Elimination, is_zero
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from optipath.kernels.carriers.kernel import Kernel
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 Rows: TypeAlias = tuple[tuple[Any, ...], ...]
 """What becomes of some parts of light: rows of a small matrix."""
@@ -59,7 +59,7 @@ class Stack:
     through: bool
     from_behind: bool
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the kernel in terms of these primitives."""
 
         def stacked(*given: Any) -> tuple[Any, ...]:

@@ -17,12 +17,10 @@ from optipath.kernels.fresnel.boundary import (
 from optipath.kernels.fresnel.stable import front, slant
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
-def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def reflected_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, k, [n0,] cos, sin) -> (Fs d, Fp d, d)``.
 
     With Fs = |D|^2 / |p + g|^4 and Fp / Fs = |z - p g|^2 / |z + p g|^2, as in
@@ -52,13 +50,13 @@ def reflected_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return powers
 
 
-def lossless_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def lossless_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: the same, cheaper, for k = 0."""
     boundary = lossless_boundary(xp)
     return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))
 
 
-def denser_powers(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def denser_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: cheaper again, for n >= n1."""
     boundary = denser_boundary(xp)
     return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))

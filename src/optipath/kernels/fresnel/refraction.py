@@ -8,13 +8,10 @@ from typing import TYPE_CHECKING, Any
 from optipath.kernels.fresnel.boundary import absorbing_boundary, hypotenuse, refracted_wave
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.carriers.kernel import Factory
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives
 
 
-def refraction(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def refraction(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, k, cos, sin) -> (cos, sin)`` of the real angle of refraction.
 
     That is the angle at which planes of constant phase travel on: its tangent is n1 sin over
@@ -46,7 +43,7 @@ class Refracting:
 
     factory: Factory
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Make ``(n1, n, k, [n0,] cos, sin)``."""
         kernel, refracted = self.factory(xp), refracted_wave(xp)
 

@@ -15,14 +15,14 @@ from optipath.kernels.fresnel.boundary import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
 _LOST, _LEAST = 2.0**-52, 2.0**-970
 """What the first takes to 0 has lost digits; what is below the second has too large an inverse."""
 
 
-def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def stable_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
 
     The angle is that in the medium n1, or in a medium n0 from which parallel boundaries have
@@ -38,19 +38,19 @@ def stable_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return lambda n1, n, k, *angle: reflected(boundary(n1, n, k, *angle))
 
 
-def lossless_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def lossless_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: cheaper, for k = 0."""
     boundary, reflected = lossless_boundary(xp), _reflected(xp)
     return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
 
 
-def denser_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def denser_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``: the same for n >= n1."""
     boundary, reflected = denser_boundary(xp), _reflected(xp)
     return lambda n1, n, *angle: reflected(boundary(n1, n, *angle))
 
 
-def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def stable_transmission(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` of the power let through.
 
     Ts = 4 p a / |p + g|^2, Tp = Ts n1^2 (|g|^2 + z) / |z + p g|^2, and t_s / t_p =
@@ -78,7 +78,7 @@ def stable_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return transmit
 
 
-def lossless_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def lossless_transmission(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``: cheaper, for k = 0."""
     boundary, transmitted = lossless_boundary(xp), _transmitted(xp)
     where = xp.where

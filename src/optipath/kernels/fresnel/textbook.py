@@ -5,12 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
-def textbook_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def textbook_reflection(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Fs, Fp, B, C, S)``.
 
     The formulas as Wilkie & Weidlich, "Polarised light in computer graphics"
@@ -32,7 +30,7 @@ def textbook_reflection(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return reflect
 
 
-def textbook_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def textbook_transmission(xp: Primitives) -> KernelFunction:
     """Make the kernel ``(n1, n, k, cos, sin) -> (Ts, Tp, B, C, S)``: what is not reflected.
 
     T = 1 - F, and C + iS = sqrt(Ts Tp) with the phase of t_s / t_p, which is 0 unless
@@ -50,7 +48,7 @@ def textbook_transmission(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
     return transmit
 
 
-def _printed(xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+def _printed(xp: Primitives) -> KernelFunction:
     sqrt, maximum, absolute = xp.sqrt, xp.maximum, xp.absolute
 
     def printed(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from optipath.kernels.geometry.vertex_chain import Leg
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 _PARALLEL = 2.0**-50
 """The sine of twice an incidence below which it is the rounding of the points."""
@@ -38,7 +38,7 @@ class OfPlanes:
 
     known: bool = False
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         raise NotImplementedError
 
@@ -61,13 +61,13 @@ class TurnBetweenPlanes(OfPlanes):
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> up_sideways_on = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0)
     >>> TurnBetweenPlanes()(FLOAT)(*up_sideways_on)
     (-1.0, 0.0)
     """
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, Any]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         met, aligned = self.met(xp), align(xp)
 
@@ -92,7 +92,7 @@ class AxesAtVertex(OfPlanes):
 
     leaves: bool = False
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         met, sqrt = self.met(xp), xp.sqrt
 

@@ -8,9 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optipath.kernels.geometry.vectors import Vector, minus, plus, times
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
 @dataclass(frozen=True)
@@ -32,7 +30,7 @@ class PointsByAngles:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> PointsByAngles(1, 0, 2)(FLOAT)(0.0, 1.0)
     (0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 2.0)
     """
@@ -48,7 +46,7 @@ class PointsByAngles:
         points = self.last - self.first + 1
         return 3 * (points + (points - 2) * self.axes)
 
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
+    def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of cosines and sines."""
         del xp
         count, middle = self.reflections, self.reflections // 2

@@ -49,7 +49,7 @@ def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> incidence(FLOAT)(0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
     (0.7071067811865476, 0.7071067811865476)
     """

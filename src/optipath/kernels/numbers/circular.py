@@ -23,7 +23,7 @@ def cosine(xp: Primitives) -> Callable[[Any], Any]:
     Examples
     --------
     >>> import math
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> cosine(FLOAT)(math.pi / 2), cosine(FLOAT)(math.pi)
     (0.0, -1.0)
     """
@@ -36,7 +36,7 @@ def sine(xp: Primitives) -> Callable[[Any], Any]:
     Examples
     --------
     >>> import math
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> sine(FLOAT)(math.pi), sine(FLOAT)(1e-300)
     (0.0, 1e-300)
     """

@@ -37,7 +37,7 @@ class DoubleDouble:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> third = 1.0 / DoubleDouble(FLOAT, 3.0)
     >>> abs((third + third + third - 1.0).high) < 1e-31
     True

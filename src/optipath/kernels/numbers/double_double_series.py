@@ -50,7 +50,7 @@ def sine(angle: DoubleDouble) -> DoubleDouble:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> float((sine(DoubleDouble(FLOAT, 0.5)) - 0.479425538604203).high)
     -5.103969860556012e-18
     """
@@ -84,7 +84,7 @@ def exponential(number: DoubleDouble) -> DoubleDouble:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> float((exponential(DoubleDouble(FLOAT, 1.0)) - 2.718281828459045).high)
     1.4456468917292502e-16
     """

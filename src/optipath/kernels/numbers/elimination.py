@@ -55,7 +55,7 @@ class Elimination:
     --------
     Of x, 1/4 comes back as y and 3/4 leaves; of y, 1/2 comes back as x, and 1/2 leaves.
 
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> found = Elimination(FLOAT, [{1: 0.25}, {0: 0.5}], [0.75, 0.5], [True, True])
     >>> found.pivots, found.solved([1.0, 0.0])
     ([1.0, 0.875], [1.1428571428571428, 0.2857142857142857])

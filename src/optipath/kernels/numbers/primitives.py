@@ -7,14 +7,12 @@ of the physics serves plain floats, NumPy blocks, and engines to come.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 T = TypeVar("T")
 
@@ -68,6 +66,13 @@ class Primitives:
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
     apart: Callable[[Any], Any] = lambda function: function
     within: float = 0.0
+
+
+KernelFunction: TypeAlias = Callable[..., tuple[Any, ...]]
+"""What a kernel is for some primitives: numbers in, numbers out."""
+
+Factory: TypeAlias = Callable[[Primitives], KernelFunction]
+"""What makes a kernel for any primitives."""
 
 
 @lru_cache(4096)

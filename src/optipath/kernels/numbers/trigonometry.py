@@ -104,7 +104,7 @@ def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
     Examples
     --------
     >>> import math
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> left = from_axes(FLOAT, DIGITS["float64"])
     >>> left(math.pi + 0.25), left(math.pi), left(math.nextafter(math.pi, 4.0))
     (0.2499999999999999, 0.0, 3.216245299353273e-16)
@@ -132,7 +132,7 @@ def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
     Examples
     --------
     >>> import math
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> left = from_nearer_axis(FLOAT, DIGITS["float64"])
     >>> left(0.5), left(math.nextafter(math.pi / 2, 0.0)), left(math.pi / 2)
     (0.5, 2.83276944882399e-16, 0.0)
@@ -166,7 +166,7 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> any_quadrant(FLOAT, DIGITS["float64"])(2.5)
     (0.5984721441039564, -0.8011436155469337)
     """
@@ -207,7 +207,7 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     Examples
     --------
     >>> import math
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> sine_cosine = first_quadrant(FLOAT, DIGITS["float64"])
     >>> sine_cosine(1.2), sine_cosine(math.pi / 2)
     ((0.9320390859672263, 0.3623577544766736), (1.0, 0.0))

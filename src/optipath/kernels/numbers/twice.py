@@ -16,7 +16,7 @@ def twice(xp: Primitives) -> Primitives:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> double = twice(FLOAT)
     >>> one = double.cos(DoubleDouble(FLOAT, 0.1)), double.sin(DoubleDouble(FLOAT, 0.1))
     >>> bool(abs((one[0] * one[0] + one[1] * one[1] - 1.0).high) < 1e-31)

@@ -48,7 +48,7 @@ def not_below_rounding(xp: Primitives, weak: Any, size: Any) -> Any:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> not_below_rounding(FLOAT, -1e-17, 0.5), not_below_rounding(FLOAT, -0.1, 0.5)
     (0.0, -0.1)
     """
@@ -74,7 +74,7 @@ def not_above_rounding(xp: Primitives, number: Any, size: Any) -> Any:
 
     Examples
     --------
-    >>> from optipath.kernels import FLOAT
+    >>> from optipath.kernels.numbers.primitives import FLOAT
     >>> not_above_rounding(FLOAT, -1e-16, 1.0), not_above_rounding(FLOAT, 1e-6, 1.0)
     (0.0, 1e-06)
     """

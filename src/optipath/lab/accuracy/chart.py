@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.composer import Composer
 from optipath.errors import ComposerError, ParameterError
-from optipath.kernels import REFLECTION
+from optipath.kernels.catalogue import REFLECTION
 from optipath.lab.accuracy.chart_file import FORMAT
 from optipath.lab.accuracy.contenders import WORDS, available_dtypes, contenders
 from optipath.lab.accuracy.error_measures import LIMIT, Errors

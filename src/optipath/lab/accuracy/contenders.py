@@ -7,7 +7,7 @@ from itertools import product
 from optipath.composer import CHOICES, Composer
 from optipath.engines import is_installed
 from optipath.errors import ComposerError
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 from optipath.values.precision import DTYPES, precision
 
 WORDS = ("method", "dtype", "engine", "composing")

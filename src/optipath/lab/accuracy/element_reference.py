@@ -7,26 +7,23 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements import (
-    Attenuator,
-    BeamSplitter,
-    Combiner,
-    Coupling,
-    Depolarizer,
-    Diattenuator,
-    Element,
-    Interface,
-    LayerStack,
-    Medium,
-    Mirror,
-    MuellerElement,
-    Polarizer,
-    Retarder,
-    Rotator,
-    SpecularVertex,
-)
+from optipath.elements.attenuator import Attenuator
+from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.combiner import Combiner
+from optipath.elements.coupling import Coupling
+from optipath.elements.depolarizer import Depolarizer
+from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.interface import Interface
+from optipath.elements.layer_stack import LayerStack
+from optipath.elements.medium import Medium
+from optipath.elements.mirror import Mirror
+from optipath.elements.mueller_element import MuellerElement
+from optipath.elements.polarizer import Polarizer
+from optipath.elements.retarder import Retarder
+from optipath.elements.rotator import Rotator
+from optipath.elements.specular_vertex import SpecularVertex
 from optipath.errors import PathError
-from optipath.kernels import INCIDENCE
+from optipath.kernels.catalogue import INCIDENCE
 from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, exact_angle, exactly, mpmath
 from optipath.values.materials import Material
@@ -35,6 +32,7 @@ from optipath.values.operands import Operand, operand_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.elements.element import Element
     from optipath.values.parameters import Resolved
 
 

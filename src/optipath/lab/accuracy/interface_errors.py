@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.kernels import BLOCK, NUMPY, REFLECTION, TRANSMISSION
+from optipath.kernels.carriers.structures import BLOCK
+from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.lab.accuracy import reference
 from optipath.lab.accuracy.error_measures import Errors, errors
 from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
@@ -15,7 +17,7 @@ from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.kernels import Kernel
+    from optipath.kernels.carriers.kernel import Kernel
     from optipath.lab.accuracy.regions import Region, Samples
 
 SAMPLES = 200

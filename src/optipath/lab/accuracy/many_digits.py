@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from optipath.errors import MissingExtraError
-from optipath.kernels import Primitives
+from optipath.kernels.numbers.primitives import Primitives
 
 try:
     import mpmath

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.path_values import Values
-from optipath.elements import Source
+from optipath.elements.source import Source
 from optipath.lab.accuracy.region_path import in_region
 from optipath.lab.accuracy.regions import REGIONS
 

@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
     from optipath.composer.travel import Port, Stretch
     from optipath.composer.wiring import Link
-    from optipath.elements import Coupling, Element
+    from optipath.elements.coupling import Coupling
+    from optipath.elements.element import Element
     from optipath.lab.accuracy.boundary_reference import Jones
     from optipath.light.frames import Frame
     from optipath.values.parameters import Resolved

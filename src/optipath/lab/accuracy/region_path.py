@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements import Interface
+from optipath.elements.interface import Interface
 
 if TYPE_CHECKING:
     import networkx as nx

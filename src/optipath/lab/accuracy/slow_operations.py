@@ -6,13 +6,13 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels import Primitives
+from optipath.kernels.numbers.primitives import Primitives
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.engines.program.program import Program
-    from optipath.kernels import Kernel
+    from optipath.kernels.carriers.kernel import Kernel
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optipath.errors import OptipathError
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 from optipath.lab.accuracy.error_measures import LIMIT
 from optipath.lab.accuracy.interface_errors import interface_errors
 from optipath.lab.accuracy.regions import REGIONS

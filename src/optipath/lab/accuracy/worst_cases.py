@@ -6,7 +6,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels import NUMPY, REFLECTION, DoubleDouble, twice
+from optipath.kernels.catalogue import REFLECTION
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.kernels.numbers.twice import twice
 from optipath.lab.accuracy.error_measures import errors, in_ulp
 from optipath.lab.accuracy.interface_errors import FAMILIES, REFERENCES, matrix_numbers
 from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
@@ -14,7 +17,7 @@ from optipath.lab.accuracy.many_digits import WORKING_DIGITS, exactly, mpmath
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.kernels import Kernel, KernelFamily
+    from optipath.kernels.carriers.kernel import Kernel, KernelFamily
     from optipath.lab.accuracy.regions import Region, Samples
 
     Floats = npt.NDArray[np.floating]

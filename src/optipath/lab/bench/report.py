@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer import Composer
 from optipath.engines import ENGINES, is_installed, missing
-from optipath.kernels import METHODS
+from optipath.kernels.catalogue import METHODS
 from optipath.lab.bench.random_values import random_values
 from optipath.lab.bench.timing import race
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault, shown
-from optipath.kernels import FROM_MUELLER, TO_MUELLER
+from optipath.kernels.carriers.coherency import FROM_MUELLER, TO_MUELLER
 from optipath.light.mueller.normalised import rounding_of, scaled, unscaled
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import check_known

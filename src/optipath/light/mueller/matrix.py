@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 
 from optipath.errors import FrameError
-from optipath.kernels import NUMPY, ROTATION
+from optipath.kernels.carriers.structures import ROTATION
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.light.mueller import cloude

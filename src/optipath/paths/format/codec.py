@@ -6,19 +6,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.vertices import VerticesByAngles, VerticesDomain
+from optipath.elements.vertices.by_angles import VerticesByAngles
+from optipath.elements.vertices.vertex_domain import VerticesDomain
 from optipath.errors import PresetError, UnitError, did_you_mean, shown
 from optipath.paths.format.faults import Faults
-from optipath.values.domains import (
-    AMPLITUDE,
-    ANGLE,
-    INDEX,
-    Choice,
-    Domain,
-    IndexDomain,
-    IndicesDomain,
-    OutsideDomain,
-)
+from optipath.values.domains.choice import Choice
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.indices import INDEX, IndexDomain, IndicesDomain, OutsideDomain
+from optipath.values.domains.quantities import AMPLITUDE, ANGLE
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
@@ -53,7 +48,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
 
     Examples
     --------
-    >>> from optipath.values.domains import REAL
+    >>> from optipath.values.domains.quantities import REAL
     >>> decode([1, 2.5], REAL, {})
     [1.0, 2.5]
     """

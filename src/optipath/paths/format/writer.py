@@ -14,7 +14,8 @@ from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.schema import FORMAT
-from optipath.values.domains import ANGLE, INDEX
+from optipath.values.domains.indices import INDEX
+from optipath.values.domains.quantities import ANGLE
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.elements import Element
+    from optipath.elements.element import Element
     from optipath.light.frames import Frame
     from optipath.values.cases import Case
 

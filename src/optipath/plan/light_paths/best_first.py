@@ -11,14 +11,16 @@ import numpy as np
 
 from optipath.engines.program.execute import evaluated
 from optipath.errors import ParameterError
-from optipath.kernels import NUMPY, StokesCarrier, energy
+from optipath.kernels.carriers.parted import energy
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.light import Light
 from optipath.plan.light_paths.light_path import LightPath
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
-    from optipath.kernels import Carried
+    from optipath.kernels.carriers.carried import Carried
     from optipath.plan.running.runner import Runner
 
 _FAINTEST = 1e-200

@@ -13,7 +13,11 @@ import numpy as np
 
 from optipath.engines.program.execute import evaluated
 from optipath.engines.program.loops import LoopSolver
-from optipath.kernels import NUMPY, ROTATION, DoubleDouble, StokesCarrier, twice
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.carriers.structures import ROTATION
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.kernels.numbers.twice import twice
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:

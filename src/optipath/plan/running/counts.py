@@ -13,7 +13,7 @@ from optipath.values.operands import MANY
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.kernels import Carrier
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.runner import Runner
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.engines.program.program import Program
-    from optipath.kernels import Carrier
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.options import RunOptions
     from optipath.values.inputs import Inputs
     from optipath.values.parameters import Resolved

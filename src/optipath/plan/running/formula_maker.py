@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.formulas import Formula
     from optipath.engines.program.program import Program
-    from optipath.kernels import Carrier
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.values.inputs import Inputs
     from optipath.values.operands import InputKey
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import LoopWarning, ParameterError
-from optipath.kernels import DoubleDouble
+from optipath.kernels.numbers.double_double import DoubleDouble
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

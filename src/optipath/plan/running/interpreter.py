@@ -11,15 +11,12 @@ import numpy as np
 
 from optipath.engines.formulas import slack_of
 from optipath.engines.program.execute import evaluated, execute, whole_matrices
-from optipath.kernels import (
-    FLOAT,
-    NUMPY,
-    BoundsCarrier,
-    JonesCarrier,
-    MatrixCarrier,
-    ScaledCarrier,
-    StokesCarrier,
-)
+from optipath.kernels.carriers.bounds_carrier import BoundsCarrier
+from optipath.kernels.carriers.jones_carrier import JonesCarrier
+from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
+from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
+from optipath.kernels.carriers.stokes_carrier import StokesCarrier
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 from optipath.light.underflow import UNDERFLOW, folded, underflows
 from optipath.plan.running.closer import CloserLook
 from optipath.plan.running.gains import check_gains
@@ -32,7 +29,8 @@ if TYPE_CHECKING:
 
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
-    from optipath.kernels import Carrier, Components
+    from optipath.kernels.carriers.carried import Components
+    from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.operands import InputKey, Operand
 

@@ -12,7 +12,7 @@ from optipath.plan.running.batch import sliced
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.elements.vertices import VertexFrame
+    from optipath.elements.vertices.frame import VertexFrame
     from optipath.light.frames import Frame
     from optipath.values.inputs import Inputs
 

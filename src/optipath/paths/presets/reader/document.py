@@ -13,7 +13,7 @@ from optipath.paths.port_names import find_port
 from optipath.paths.presets.reader.case_tables import read_case
 from optipath.paths.presets.reader.element_tables import read_element, read_frames
 from optipath.paths.presets.reader.parameter_tables import read_parameter
-from optipath.values.domains import ANGLE
+from optipath.values.domains.quantities import ANGLE
 from optipath.values.units import dimension_of, with_article
 
 if TYPE_CHECKING:

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements import Element, element_class
+from optipath.elements.registry import element_class
 from optipath.errors import shown
 from optipath.light.frames import Frame
 from optipath.paths.format import decode, schema
-from optipath.values.domains import Choice
+from optipath.values.domains.choice import Choice
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.elements.element import Element
     from optipath.paths.format.faults import Faults
 
 _STAND_IN = Parameter("unknown")
