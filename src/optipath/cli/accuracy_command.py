@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from optipath.cli.console import PlainConsole, cell, headed, say
 from optipath.cli.text_files import read_text, write
-
-if TYPE_CHECKING:
-    from optipath.lab.accuracy.tables import TextTable
 
 
 def _style(word: str) -> str:
@@ -22,7 +19,6 @@ SAMPLES = click.Option(
     ["--samples"],
     type=click.IntRange(1, 100_000),
     default=200,
-    show_default=True,
     help="How many boundaries and angles are drawn in each region.",
 )
 SEARCH = click.Option(
@@ -39,34 +35,26 @@ WRITE = click.Option(
 
 
 def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
-    from optipath.lab.accuracy.tables import (  # noqa: PLC0415 - an extra
-        SAMPLED,
-        SEARCHED,
-        put_tables,
-        searched_tables,
-        tables,
-    )
+    """Tell how far each method is from 50-digit references, region by region."""
+    from optipath.lab.accuracy import tables  # noqa: PLC0415 - an extra
 
-    def found() -> list[TextTable]:
-        return tables(samples) if generations is None else searched_tables(generations)
-
+    if generations is None:
+        measure, marks = partial(tables.tables, samples), tables.SAMPLED
+    else:
+        measure, marks = partial(tables.searched_tables, generations), tables.SEARCHED
     if file is not None:
-        text, marks = read_text(file), SAMPLED if generations is None else SEARCHED
-        put_tables(text, [], marks)  # A file without a place for them is told of at once.
-        write(file, put_tables(text, found(), marks).encode())
+        text = read_text(file)
+        # A file without a place for them is told of at once.
+        tables.put_tables(text, [], marks)
+        write(file, tables.put_tables(text, measure(), marks).encode())
         say(f"wrote {file}")
         return
     console = PlainConsole()
-    for table in found():
+    for table in measure():
         shown = headed(*table.header, title=table.title, box=None)
         for row in table.rows:
             shown.add_row(*(cell(word.strip("*"), _style(word)) for word in row))
         console.print(shown)
 
 
-accuracy = click.Command(
-    "accuracy",
-    callback=_accuracy,
-    params=[SAMPLES, SEARCH, WRITE],
-    help="Tell how far each method is from 50-digit references, region by region.",
-)
+accuracy = click.command("accuracy", params=[SAMPLES, SEARCH, WRITE])(_accuracy)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +26,6 @@ LARGEST = click.Option(
     ["--largest"],
     type=click.IntRange(1, 10**8),
     default=1_000_000,
-    show_default=True,
     help="The largest batch; batches grow by tens from 1.",
 )
 ENGINE = click.Option(
@@ -38,34 +38,21 @@ THREADS = click.Option(
     ["--threads"],
     type=click.IntRange(1, 256),
     default=1,
-    show_default=True,
     help="How many threads share a batch of more than 65,536 paths.",
 )
 
 
-def _bench(
-    chosen: Chosen,
-    *,
-    largest: int,
-    engines: tuple[str, ...],
-    threads: int,
-    as_json: bool,
-) -> None:
+def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
+    """Time a preset or a TOML file: one run, batches by every engine, and the methods."""
     from optipath.lab.bench import bench  # noqa: PLC0415 - not for every command
 
     def load() -> Any:
         return load_preset(chosen.preset, case=chosen.case, **chosen.values)
 
-    steps = 5 + len(engines or ENGINES) * (4 * len(str(largest)) + 4)
+    path = _opened(chosen)
+    steps = 5 + len(options["engines"] or ENGINES) * (4 * len(str(options["largest"])) + 4)
     with progress_bar(steps) as tell:
-        report = bench(
-            _opened(chosen),
-            load,
-            largest=largest,
-            engines=engines,
-            threads=threads,
-            progress=lambda what: tell(what, advance=1),
-        )
+        report = bench(path, load, progress=lambda what: tell(what, advance=1), **options)
     if as_json:
         click.echo(json.dumps({"preset": chosen.preset, **asdict(report)}))
         return
@@ -88,39 +75,31 @@ def _opened(chosen: Chosen) -> PathGraph:
 
 
 def _tables(report: Report) -> list[Table]:
-    software = ", ".join(f"{name} {number}" for name, number in report.software.items())
-    once = _table("done once", "", "ms")
+    once = _table("done once", ["ms"])
     for name, milliseconds in report.single.items():
         once.add_row(name, f"{milliseconds:.3g}")
-    once.caption, once.caption_justify = software, "left"
-    return [once, _batch_table(report), _method_table(report)]
-
-
-def _batch_table(report: Report) -> Table:
-    sizes = list(dict.fromkeys(row["paths"] for row in report.batches))
-    table = _table("ns a path, by the number of paths", "", *(f"{size:,}" for size in sizes))
-    rows: dict[str, list[str]] = {}
+    once.caption = ", ".join(f"{name} {number}" for name, number in report.software.items())
+    once.caption_justify = "left"
+    sizes = dict.fromkeys(row["paths"] for row in report.batches)
+    batches = _table("ns a path, by the number of paths", [f"{size:,}" for size in sizes])
+    times = defaultdict(list)
     for row in report.batches:
-        name = f"{row['engine']} {row['dtype']} {row['output']}"
-        rows.setdefault(name, []).append(_short(row["ns_least"]))
-    for name, cells in rows.items():
-        table.add_row(name, *cells)
-    return table
-
-
-def _method_table(report: Report) -> Table:
+        times[f"{row['engine']} {row['dtype']} {row['output']}"].append(_short(row["ns_least"]))
+    for name, cells in times.items():
+        batches.add_row(name, *cells)
     paths = report.methods[0]["paths"] if report.methods else 0
-    table = _table(f"methods, {paths:,} paths", "", "ns a path", "first call, s")
+    methods = _table(f"methods, {paths:,} paths", ["ns a path", "first call, s"])
     for row in report.methods:
         name = f"{row['engine']} {row['method']}"
-        table.add_row(name, _short(row["ns_least"]), f"{row['first_s']:.2g}")
-    return table
+        methods.add_row(name, _short(row["ns_least"]), f"{row['first_s']:.2g}")
+    return [once, batches, methods]
 
 
-def _table(title: str, *header: str) -> Table:
-    table = Table(title=title, title_justify="left", box=None, header_style="bold")
-    for place, name in enumerate(header):
-        table.add_column(name, justify="right" if place else "left", no_wrap=True)
+def _table(title: str, measured: list[str]) -> Table:
+    table = Table("", title=title, title_justify="left", box=None, header_style="bold")
+    table.columns[0].no_wrap = True
+    for name in measured:
+        table.add_column(name, justify="right", no_wrap=True)
     return table
 
 
@@ -128,9 +107,4 @@ def _short(number: float) -> str:
     return f"{number:,.0f}" if number >= 100.0 else f"{number:.3g}"
 
 
-bench = PresetGroup(
-    "bench",
-    action=_bench,
-    options=(LARGEST, ENGINE, THREADS, JSON),
-    help="Time a preset or a TOML file: one run, batches by every engine, and the methods.",
-)
+bench = PresetGroup("bench", _bench, (LARGEST, ENGINE, THREADS, JSON))

@@ -13,6 +13,7 @@ CLEAR = click.Option(["--clear"], is_flag=True, help="Remove all that is kept.")
 
 
 def _cache(*, clear: bool, as_json: bool) -> None:
+    """Show the folder of compiled code and how much it holds, or clear it."""
     removed = CODE.clear() if clear else 0
     entries = CODE.entries()
     found = {
@@ -30,9 +31,4 @@ def _cache(*, clear: bool, as_json: bool) -> None:
             click.echo(f"{name:8} {value if isinstance(value, str) else f'{value:,}'}")
 
 
-cache = click.Command(
-    "cache",
-    callback=_cache,
-    params=[CLEAR, JSON],
-    help="Show the folder of compiled code and how much it holds, or clear it.",
-)
+cache = click.command("cache", params=[CLEAR, JSON])(_cache)

@@ -23,13 +23,10 @@ OUT = click.Option(
     ["--out"],
     type=NewFile(),
     default="chart.png",
-    show_default=True,
     help="Draw into this file; its ending says in which form (png, svg, pdf).",
 )
 DATA = click.Option(
-    ["--data"],
-    type=NewFile(),
-    help="Write what was measured into this file, as JSON.",
+    ["--data"], type=NewFile(), help="Write what was measured into this file, as JSON."
 )
 ENGINE = click.Option(
     ["--engine", "engines"],
@@ -48,6 +45,7 @@ REDRAW = click.Option(
 
 
 def _chart(chosen: Chosen, *, out: Path, data: Path | None, engines: tuple[str, ...]) -> None:
+    """Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it."""
     path = chosen.path()
 
     def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
@@ -122,10 +120,9 @@ def _measure_and_draw(
 
 chart = PresetGroup(
     "chart",
-    action=_chart,
-    options=(OUT, DATA, ENGINE),
+    _chart,
+    (OUT, DATA, ENGINE),
     callback=_without_preset,
     params=[INTERFACE, REDRAW, OUT, DATA],
     subcommand_metavar="[PRESET] [OPTIONS]",
-    help="Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it.",
 )

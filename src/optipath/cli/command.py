@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 @click.group(
     invoke_without_command=True,
-    context_settings={"help_option_names": ["-h", "--help"]},
+    context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
     commands=[presets, show, run, explain, polarization, bench, cache, chart, accuracy],
 )
 @click.version_option(version("optipath"), prog_name="optipath")

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 
 def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
+    """Explain the plan of a preset."""
     found = Composer(**options).compose(chosen.path(reads)).explanation()
     if as_json:
         click.echo(json.dumps({"preset": chosen.preset, **found.as_dict()}, allow_nan=False))
@@ -23,4 +24,4 @@ def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any
         say(str(found))
 
 
-explain = PresetGroup("explain", action=_explain, help="Explain the plan of a preset.")
+explain = PresetGroup("explain", _explain)

@@ -29,6 +29,7 @@ _SMALL = 1e-12
 
 
 def _polarization(chosen: Chosen, *, as_json: bool) -> None:
+    """Show what polarisation does to the intensity, beside the scalar result."""
     path, preset = chosen.path(), chosen.preset
     ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
     found = {name: found_for(path, name) for name in ends}
@@ -43,12 +44,7 @@ def _polarization(chosen: Chosen, *, as_json: bool) -> None:
         console.print(cell(_verdict(one)))
 
 
-polarization = PresetGroup(
-    "polarization",
-    action=_polarization,
-    options=(JSON,),
-    help="Show what polarisation does to the intensity, beside the scalar result.",
-)
+polarization = PresetGroup("polarization", _polarization, [JSON])
 
 
 def _as_json(found: Polarization) -> dict[str, Any]:

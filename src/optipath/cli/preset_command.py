@@ -23,14 +23,12 @@ METHOD = click.Option(
     ["--method"],
     type=click.Choice(METHODS),
     default=METHODS[0],
-    show_default=True,
     help="How Fresnel's equations are computed.",
 )
 MODEL = click.Option(
     ["--model"],
     type=click.Choice(CHOICES["model"]),
     default="auto",
-    show_default=True,
     help="What is carried along; by default the smallest that is exact.",
 )
 TOLERANCE = click.Option(
@@ -86,7 +84,7 @@ class PresetGroup(click.Group):
     name : str
         Its name.
     action : callable
-        ``action(chosen, **options)``.
+        ``action(chosen, **options)``; its docstring is the help of the group.
     options : sequence of click.Option, optional
         What can be given besides the parameters and the case.
     **keywords : Any
@@ -100,8 +98,13 @@ class PresetGroup(click.Group):
         options: Sequence[click.Option] = (METHOD, MODEL, TOLERANCE, READS, JSON),
         **keywords: Any,
     ) -> None:
-        usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
-        super().__init__(name, invoke_without_command=True, **{**usual, **keywords})
+        keywords = {
+            "callback": _refuse_none,
+            "subcommand_metavar": "PRESET [OPTIONS]",
+            "help": action.__doc__,
+            **keywords,
+        }
+        super().__init__(name, invoke_without_command=True, **keywords)
         self.action = action
         self.options = tuple(options)
 

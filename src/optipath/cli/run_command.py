@@ -29,6 +29,7 @@ if TYPE_CHECKING:
 
 _ROWS = 20
 
+# What is told of light besides its Stokes vector, and in which unit.
 _TOLD = {
     "dop": ("DoP", ""),
     "dolp": ("DoLP", ""),
@@ -102,6 +103,7 @@ class Outcome:
 
 
 def _run(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
+    """Trace the light of a preset, or of a TOML file."""
     path = chosen.path(reads)
     plan = Composer(**options).compose(path)
     outcome = Outcome(chosen, path, plan, plan.run_all())
@@ -111,7 +113,7 @@ def _run(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) ->
         _print(outcome)
 
 
-run = PresetGroup("run", action=_run, help="Trace the light of a preset, or of a TOML file.")
+run = PresetGroup("run", _run)
 
 
 def _as_json(outcome: Outcome) -> dict[str, Any]:
@@ -134,28 +136,20 @@ def _as_json(outcome: Outcome) -> dict[str, Any]:
         found["case"] = outcome.chosen.case
     if outcome.case.note:
         found["note"] = outcome.case.note
-    for section, readings in (
-        ("detectors", plan.program.detectors),
-        ("dumps", plan.program.dumps),
-    ):
-        if readings or section == "detectors":
-            found[section] = {name: _reading(outcome, name) for name in readings}
-    return found
+    found["detectors"] = {name: _reading(outcome, name) for name in plan.program.detectors}
+    dumps = {name: _reading(outcome, name) for name in plan.program.dumps}
+    return found | ({"dumps": dumps} if dumps else {})
 
 
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
     published, light = outcome.published(name), outcome.lights[name]
-    found = {"stokes": plain(light.stokes), "polarization": _polarization(light)}
+    told = {word: plain(getattr(light, word), unit) for word, (_, unit) in _TOLD.items()}
+    found = {"stokes": plain(light.stokes), "polarization": told}
     if np.any(light.exponent):
         # Too faint for the numbers above: they are 0, and these are not.
         found["log10_intensity"] = plain(light.log10_intensity)
         found["normalized"] = plain(light.normalized)
     return found | ({"published": list(published)} if published else {})
-
-
-def _polarization(light: Light) -> dict[str, Any]:
-    """Return what is told of light besides its Stokes vector, angles in degrees."""
-    return {name: plain(getattr(light, name), unit) for name, (_, unit) in _TOLD.items()}
 
 
 def _print(outcome: Outcome) -> None:

@@ -28,18 +28,14 @@ _FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
 
 
 def _show(preset: str, case: str | None, svg: Path | None) -> None:
+    """Show the parameters, elements and links of a preset, or of a TOML file."""
     path = load_preset(preset, case=case)
     if svg is not None:
         write(svg, _picture(path, f"optipath show {preset}").encode())
     _print(PlainConsole(), path)
 
 
-show = click.Command(
-    "show",
-    callback=_show,
-    params=[click.Argument(["preset"]), CASE, SVG],
-    help="Show the parameters, elements and links of a preset, or of a TOML file.",
-)
+show = click.command("show", params=[click.Argument(["preset"]), CASE, SVG])(_show)
 
 
 def _picture(path: PathGraph, title: str) -> str:

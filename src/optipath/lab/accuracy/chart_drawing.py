@@ -12,7 +12,6 @@ from optipath.errors import MissingExtraError, OptipathError
 from optipath.values.written_files import write_file
 
 try:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
     from matplotlib.transforms import Bbox
@@ -87,16 +86,11 @@ def draw(chart: Mapping[str, Any], out: Path) -> None:
 
 def _figure(chart: Mapping[str, Any]) -> Figure:
     figure = Figure(figsize=(13.5, 8.0), dpi=120, layout="constrained")
-    FigureCanvasAgg(figure)
     # A dollar would begin a formula.
     title = f"Speed against accuracy: {chart['title']}".replace("$", r"\$")
     figure.suptitle(title, fontsize=14, color=_INK)
     panels = figure.subplots(1, 2, sharex=True)
-    held = []
-    for axes, (kind, words) in zip(panels, _PANELS.items(), strict=True):
-        held.append(_panel(axes, chart, kind))
-        axes.set_title(words, fontsize=10.5, color=_INK)
-        axes.set_xlabel("ns a path", color=_INK)
+    held = [_panel(axes, chart, kind) for axes, kind in zip(panels, _PANELS, strict=True)]
     panels[0].set_ylabel("relative error: worst region (marker), median (dash)", color=_INK)
     handles = _legend(chart)
     figure.legend(handles=handles, loc="outside lower center", ncols=len(handles), frameon=False)
@@ -108,8 +102,7 @@ def _figure(chart: Mapping[str, Any]) -> Figure:
 
 def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> list[_Mark]:
     """Draw a panel, and return the marks of what fails nowhere, which are still to be named."""
-    axes.set_xscale("log")
-    axes.set_yscale("log")
+    axes.set(xscale="log", yscale="log")
     contenders = chart["contenders"]
     marks = [_mark(contender, kind, chart["fails_above"]) for contender in contenders]
     held = [mark for mark in marks if not mark.fails]
@@ -127,9 +120,10 @@ def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> list[_Mark]:
     _limits(axes, chart, low, base)
     axes.grid(visible=True, which="major", color="#ececec", linewidth=0.8)
     axes.set_axisbelow(True)
+    axes.set_title(_PANELS[kind], fontsize=10.5, color=_INK)
+    axes.set_xlabel("ns a path", color=_INK)
     axes.tick_params(colors=_INK, which="both")
-    for side in ("top", "right"):
-        axes.spines[side].set_visible(False)
+    axes.spines[["top", "right"]].set_visible(False)
     return held
 
 
@@ -138,8 +132,8 @@ def _mark(contender: Mapping[str, Any], kind: str, most: float) -> _Mark:
     # An error of nothing has no place on a logarithmic axis: it stands at a tenth of eps.
     return _Mark(
         name=contender["method"] + " · jones" * (contender["composing"] == "jones"),
-        colour=_colour(contender["engine"]),
-        shape=_shape(contender["dtype"]),
+        colour=_COLOURS.get(contender["engine"], _INK),
+        shape=_SHAPES.get(contender["dtype"], "^"),
         ns=contender["ns"]["least"],
         worst=max(0.1, *(error["worst"] for error in errors)) * eps,
         median=max(float(np.median([error["median"] for error in errors])), 0.1) * eps,
@@ -162,14 +156,6 @@ def _label_markers(axes: Axes, marks: list[_Mark]) -> None:
                 taken.append(box)
                 break
             label.remove()
-
-
-def _colour(engine: str) -> str:
-    return _COLOURS.get(engine, _INK)
-
-
-def _shape(dtype: str) -> str:
-    return _SHAPES.get(dtype, "^")
 
 
 def _frontier(axes: Axes, points: list[tuple[float, float]]) -> None:
@@ -201,8 +187,7 @@ def _failing_band(axes: Axes, failing: list[_Mark], regions: int, low: float, ba
     step = 15.0
     top = base * step ** (len(rows) + 0.6)
     axes.set_ylim(low, top)
-    ticks = [t for t in axes.get_yticks() if low <= t < base]
-    axes.set_yticks(ticks)
+    axes.set_yticks([tick for tick in axes.get_yticks() if low <= tick < base])
     axes.minorticks_off()
     if not rows:
         return
@@ -215,8 +200,7 @@ def _failing_band(axes: Axes, failing: list[_Mark], regions: int, low: float, ba
         words = f" {name}: fails in {many} of {regions}"
         axes.text(left, y, words, va="center", fontsize=8, color=_RED)
         for mark in marks:
-            style: dict[str, Any] = {"color": mark.colour, "markerfacecolor": "white"}
-            axes.plot(mark.ns, y, marker=mark.shape, markersize=7, **style)
+            axes.plot(mark.ns, y, mark.shape, color=mark.colour, mfc="white", markersize=7)
 
 
 def _legend(chart: Mapping[str, Any]) -> list[Line2D]:
@@ -225,8 +209,8 @@ def _legend(chart: Mapping[str, Any]) -> list[Line2D]:
     fails = f"off by more than {chart['fails_above']:g} ulp in some region"
     marker: dict[str, Any] = {"color": _INK, "linewidth": 0}
     return [
-        *(Line2D([], [], color=_colour(e), linewidth=4, label=e) for e in engines),
-        *(Line2D([], [], marker=_shape(d), label=d, **marker) for d in dtypes),
+        *(Line2D([], [], color=_COLOURS.get(e, _INK), linewidth=4, label=e) for e in engines),
+        *(Line2D([], [], marker=_SHAPES.get(d, "^"), label=d, **marker) for d in dtypes),
         Line2D([], [], marker="o", markerfacecolor="white", label=fails, **marker),
         Line2D([], [], color=_FAINT, label="the best of what fails nowhere"),
     ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,15 +12,12 @@ from optipath.errors import OptipathError
 from optipath.lab.accuracy.contenders import WORDS
 from optipath.lab.accuracy.error_measures import Errors
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 FORMAT = 1
 
 
 def chart_text(chart: Mapping[str, Any]) -> str:
     """Return a chart as JSON, which has no infinity: an infinite error is null."""
-    return json.dumps(_each(chart, _written), indent=1, allow_nan=False) + "\n"
+    return json.dumps(_written(chart), indent=1, allow_nan=False) + "\n"
 
 
 def read_chart(text: str, name: str) -> dict[str, Any]:
@@ -45,25 +42,23 @@ def read_chart(text: str, name: str) -> dict[str, Any]:
     """
     cure = "give a file that 'optipath chart --data' wrote"
     try:
-        chart = json.loads(text)
+        chart = json.loads(text, object_hook=_read)
     except (ValueError, RecursionError):
         raise OptipathError(f"'{name}' is no JSON; {cure}") from None
-    chart = _each(chart, lambda value: np.inf if value is None else value)
     if not _is_whole(chart):
         raise OptipathError(f"'{name}' is no whole chart of this version; {cure}")
-    return dict(chart)
+    return chart  # type: ignore[no-any-return]
 
 
-def _each(value: Any, change: Callable[[Any], Any]) -> Any:
-    """Return a nest of mappings and lists with every value in it changed."""
-    if isinstance(value, Mapping):
-        return {name: _each(entry, change) for name, entry in value.items()}
-    if isinstance(value, list):
-        return [_each(entry, change) for entry in value]
-    return change(value)
+def _read(entries: dict[str, Any]) -> dict[str, Any]:
+    return {name: np.inf if value is None else value for name, value in entries.items()}
 
 
 def _written(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _written(entry) for name, entry in value.items()}
+    if isinstance(value, list):
+        return [_written(entry) for entry in value]
     if isinstance(value, float):
         return float(f"{value:.4g}") if np.isfinite(value) else None
     return value

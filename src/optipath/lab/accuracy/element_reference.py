@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import singledispatch
 from typing import TYPE_CHECKING, Any
 
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Resolved
 
 
+@dataclass
 class Reader:
     """Reads the values of a path as numbers of many digits, and moves one angle a little.
 
@@ -60,21 +62,13 @@ class Reader:
         How far the numbers that have been read are from 1, all together.
     """
 
-    def __init__(
-        self,
-        given: Mapping[str, Resolved],
-        batch: tuple[int, ...],
-        at: tuple[int, ...],
-        moved: int = -1,
-        by: Any = 0,
-    ) -> None:
-        self.given = given
-        self.batch = batch
-        self.at = at
-        self.moved = moved
-        self.by = by
-        self.count = 0
-        self.decades = 0
+    given: Mapping[str, Resolved]
+    batch: tuple[int, ...]
+    at: tuple[int, ...]
+    moved: int = -1
+    by: Any = 0
+    count: int = field(default=0, init=False)
+    decades: int = field(default=0, init=False)
 
     def pick(self, numbers: Any) -> Any:
         """Return that one of the batch."""
@@ -151,8 +145,7 @@ def _(element: Interface, way: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: SpecularVertex, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
     points = element.in_chain.points_around()
     cos, sin = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     m = read.index(element.index) / read.index(element.outside).real
@@ -160,39 +153,33 @@ def _(element: SpecularVertex, way: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: Polarizer, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Polarizer, _: Coupling, read: Reader) -> Jones:
     return _filter(read, element.transmittance, element.leakage, element.angle)
 
 
 @jones.register
-def _(element: Diattenuator, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Diattenuator, _: Coupling, read: Reader) -> Jones:
     return _filter(read, element.maximum, element.minimum, element.angle)
 
 
 @jones.register
-def _(element: Retarder, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Retarder, _: Coupling, read: Reader) -> Jones:
     return _retarding(read, read.angle(element.retardance), element.angle)
 
 
 @jones.register
-def _(element: Rotator, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Rotator, _: Coupling, read: Reader) -> Jones:
     return turn(-read.angle(element.angle, 2))
 
 
 @jones.register
-def _(element: Attenuator, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
     root = mpmath.sqrt(read.real(element.transmittance))
     return _diagonal(root, root)
 
 
 @jones.register
-def _(element: Medium, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Medium, _: Coupling, read: Reader) -> Jones:
     depth = read.real(element.absorption) * read.real(element.length)
     left = mpmath.exp(-depth / 2)
     rotation = read.angle_along(element.rotation, element.length, 2)
@@ -205,8 +192,7 @@ def _(element: Medium, way: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: Mirror, way: Coupling, read: Reader) -> Jones:
-    del way
+def _(element: Mirror, _: Coupling, read: Reader) -> Jones:
     return _diagonal(read.complex(element.r_s), read.complex(element.r_p))
 
 
@@ -218,8 +204,7 @@ def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: Combiner, way: Coupling, read: Reader) -> Jones:
-    del element, way, read
+def _(_element: Combiner, _way: Coupling, _read: Reader) -> Jones:
     return _diagonal(1, 1)
 
 
@@ -265,15 +250,13 @@ def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
 
 
 @mueller.register
-def _(element: Depolarizer, way: Coupling, read: Reader) -> list[list[Any]]:
-    del way
+def _(element: Depolarizer, _: Coupling, read: Reader) -> list[list[Any]]:
     kept = 1 - read.real(element.depolarization)
     return mpmath.diag([1, kept, kept, kept]).tolist()  # type: ignore[no-any-return]
 
 
 @mueller.register
-def _(element: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
-    del element
+def _(_: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
     numbers = [read.real(number) for number in way.operations[0].arguments]
     return [numbers[row : row + 4] for row in range(0, 16, 4)]
 

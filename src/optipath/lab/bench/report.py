@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 _DTYPES = ("float64", "float32")
 _OUTPUTS = ("stokes", "mueller")
+_BATCH = ("engine", "dtype", "output", "paths")
 _COMPARED = 100_000
 
 
@@ -87,9 +88,7 @@ def bench(
     ParameterError
         If the path has no open parameter that can be varied.
     """
-    found = [*engines] or [
-        engine for engine in ENGINES if engine != "auto" and is_installed(engine)
-    ]
+    found = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
     for engine in found:
         if not is_installed(engine):
             raise missing(engine)
@@ -120,13 +119,8 @@ def bench(
     report.methods.extend(_timed(plan_of, methods, progress))
     for size in [10**power for power in range(20) if 10**power <= largest]:
         batches = {
-            f"{size} paths, {engine}, {dtype}, {output}": {
-                "engine": engine,
-                "dtype": dtype,
-                "output": output,
-                "paths": size,
-            }
-            for engine, dtype, output in product(found, _DTYPES, _OUTPUTS)
+            f"{size} paths, {', '.join(choice)}": dict(zip(_BATCH, (*choice, size), strict=True))
+            for choice in product(found, _DTYPES, _OUTPUTS)
         }
         report.batches.extend(_timed(plan_of, batches, progress))
     return report
