@@ -5,7 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.paths.presets.loader import preset_names
-from optipath.values import domains
+from optipath.values.domains import indices, quantities, states
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.units import UNITS, format_quantity, parse_quantity
@@ -103,7 +103,8 @@ def test_a_double_next_to_a_limit_is_refused():
 
 LIMITED = {
     name: found
-    for name, found in vars(domains).items()
+    for module in (indices, quantities, states)
+    for name, found in vars(module).items()
     if isinstance(found, Domain) and np.isfinite([found.minimum, found.maximum]).any()
 } | {
     "a tenth": Domain("number", minimum=-0.1, maximum=0.1),
