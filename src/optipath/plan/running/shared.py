@@ -6,6 +6,8 @@ from collections import OrderedDict
 from threading import Lock
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from optipath.plan.running.runner import Runner
 
 if TYPE_CHECKING:
@@ -65,6 +67,7 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
     size = sum([getattr(operand.value, "nbytes", 0) for operand in program.operands])
     if None in operands or size > _LARGEST or inputs.known:
         return None
+    parameters = (*inputs.open.values(), *inputs.bound.values())
     return (
         tuple(operands),
         program.evaluations,
@@ -75,6 +78,8 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
         tuple([(name, end.light, end.components) for name, end in program.readings.items()]),
         tuple(inputs.open.values()),
         tuple(inputs.bound.values()),
+        # A default of -0.0 equals 0.0, but is another number.
+        tuple([np.asarray(p.default).tobytes() for p in parameters if p.default is not None]),
         tuple([(use.owner, use.value.name, use.value.negative, use.domain) for use in inputs.uses]),
         tuple(inputs.shapes.items()),
     )
