@@ -14,9 +14,7 @@ import numpy as np
 from optipath.values.arrays.jax_values import known, namespace
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 
 def ratio(part: Any, whole: Any) -> Any:

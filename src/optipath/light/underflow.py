@@ -9,7 +9,7 @@ import numpy as np
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 UNDERFLOW = 2.0**60
 """How many times the smallest normal number light must be, lest what underflows is seen in it."""

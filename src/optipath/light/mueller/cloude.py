@@ -16,9 +16,7 @@ from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import check_known
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 # Of double precision.
 _TOLERANCE = 1e-9

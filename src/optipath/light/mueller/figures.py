@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 _BCS = (0, 1), (2, 2), (2, 3)
 
@@ -31,7 +31,7 @@ class MatrixFigures:
     matrix: Any
 
     @property
-    def diattenuation(self) -> npt.NDArray[Any]:
+    def diattenuation(self) -> Array:
         """The length of the diattenuation vector, of shape (...).
 
         (max - min) / (max + min) of what is let through, over all states that come in: 0 for a
@@ -46,22 +46,22 @@ class MatrixFigures:
         return norm(self.diattenuation_vector)
 
     @property
-    def diattenuation_vector(self) -> npt.NDArray[Any]:
+    def diattenuation_vector(self) -> Array:
         """(M01, M02, M03) / M00, of shape (..., 3), in the frame of the light that comes in."""
         return _over_m00(known(self.matrix), known(self.matrix)[..., 0, 1:])
 
     @property
-    def polarizance(self) -> npt.NDArray[Any]:
+    def polarizance(self) -> Array:
         """The degree of polarisation that unpolarised light leaves with, of shape (...)."""
         return norm(self.polarizance_vector)
 
     @property
-    def polarizance_vector(self) -> npt.NDArray[Any]:
+    def polarizance_vector(self) -> Array:
         """(M10, M20, M30) / M00, of shape (..., 3), in the frame of the light that goes out."""
         return _over_m00(known(self.matrix), known(self.matrix)[..., 1:, 0])
 
     @property
-    def depolarization_index(self) -> npt.NDArray[Any]:
+    def depolarization_index(self) -> Array:
         """The depolarisation index, of shape (...).
 
         1 for what a Jones matrix describes, 0 for an ideal depolariser;
@@ -79,7 +79,7 @@ class MatrixFigures:
         return norm(_over_m00(matrix, flat[..., 1:])) / sqrt(3.0)
 
     @property
-    def psi(self) -> npt.NDArray[Any]:
+    def psi(self) -> Array:
         """The ellipsometric psi of an isotropic sample, of shape (...), in [0, pi/2].
 
         tan psi = abs(r_p) / abs(r_s), with x along s and y along p in both frames, as
@@ -96,7 +96,7 @@ class MatrixFigures:
         return 0.5 * direction(length(C, S), B)  # type: ignore[no-any-return]
 
     @property
-    def delta(self) -> npt.NDArray[Any]:
+    def delta(self) -> Array:
         """The ellipsometric Delta of an isotropic sample, of shape (...), in (-pi, pi].
 
         The phase of r_p / r_s in ellipsometry's exp(+i w t), atan2(M23, M22): pi where a
@@ -123,7 +123,7 @@ class MatrixFigures:
         return cloude.coherency(self.matrix)
 
     @property
-    def cloude_eigenvalues(self) -> npt.NDArray[Any]:
+    def cloude_eigenvalues(self) -> Array:
         """The eigenvalues of `coherency`, the largest first, of shape (..., 4); their sum is M00.
 
         What does not depolarise has one above 0; a physical matrix has none below 0.

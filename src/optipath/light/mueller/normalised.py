@@ -10,9 +10,7 @@ from optipath.light.underflow import normalise_exponent, times_two_to
 from optipath.values.arrays.jax_values import check_known
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 
 def scaled(matrix: Any) -> tuple[Array, Array]:

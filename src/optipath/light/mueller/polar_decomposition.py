@@ -24,9 +24,7 @@ from optipath.light.mueller.sphere_rotations import least_turn, outer, size_and_
 from optipath.light.underflow import times_two_to
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 # What a path of some elements may have gathered of rounding, against what they let through.
 _ROUNDING = 2.0**-46

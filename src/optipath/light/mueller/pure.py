@@ -6,7 +6,7 @@ is positive, the unitary part of T is, but for its size, Re c_0 s_0 + i (Im c_1 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,9 +14,7 @@ from optipath.light.mueller.cloude import gathered
 from optipath.light.mueller.sphere_rotations import rotation
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 
 def jones_parts(unit: Array, tolerance: Array) -> tuple[Array, Array, Array]:

@@ -9,9 +9,7 @@ import numpy as np
 from optipath.light.mueller.figures import norm
 
 if TYPE_CHECKING:
-    import numpy.typing as npt
-
-    Array = npt.NDArray[Any]
+    from optipath.values.roundings import Array
 
 _ROUNDING = 2.0**-46
 _NOTHING = 2.0**-960
@@ -111,7 +109,7 @@ def outer(a: Array, b: Array) -> Array:
     return np.asarray(a[..., :, np.newaxis] * b[..., np.newaxis, :])
 
 
-def turn_of(retarder: Any) -> tuple[npt.NDArray[Any], npt.NDArray[Any]]:
+def turn_of(retarder: Any) -> tuple[Array, Array]:
     """Return the axis and the angle in [0, pi] of rotations, by the largest of four columns.
 
     Each column is the unit quaternion (cos R/2, sin R/2 times the axis) times one of its parts.

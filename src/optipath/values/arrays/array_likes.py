@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
 from types import NoneType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, shown
 from optipath.values.arrays.memory import memory
-from optipath.values.roundings import ENDLESS, NARROW, RIGHT_ANGLES, doubles, with_limits
-
-if TYPE_CHECKING:
-    Array = np.ndarray[Any, Any]
+from optipath.values.roundings import ENDLESS, NARROW, RIGHT_ANGLES, Array, doubles, with_limits
 
 _PLAIN = frozenset(
     {float, int, complex, bool, str, bytes, NoneType, np.ndarray, *np.sctypeDict.values()}
