@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from optipath.plan.running.interpreter import Interpreter
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
+    from optipath.values.operands import InputKey
 
 Lights: TypeAlias = list[tuple[Any, ...]]
 
@@ -40,12 +41,15 @@ class FloatFunction(NamedTuple):
         Gives the four components at every end, and then the exponents.
     names : tuple of str
         What it takes, as formulas name it.
+    keys : list of InputKey
+        The same, where it is given.
     operations : int
         How many it has.
     """
 
     path: Callable[..., tuple[Any, ...] | None]
     names: tuple[str, ...]
+    keys: list[InputKey]
     operations: int
 
     def rows(self, numbers: Mapping[str, Any], layout: Layout) -> np.ndarray[Any, Any] | None:
@@ -103,6 +107,7 @@ class ScalarRunner:
         self.interpreter = interpreter
         self.formulas = formulas
         self.functions: dict[frozenset[str], FloatFunction | None] = {}
+        self._looked_at: set[frozenset[str]] = set()
         self._runs = 0
         self._usual: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
@@ -122,7 +127,8 @@ class ScalarRunner:
 
     def lights(self, given: ResolvedInputs) -> Lights | None:
         """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
-        absent = _absent(given.numbers)
+        # Which optional elements are not there.
+        absent = frozenset([key.name for key, n in given.numbers.items() if n is False])
         if absent not in self.functions:
             self._runs += 1
             if self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT):
@@ -130,10 +136,11 @@ class ScalarRunner:
         function = self.function(absent)
         if function is None:
             return self._stepped(given)
-        if self._usual is None and self._is_usual(given):
-            self._usual = self._unread(given, function)
-        numbers = {str(key): number for key, number in given.numbers.items()}
-        return _called(function.path, [numbers[name] for name in function.names])
+        if absent not in self._looked_at:
+            self._looked_at.add(absent)
+            if self._is_usual(given):
+                self._usual = self._unread(given, function)
+        return _called(function.path, [given.numbers[key] for key in function.keys])
 
     def function(self, absent: frozenset[str]) -> FloatFunction | None:
         """Return the function for when some optional elements are not there, if one can be made."""
@@ -153,7 +160,9 @@ class ScalarRunner:
         if formula is None:
             return None
         names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)
-        return FloatFunction(FLOATS.compiled(formula), names, len(formula.steps))
+        named = {str(key): key for key in keys}
+        own = [named[name] for name in names if name in named]
+        return FloatFunction(FLOATS.compiled(formula), names, own, len(formula.steps))
 
     def _is_usual(self, given: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""
@@ -193,8 +202,3 @@ def _called(path: Any, numbers: list[Any]) -> Lights | None:
         return found and [found]
     ends = len(found) // 5
     return [(*found[4 * end : 4 * end + 4], found[4 * ends + end]) for end in range(ends)]
-
-
-def _absent(numbers: Mapping[Any, Any]) -> frozenset[str]:
-    """Return the names of optional parameters that are not there."""
-    return frozenset([str(key).partition(" ")[0] for key, n in numbers.items() if n is False])
