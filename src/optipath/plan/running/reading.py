@@ -72,12 +72,11 @@ class ResolvedInputs(NamedTuple):
     @property
     def is_of_floats(self) -> bool:
         """Whether every number of a path is a plain float, or says that an element is there."""
-        return all(
-            number is True
-            or number is False
-            or (key.part not in _PAIR and getattr(number, "dtype", _DOUBLE) == _DOUBLE)
-            for key, number in self.numbers.items()
-        )
+        for key, number in self.numbers.items():
+            floats = type(number) is float or getattr(number, "dtype", _DOUBLE) == _DOUBLE
+            if number is not True and number is not False and (key.part in _PAIR or not floats):
+                return False
+        return True
 
     def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[InputKey, str], ...]:
         """Return in which form each number is given."""
