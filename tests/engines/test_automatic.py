@@ -32,6 +32,8 @@ class Paths:
 @pytest.fixture(autouse=True)
 def _with_numba(monkeypatch):
     monkeypatch.setattr(automatic, "is_installed", lambda _: True)
+    # As in a process that has not run anything by Numba yet.
+    monkeypatch.setattr(automatic, "_LOOKING_AGAIN", automatic._LOOKING)
 
 
 def auto(*, floats=True):
