@@ -3,7 +3,7 @@
 import numpy as np
 
 import optipath as op
-from optipath.engines import is_installed
+from optipath.engines.automatic import is_installed
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12}
 ENGINES = tuple(engine for engine in ("numpy", "numba", "jax") if is_installed(engine))

@@ -3,7 +3,7 @@
 import numpy as np
 
 import optipath as op
-from optipath.engines import is_installed
+from optipath.engines.automatic import is_installed
 
 ENGINES = [engine for engine in ("numpy", "numba", "jax") if is_installed(engine)]
 COMPILED = [engine for engine in ENGINES if engine != "jax"]

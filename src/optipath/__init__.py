@@ -20,7 +20,7 @@ from optipath.errors import (
 )
 
 # isort: split
-from optipath.composer import Composer
+from optipath.composer.composer import Composer
 from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
 from optipath.elements.combiner import Combiner
@@ -50,7 +50,7 @@ from optipath.paths.polarization_matters import Polarization, polarization
 from optipath.paths.presets.loader import load_preset, preset_names
 from optipath.paths.vertex_paths import path_from_vertices
 from optipath.plan.certificate import Certificate, intensity_bounds
-from optipath.plan.light_paths import LightPath
+from optipath.plan.light_paths.light_path import LightPath
 from optipath.plan.plan import Plan
 from optipath.values.angles import CosSin
 from optipath.values.cases import Case

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines import is_installed
+from optipath.engines.automatic import is_installed
 from paths import chain
 
 A = op.Parameter("a")

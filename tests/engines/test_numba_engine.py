@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.formulas import lights_formula
+from optipath.engines.formulas.path_formula import lights_formula
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.values.operands import MANY
 

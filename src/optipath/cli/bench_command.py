@@ -18,7 +18,7 @@ from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
     from optipath.cli.preset_command import Chosen
-    from optipath.lab.bench import Report
+    from optipath.lab.bench.report import Report
     from optipath.paths.path_graph import PathGraph
 
 ENGINES = ("numpy", "numba", "jax")
@@ -44,7 +44,7 @@ THREADS = click.Option(
 
 def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
     """Time a preset or a TOML file: one run, batches by every engine, and the methods."""
-    from optipath.lab.bench import bench  # noqa: PLC0415 - not for every command
+    from optipath.lab.bench.report import bench  # noqa: PLC0415 - not for every command
 
     def load() -> Any:
         return load_preset(chosen.preset, case=chosen.case, **chosen.values)

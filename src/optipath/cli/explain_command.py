@@ -9,7 +9,7 @@ import click
 
 from optipath.cli.console import say
 from optipath.cli.preset_command import PresetGroup
-from optipath.composer import Composer
+from optipath.composer.composer import Composer
 
 if TYPE_CHECKING:
     from optipath.cli.preset_command import Chosen

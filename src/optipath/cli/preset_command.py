@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.composer import CHOICES
+from optipath.composer.composer import CHOICES
 from optipath.errors import OptipathError, ParameterError, PresetError, printable
 from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names, with_values

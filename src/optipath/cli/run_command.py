@@ -15,8 +15,8 @@ from rich.table import Table
 from optipath.cli.console import PlainConsole, cell, headed
 from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import PresetGroup
-from optipath.composer import Composer
-from optipath.paths.format import complex_parts_of
+from optipath.composer.composer import Composer
+from optipath.paths.format.writer import complex_parts_of
 from optipath.values.cases import Case
 from optipath.values.domains.quantities import AMPLITUDE
 

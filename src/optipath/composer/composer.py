@@ -14,7 +14,7 @@ from optipath.composer.path_values import Values
 from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
-from optipath.engines import ENGINES, is_installed, missing
+from optipath.engines.automatic import ENGINES, is_installed, missing
 from optipath.engines.program.reduction import MODELS
 from optipath.errors import ComposerError, shown, unknown
 from optipath.kernels.catalogue import METHODS

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.engines.formulas import Symbol
 from optipath.engines.formulas.recorder import Recorder
+from optipath.engines.formulas.symbol import Symbol
 from optipath.engines.formulas.symbolic import SYMBOLIC
 from optipath.engines.program.program import Result
 from optipath.kernels.numbers.primitives import FLOAT

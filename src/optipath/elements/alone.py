@@ -17,11 +17,7 @@ _TWO_MATRICES = 256
 
 
 def mueller_alone(
-    element: Any,
-    enters: str,
-    leaves: str,
-    method: str,
-    placed: tuple[Frame | None, Frame | None],
+    element: Any, enters: str, leaves: str, method: str, placed: tuple[Frame | None, Frame | None]
 ) -> Mueller:
     """Return the Mueller matrix of an element.
 

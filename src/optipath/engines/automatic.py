@@ -15,7 +15,7 @@ from optipath.engines.known_engines import REGISTRY
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
     from optipath.errors import MissingExtraError
 
 ENGINES = ("auto", *REGISTRY)

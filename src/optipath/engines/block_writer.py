@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.formulas import Symbol
+from optipath.engines.formulas.symbol import Symbol
 
 if TYPE_CHECKING:
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
 
 _OWN = ("exponent", "ldexp", "power", "product_rest", "where")
 """Operations that make their own arrays, unless said otherwise below."""

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.engine import Engine
-from optipath.engines.formulas import Symbol, left_formula
+from optipath.engines.formulas.left import left_formula
 from optipath.engines.formulas.operations import OPERATIONS
+from optipath.engines.formulas.symbol import Symbol
 from optipath.engines.numpy_engine import NumpyEngine
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.array_path import ArrayPath
     from optipath.engines.code_cache import CodeCache
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
 
 _BLOCK = 512
 _HEAD = """\

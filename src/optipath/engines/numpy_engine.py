@@ -9,13 +9,14 @@ import numpy as np
 
 from optipath.engines.block_writer import BlockWriter
 from optipath.engines.engine import Engine
-from optipath.engines.formulas import DOUBLE, LEFT, Symbol
+from optipath.engines.formulas.left import DOUBLE, LEFT
 from optipath.engines.formulas.operations import OPERATIONS
+from optipath.engines.formulas.symbol import Symbol
 from optipath.kernels.numbers.primitives import NUMPY
 
 if TYPE_CHECKING:
     from optipath.engines.array_path import ArrayPath
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
 
 _BLOCK = 12288
 _LEFT = {operation: factory(NUMPY, DOUBLE) for operation, factory in LEFT.items()}

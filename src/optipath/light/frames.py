@@ -12,7 +12,7 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.read_only import Unchanging, read_only
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.roundings import as_doubles, rounding_of
+from optipath.values.roundings import Array, as_doubles, rounding_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -77,12 +77,7 @@ class Frame(Unchanging):
             object.__setattr__(self, name, read_only(axis))
 
     @classmethod
-    def trusted(
-        cls,
-        x: npt.NDArray[np.float64],
-        y: npt.NDArray[np.float64],
-        z: npt.NDArray[np.float64],
-    ) -> Frame:
+    def trusted(cls, x: Array, y: Array, z: Array) -> Frame:
         """Return the frame of axes of one shape that are known to be right, unchecked.
 
         Parameters
@@ -272,9 +267,7 @@ def _check(axes: npt.NDArray[np.float64], tolerance: float) -> None:
         raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
 
 
-def _across(
-    along: npt.NDArray[np.float64], towards: npt.NDArray[np.float64]
-) -> npt.NDArray[np.float64]:
+def _across(along: Array, towards: Array) -> Array:
     """Return the unit vectors across some that are nearest to others."""
     across = towards
     for _ in range(2):  # The second time mends what the first rounds, where x is near z.
@@ -285,7 +278,7 @@ def _across(
     return across
 
 
-def _unit(name: str, vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+def _unit(name: str, vectors: Array) -> Array:
     scale = np.max(np.abs(vectors), axis=-1, keepdims=True)
     if np.any(scale == 0.0):
         raise FrameError(f"{name} has no length; give a vector with a direction of its own")

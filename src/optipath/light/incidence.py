@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import FrameError, shown
+from optipath.kernels.geometry.vectors import Vector, cross, dot
 from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.frames import Frame, vectors
@@ -118,18 +119,16 @@ def _axis(across: Any, k: Any, parallel: Any, keep: Frame | None) -> npt.NDArray
 
 
 def _cross(a: Any, b: Any) -> npt.NDArray[np.float64]:
-    x, y, z = _doubled(b)
-    u, v, w = _doubled(a)
-    return np.stack([(v * z - w * y).high, (w * x - u * z).high, (u * y - v * x).high], axis=-1)
+    return np.stack([part.high for part in cross(_doubled(a), _doubled(b))], axis=-1)
 
 
 def _dot(a: Any, b: Any) -> npt.NDArray[np.float64]:
-    x, y, z = (one * other for one, other in zip(_doubled(a), _doubled(b), strict=True))
-    return np.asarray((x + y + z).high)
+    return np.asarray(dot(_doubled(a), _doubled(b)).high)
 
 
-def _doubled(vector: Any) -> list[DoubleDouble]:
-    return [DoubleDouble(NUMPY, vector[..., axis]) for axis in range(3)]
+def _doubled(vector: Any) -> Vector:
+    x, y, z = (DoubleDouble(NUMPY, vector[..., axis]) for axis in range(3))
+    return x, y, z
 
 
 def _length(vector: Any) -> npt.NDArray[np.float64]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer import parameters_of, value_faults
+from optipath.composer.path_values import parameters_of, value_faults
 from optipath.errors import OptipathError, ParameterError, did_you_mean
 from optipath.values.parameters import Parameter
 

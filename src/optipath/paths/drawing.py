@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer import Wiring
+from optipath.composer.wiring import Wiring
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter

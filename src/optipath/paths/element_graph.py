@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import networkx as nx
 
-from optipath.composer import LOOPS, parameters_of, validate
+from optipath.composer.path_values import parameters_of
+from optipath.composer.validate import validate
+from optipath.composer.wiring import LOOPS
 from optipath.elements.element import Element
 from optipath.errors import PathError, shown, unknown
 from optipath.light.frames import Frame

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal, overload
 
-from optipath.composer import KEPT, Composer
+from optipath.composer.composer import Composer
+from optipath.composer.wiring import KEPT
 from optipath.elements.terminal import Detector
 from optipath.errors import ParameterError, PathError, shown, unknown
 from optipath.paths.binding import bind
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
     from optipath.light.mueller.matrix import Mueller
-    from optipath.plan.light_paths import LightPath
+    from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
 
 
@@ -207,7 +208,7 @@ class PathGraph(ElementGraph):
         PathError
             If an element has no kind, or a value has no form in TOML.
         """
-        from optipath.paths.format import to_toml  # noqa: PLC0415 - not for every import
+        from optipath.paths.format.writer import to_toml  # noqa: PLC0415 - not for every import
 
         return to_toml(self._graph, self.description, self.cases)
 

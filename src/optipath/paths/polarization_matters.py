@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer import Composer
+from optipath.composer.composer import Composer
 from optipath.engines.program.program import Evaluation
 from optipath.errors import ParameterError, listed, shown
 from optipath.kernels.carriers.kernel import Kernel

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines import LARGE, batches, most_operations
+from optipath.engines.automatic import LARGE, batches, most_operations
 from optipath.errors import ParameterError
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of

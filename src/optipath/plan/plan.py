@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.engines import LARGE
+from optipath.engines.automatic import LARGE
 from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frames import Frame
 from optipath.light.light import Light
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from optipath.engines.program.reduction import Reduction, Tolerance
     from optipath.plan.answers import Answers
     from optipath.plan.certificate import Certificate
-    from optipath.plan.light_paths import LightPath
+    from optipath.plan.light_paths.light_path import LightPath
     from optipath.values.inputs import Inputs
 
 
@@ -277,7 +277,7 @@ class Plan(PlanTexts):
         0.539067  lamp.out -> surface.transmitted -> metal.reflected -> surface.reflected -> eye
         0.388729  lamp.out -> surface.transmitted -> metal.transmitted -> heat
         """
-        from optipath.plan.light_paths import light_paths  # noqa: PLC0415 - not for every import
+        from optipath.plan.light_paths.listing import light_paths  # noqa: PLC0415 - not for every import
 
         answers = self.answers
         return light_paths(

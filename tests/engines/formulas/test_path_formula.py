@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines import is_installed
+from optipath.engines.automatic import is_installed
 
 
 class Watching(op.Element):

@@ -8,7 +8,7 @@ from mpmath import mp
 
 import optipath as op
 from lossless import networks
-from optipath.engines import is_installed
+from optipath.engines.automatic import is_installed
 from optipath.lab.accuracy.path_reference import exact_lights
 from slabs import slab
 

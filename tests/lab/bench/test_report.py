@@ -6,7 +6,8 @@ import pytest
 
 import optipath as op
 from optipath.engines.numpy_engine import NumpyEngine
-from optipath.lab.bench import bench, report
+from optipath.lab.bench import report
+from optipath.lab.bench.report import bench
 
 
 def test_no_formula_is_compiled_twice(monkeypatch):

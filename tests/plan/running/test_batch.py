@@ -2,7 +2,9 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.engines.formulas import Symbol, lights_formula, stages
+from optipath.engines.formulas.path_formula import lights_formula
+from optipath.engines.formulas.stages import stages
+from optipath.engines.formulas.symbol import Symbol
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.running.batch import Layout, sliced
 from optipath.values.operands import MANY, InputKey

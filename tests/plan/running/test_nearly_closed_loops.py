@@ -7,7 +7,7 @@ import pytest
 
 import optipath as op
 from nearly_closed import PLATES, networks, ring
-from optipath.engines import is_installed
+from optipath.engines.automatic import is_installed
 from optipath.lab.accuracy.path_reference import exact_stokes
 from slabs import slab
 

@@ -91,11 +91,7 @@ def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
 
 
 def _off_faults(
-    chains: Floats,
-    normals: Floats,
-    batch: tuple[int, ...],
-    doubted: list[slice],
-    tolerance: float,
+    chains: Floats, normals: Floats, batch: tuple[int, ...], doubted: list[slice], tolerance: float
 ) -> list[str]:
     """Return the vertex whose normal is furthest off its bisector, if any is too far."""
     worst, where = tolerance, ""

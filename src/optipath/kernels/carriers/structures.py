@@ -171,15 +171,11 @@ def _block_numbers(numbers: Numbers) -> Numbers:
 def _full(xp: Primitives) -> Action:
     def act(m: Numbers, carried: Carried, count: int) -> Carried:
         stokes = stokes_of(xp, carried)
-        rows = [_product(m[4 * row : 4 * row + 4], stokes) for row in range(count)]
+        rows = [products(*zip(m[i : i + 4], stokes, strict=True)) for i in range(0, 4 * count, 4)]
         s0, s1, s2, s3 = (*rows, 0.0, 0.0, 0.0)[:4]
         return carry(xp, (s0, s1, s2, s3), count)
 
     return act
-
-
-def _product(row: Numbers, stokes: Numbers) -> Any:
-    return products(*zip(row, stokes, strict=True))
 
 
 def _scale_rows(xp: Primitives, numbers: Numbers) -> tuple[Row, Row, Row, Row]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.composer import Composer
+from optipath.composer.composer import Composer
 from optipath.errors import ComposerError, ParameterError
 from optipath.kernels.catalogue import REFLECTION
 from optipath.lab.accuracy.chart_file import FORMAT

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import product
 
-from optipath.composer import CHOICES, Composer
-from optipath.engines import is_installed
+from optipath.composer.composer import CHOICES, Composer
+from optipath.engines.automatic import is_installed
 from optipath.errors import ComposerError
 from optipath.kernels.catalogue import METHODS
 from optipath.values.precision import DTYPES, precision

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.composer import Composer
+    from optipath.composer.composer import Composer
     from optipath.lab.accuracy.path_reference import ExactLight
     from optipath.lab.accuracy.regions import Region
     from optipath.paths.path_graph import PathGraph

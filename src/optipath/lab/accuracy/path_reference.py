@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.composer import Wiring
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
+from optipath.composer.wiring import Wiring
 from optipath.errors import ParameterError, PathError, shown
 from optipath.lab.accuracy.coherency_matrices import added, coherency, passed, stokes_of
 from optipath.lab.accuracy.element_reference import Reader, jones, mueller, turn

@@ -11,8 +11,8 @@ from importlib.metadata import PackageNotFoundError, version
 from itertools import product
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer import Composer
-from optipath.engines import ENGINES, is_installed, missing
+from optipath.composer.composer import Composer
+from optipath.engines.automatic import ENGINES, is_installed, missing
 from optipath.kernels.catalogue import METHODS
 from optipath.lab.bench.random_values import random_values
 from optipath.lab.bench.timing import race

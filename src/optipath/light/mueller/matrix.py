@@ -80,7 +80,7 @@ class Mueller(MatrixFigures):
             return Light(stokes, self.frame_out, exponent)
         if isinstance(other, Mueller):
             check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
-            turn = _turn_matrix(other.frame_out, self.frame_in)
+            turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
             with np.errstate(over="ignore", invalid="ignore"):
                 product = matrix @ turn @ known(other.matrix)
             return Mueller(product, other.frame_in, self.frame_out)
@@ -239,10 +239,6 @@ class LuChipman:
     def polarizance_vector(self) -> npt.NDArray[Any]:
         """What the depolarizer makes of unpolarised light, along S1, S2 and S3; shape (..., 3)."""
         return self.depolarizer.polarizance_vector
-
-
-def _turn_matrix(leaves: Frame, enters: Frame) -> npt.NDArray[np.float64]:
-    return stacked(ROTATION.rows(NUMPY, leaves.turn_to(enters)))
 
 
 def stacked(rows: Any) -> npt.NDArray[np.float64]:

@@ -92,7 +92,7 @@ def _behind_diattenuator(unit: Array, D: Array, d: Array) -> tuple[Array, Array,
     """Return p, m_depolarizer and m_retarder; numbers without a meaning where D is 1."""
     polarizance, m = unit[..., 1:, 0], unit[..., 1:, 1:]
     gap = np.where(D < 1.0, 1.0 - D, 1.0)
-    image = _applied(m, d)
+    image = (m @ d[..., np.newaxis])[..., 0]
     half_sum, half_difference = (polarizance + image) / (1.0 + D), (polarizance - image) / gap
     p, along = 0.5 * (half_sum + half_difference), 0.5 * (half_sum - half_difference)
     across = (m - outer(image, d)) / np.sqrt(gap * (1.0 + D))[..., np.newaxis]
@@ -123,7 +123,3 @@ def _bordered(row: Array, column: Array, lower: Array) -> Array:
     bordered[..., 0, 0] = 1.0
     bordered[..., 0, 1:], bordered[..., 1:, 0], bordered[..., 1:, 1:] = row, column, lower
     return bordered
-
-
-def _applied(matrix: Array, vector: Array) -> Array:
-    return np.asarray((matrix @ vector[..., np.newaxis])[..., 0])

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer import LOOPS, parameters_of
+from optipath.composer.path_values import parameters_of
+from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults

@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines.formulas import Symbol, stages
+from optipath.engines.formulas.stages import stages
+from optipath.engines.formulas.symbol import Symbol
 from optipath.plan.running.grid import Grid, Stage
 from optipath.plan.running.pieces import pieces
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
     from optipath.plan.running.batch import Layout
     from optipath.plan.running.pieces import Piece
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines import jax_path
+from optipath.engines.automatic import jax_path
 from optipath.errors import ParameterError
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced, namespace

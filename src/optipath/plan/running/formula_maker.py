@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from optipath.engines.formulas import lights_formula
+from optipath.engines.formulas.path_formula import lights_formula
 from optipath.values.operands import ONE
 from optipath.values.precision import wide
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
     from optipath.engines.program.program import Program
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.values.inputs import Inputs

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines import compile_array_path
+from optipath.engines.automatic import compile_array_path
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.engines import ArrayPath
-    from optipath.engines.formulas import Formula
+    from optipath.engines.array_path import ArrayPath
+    from optipath.engines.formulas.formula import Formula
     from optipath.plan.running.batch import Layout
     from optipath.plan.running.pieces import Piece
 

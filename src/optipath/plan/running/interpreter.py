@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.engines.formulas import slack_of
+from optipath.engines.formulas.path_formula import slack_of
 from optipath.engines.program.execute import evaluated, execute, whole_matrices
 from optipath.kernels.carriers.bounds_carrier import BoundsCarrier
 from optipath.kernels.carriers.jones_carrier import JonesCarrier

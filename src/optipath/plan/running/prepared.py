@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines import EngineChoice, is_kept
+from optipath.engines.automatic import EngineChoice, is_kept
 from optipath.plan.running.batch_runner import BatchRunner
 from optipath.values.operands import ABSENT
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from optipath.engines.formulas import bounds_formula, matrix_formula
+from optipath.engines.formulas.path_formula import bounds_formula, matrix_formula
 from optipath.light.underflow import folded
 from optipath.plan.certificate import Certificate
 from optipath.values.arrays.memory import CURE
@@ -19,7 +19,7 @@ from optipath.values.arrays.memory import CURE
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping
 
-    from optipath.engines.formulas import Formula
+    from optipath.engines.formulas.formula import Formula
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.running.batch_runner import Results
     from optipath.plan.running.for_jax import ForJax

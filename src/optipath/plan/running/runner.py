@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines import FLOATS, NUMPY_STEPS, usual_engine
+from optipath.engines.automatic import FLOATS, NUMPY_STEPS, usual_engine
 from optipath.errors import ParameterError
 from optipath.plan.running.batch import Layout
 from optipath.plan.running.batch_runner import Results

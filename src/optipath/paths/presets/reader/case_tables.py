@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import did_you_mean, shown
-from optipath.paths.format import decode_given, schema
+from optipath.paths.format import schema
+from optipath.paths.format.codec import decode_given
 from optipath.values.cases import Case
 
 if TYPE_CHECKING:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer import LOOPS, partial_faults
+from optipath.composer.validate import partial_faults
+from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean, shown, unknown
-from optipath.paths.format import decode, schema
+from optipath.paths.format import schema
+from optipath.paths.format.codec import decode
 from optipath.paths.format.faults import Faults
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.port_names import find_port

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 from optipath.elements.registry import element_class
 from optipath.errors import shown
 from optipath.light.frames import Frame
-from optipath.paths.format import decode, schema
+from optipath.paths.format import schema
+from optipath.paths.format.codec import decode
 from optipath.values.domains.choice import Choice
 from optipath.values.parameters import Parameter
 

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.paths.format import decode, decode_given, schema
+from optipath.paths.format import schema
+from optipath.paths.format.codec import decode, decode_given
 from optipath.values.domains.domain import Domain
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
