@@ -9,16 +9,8 @@ import numpy as np
 from optipath.elements.vertices import VerticesByAngles, VerticesDomain
 from optipath.errors import PresetError, UnitError, did_you_mean, shown
 from optipath.paths.format.faults import Faults
-from optipath.values.domains import (
-    AMPLITUDE,
-    ANGLE,
-    INDEX,
-    Choice,
-    Domain,
-    IndexDomain,
-    IndicesDomain,
-    OutsideDomain,
-)
+from optipath.values import domains
+from optipath.values.domains import AMPLITUDE, ANGLE, INDEX, Domain
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
@@ -57,9 +49,9 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     >>> decode([1, 2.5], REAL, {})
     [1.0, 2.5]
     """
-    if isinstance(domain, Choice):
+    if isinstance(domain, domains.Choice):
         return domain.check("the value", raw)
-    if isinstance(domain, IndicesDomain):
+    if isinstance(domain, domains.IndicesDomain):
         if not isinstance(raw, list):
             raise PresetError(
                 f"{shown(raw)} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
@@ -67,7 +59,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return [decode(one, INDEX, parameters) for one in raw]
     if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
         return _reference(raw, parameters)
-    if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
+    if isinstance(raw, dict) and isinstance(domain, (domains.IndexDomain, domains.OutsideDomain)):
         return Material(**_parts(raw, domain, parameters))
     if isinstance(raw, dict) and domain.complex_parts:
         return _complex(_parts(raw, domain, {}))
@@ -138,15 +130,13 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
         return {key: [encode(a, ANGLE.unit) for a in getattr(value, key)] for key in _ANGLES}
     if isinstance(value, str):
         return value
-    if isinstance(value, np.ndarray) and value.dtype.kind != "c":
-        return [encode(entry, unit) for entry in value.tolist()]
+    if isinstance(value, complex) or (isinstance(value, np.ndarray) and value.dtype.kind == "c"):
+        number = np.asarray(value)
+        return dict(zip(complex_parts, (number.real.tolist(), number.imag.tolist()), strict=True))
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
         return [encode(entry, unit) for entry in value]
-    if isinstance(value, np.ndarray):
-        parts = value.real.tolist(), value.imag.tolist()
-        return dict(zip(complex_parts, parts, strict=True))
-    if isinstance(value, complex):
-        return dict(zip(complex_parts, (value.real, value.imag), strict=True))
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return format_quantity(value, unit) if unit and np.isfinite(value) else value
     raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
