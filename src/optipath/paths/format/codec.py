@@ -180,11 +180,8 @@ def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngle
         if not isinstance(several, list):
             faults.append(f"{key} must be a list of angles, not {shown(several)}")
             continue
-        decoded = [
-            faults.attempt(f"{key}[{place}]", decode, angle, ANGLE, parameters)
-            for place, angle in enumerate(several)
-        ]
-        angles.append(tuple(decoded))
+        places = [(f"{key}[{place}]", angle) for place, angle in enumerate(several)]
+        angles.append(tuple(faults.attempt(at, decode, a, ANGLE, parameters) for at, a in places))
     if faults:
         raise PresetError(*faults)
     return VerticesByAngles(*angles)

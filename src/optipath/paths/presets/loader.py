@@ -137,8 +137,7 @@ def locate(preset: str | PathLike[str]) -> Path:
             f"a preset is a name or the path of a file, not {shown(preset)}"
         ) from None
     if path.suffix.lower() != ".toml":
-        names = preset_names()
-        cure = did_you_mean(path.stem, names)
+        cure = did_you_mean(path.stem, preset_names())
         if not cure.startswith("; did you mean"):
             cure = "; see the names with `optipath presets`"
         raise PresetError(
