@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import defaultdict
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
@@ -10,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from rich.table import Table
 
-from optipath.cli.console import PlainConsole
+from optipath.cli.console import PlainConsole, say_json
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.cli.progress_bar import progress_bar
 from optipath.paths.presets.loader import load_preset, with_values
@@ -54,7 +53,7 @@ def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
     with progress_bar(steps) as tell:
         report = bench(path, load, progress=lambda what: tell(what, advance=1), **options)
     if as_json:
-        click.echo(json.dumps({"preset": chosen.preset, **asdict(report)}))
+        say_json({"preset": chosen.preset, **asdict(report)})
         return
     for table in _tables(report):
         PlainConsole().print(table)
@@ -65,12 +64,12 @@ def _opened(chosen: Chosen) -> PathGraph:
     path, case = chosen.opened, chosen.case
     if case not in path.cases:
         return chosen.path()  # None is given, or one that is refused.
-    angles = [
-        name
-        for name, p in path.parameters.items()
-        if dimension_of(p.unit) == "angle" and not p.optional
-    ]
-    kept = {name: value for name, value in path.cases[case].values.items() if name not in angles}
+    known = path.parameters
+    kept = {
+        name: value
+        for name, value in path.cases[case].values.items()
+        if dimension_of(known[name].unit) != "angle" or known[name].optional
+    }
     return with_values(path, chosen.preset, None, {**kept, **chosen.values})
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import click
 
+from optipath.cli.console import say_json
 from optipath.cli.preset_command import JSON
 from optipath.engines.code_cache import CODE
 
@@ -23,7 +22,7 @@ def _cache(*, clear: bool, as_json: bool) -> None:
         "limit": CODE.limit,
     }
     if as_json:
-        click.echo(json.dumps(found | ({"removed": removed} if clear else {})))
+        say_json(found | ({"removed": removed} if clear else {}))
     elif clear:
         click.echo(f"removed {removed} entries from {found['folder']}")
     else:

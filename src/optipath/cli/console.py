@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from typing import Any
 
@@ -20,6 +21,11 @@ _COLUMN = 30
 def say(text: str) -> None:
     """Print lines as they are, control characters by their codes."""
     click.echo(printable(text))
+
+
+def say_json(found: dict[str, Any]) -> None:
+    """Print one JSON object."""
+    click.echo(json.dumps(found, allow_nan=False))
 
 
 def cell(text: str, style: str = "") -> Text:

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
-import click
-
-from optipath.cli.console import say
+from optipath.cli.console import say, say_json
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer.composer import Composer
 
@@ -19,7 +16,7 @@ def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any
     """Explain the plan of a preset."""
     found = Composer(**options).compose(chosen.path(reads)).explanation()
     if as_json:
-        click.echo(json.dumps({"preset": chosen.preset, **found.as_dict()}, allow_nan=False))
+        say_json({"preset": chosen.preset, **found.as_dict()})
     else:
         say(str(found))
 

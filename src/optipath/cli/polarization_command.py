@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from typing import TYPE_CHECKING, Any
 
-import click
 import numpy as np
 
-from optipath.cli.console import PlainConsole, cell, headed
+from optipath.cli.console import PlainConsole, cell, headed, say_json
 from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import JSON, PresetGroup
 from optipath.errors import listed
@@ -35,7 +33,7 @@ def _polarization(chosen: Chosen, *, as_json: bool) -> None:
     found = {name: found_for(path, name) for name in ends}
     if as_json:
         detectors = {name: _as_json(one) for name, one in found.items()}
-        click.echo(json.dumps({"preset": preset, "detectors": detectors}))
+        say_json({"preset": preset, "detectors": detectors})
         return
     console = PlainConsole()
     console.print(cell(preset, style="bold"), cell(path.description))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
-
 import click
 
-from optipath.cli.console import PlainConsole, cell, headed
+from optipath.cli.console import PlainConsole, cell, headed, say_json
 from optipath.cli.preset_command import JSON
 from optipath.paths.presets.loader import load_preset, preset_names
 
@@ -16,7 +14,7 @@ def presets(*, as_json: bool) -> None:
     """List the presets."""
     descriptions = {name: load_preset(name).description for name in preset_names()}
     if as_json:
-        click.echo(json.dumps(descriptions))
+        say_json(descriptions)
         return
     table = headed("preset", "what it is", box=None)
     for name, description in descriptions.items():

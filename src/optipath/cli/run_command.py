@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-import click
 import numpy as np
 from rich.table import Table
 
-from optipath.cli.console import PlainConsole, cell, headed
+from optipath.cli.console import PlainConsole, cell, headed, say_json
 from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer.composer import Composer
@@ -108,7 +106,7 @@ def _run(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) ->
     plan = Composer(**options).compose(path)
     outcome = Outcome(chosen, path, plan, plan.run_all())
     if as_json:
-        click.echo(json.dumps(_as_json(outcome)))
+        say_json(_as_json(outcome))
     else:
         _print(outcome)
 

@@ -15,8 +15,7 @@ WORDS = ("method", "dtype", "engine", "composing")
 
 
 def contenders(
-    composing: tuple[str, ...] = CHOICES["composing"],
-    engines: tuple[str, ...] = ("numpy", "numba"),
+    composing: tuple[str, ...] = CHOICES["composing"], engines: tuple[str, ...] = ("numpy", "numba")
 ) -> list[Composer]:
     """Return all that this machine can run.
 

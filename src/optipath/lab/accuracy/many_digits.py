@@ -67,18 +67,14 @@ def cos_sin(angle: Any) -> tuple[Any, Any]:
     return (mpmath.sign(c), mpmath.mpf(0)) if abs(s) < least else (c, s)
 
 
+_OF_ONE_NAME = ("sqrt", "sin", "cos", "exp", "atan2", "frexp", "ldexp")
+
 MANY_DIGITS = Primitives(
+    **{name: getattr(mpmath, name) for name in _OF_ONE_NAME},
     where=lambda condition, yes, no: yes if condition else no,
-    sqrt=mpmath.sqrt,
     absolute=abs,
     maximum=max,
     minimum=min,
-    sin=mpmath.sin,
-    cos=mpmath.cos,
-    exp=mpmath.exp,
-    atan2=mpmath.atan2,
-    frexp=mpmath.frexp,
-    ldexp=mpmath.ldexp,
     two_product=lambda a, b: (a * b, mpmath.mpf(0)),
     below_rounding=lambda larger, number: float(larger) + float(number) == float(larger),
     fixed=lambda value: value,

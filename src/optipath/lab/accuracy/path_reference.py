@@ -135,11 +135,10 @@ def _exact(
 ) -> dict[str, ExactLight]:
     scout = Reader(given, batch, at)
     with mpmath.workdps(_digits(wiring, scout)):
-        reader = Reader(given, batch, at)
-        values = _Walk(wiring, reader).stokes()
+        values = _Walk(wiring, Reader(given, batch, at)).stokes()
         step = mpmath.mpf(10) ** -(DIGITS // 2 + scout.decades)
         conditions = {name: [0.0] * 4 for name in values}
-        for angle in range(reader.count):
+        for angle in range(scout.count):
             moved = _Walk(wiring, Reader(given, batch, at, angle, step)).stokes()
             for name, before in values.items():
                 for i, (old, new) in enumerate(zip(before, moved[name], strict=True)):
@@ -175,15 +174,15 @@ class _Walk:
     def _go_round(self, loop: Stretch) -> None:
         """Solve for the light where it meets, in all four components."""
         arriving = [added(self._lights(junction)) for junction in loop.junctions]
-        given = mpmath.matrix([part for light in arriving for part in stokes_of(light)])
-        size = 4 * len(loop.junctions)
+        given = [part for light in arriving for part in stokes_of(light)]
+        size = len(given)
         system = mpmath.eye(size)
         for column in range(size):
             unit = [mpmath.mpf(row == column) for row in range(size)]
             back = self._once_round(loop, unit)
             for row in range(size):
                 system[row, column] -= back[row]
-        self._once_round(loop, _solved(system, list(given)))
+        self._once_round(loop, _solved(system, given))
 
     def _once_round(self, loop: Stretch, parts: list[Any]) -> list[Any]:
         """Return what the light at the junctions brings back to them."""
@@ -223,20 +222,16 @@ class _Walk:
             start, end, (leaves, enters) = link
             ends = (start, leaves), (end, enters)
             before, behind = (frame_at(self.wiring, *port) for port in ends)
-            if {start, end} <= self.wiring.self_placed:
-                angle = self._between_vertices(link)
+            between_vertices = {start, end} <= self.wiring.self_placed
+            if between_vertices and (turning := alignment(self.wiring, link)):
+                c, s = turning.numbers(MANY_DIGITS, self.read.exact)
+                angle = self.read.move(mpmath.atan2(s, c) / 2, 2)
             elif before is not None and behind is not None:
                 angle = self.read.move(_angle_between(before, behind), 2)
             else:
                 angle = self.read.angle(azimuth_of(self.wiring, link), 2)
             self._known[link] = turn(angle)
         return self._known[link]  # type: ignore[no-any-return]
-
-    def _between_vertices(self, link: Link) -> Any:
-        turning = alignment(self.wiring, link)
-        assert turning is not None  # noqa: S101 - vertices always turn
-        c, s = turning.numbers(MANY_DIGITS, self.read.exact)
-        return self.read.move(mpmath.atan2(s, c) / 2, 2)
 
     def _emitted(self, coupling: Coupling) -> Jones:
         intensity, *state = map(self.read.real, coupling.operations[0].arguments)
@@ -280,10 +275,9 @@ def _solved(system: Any, given: list[Any]) -> list[Any]:
 
 
 def _angle_between(frame: Frame, other: Frame) -> Any:
-    x, new_x, z = ([exactly(v) for v in axis] for axis in (frame.x, other.x, frame.z))
-    across = [x[i - 2] * new_x[i - 1] - x[i - 1] * new_x[i - 2] for i in range(3)]
-    d = sum(a * b for a, b in zip(x, new_x, strict=True))
-    return mpmath.atan2(sum(a * b for a, b in zip(z, across, strict=True)), d)
+    axes = frame.x, other.x, frame.z
+    x, new_x, z = (np.array([exactly(number) for number in axis]) for axis in axes)
+    return mpmath.atan2(np.dot(z, np.cross(x, new_x)), np.dot(x, new_x))
 
 
 def _stokes(light: Jones) -> tuple[Any, ...]:

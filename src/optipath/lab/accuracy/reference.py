@@ -6,13 +6,10 @@ rounded sine belong to no angle themselves.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from optipath.lab.accuracy.boundary_reference import boundary, cleaned, mueller_numbers, powers
 from optipath.lab.accuracy.many_digits import DIGITS, WORKING_DIGITS, mpmath
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 
 class Exact(NamedTuple):
@@ -51,7 +48,7 @@ def reflection(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> E
     >>> print(float(reflection(1.5, 0.0, 1.0, 0.0).values[0]))
     0.04
     """
-    return _exact(_reflected, n, k, cos, sin, n1)
+    return _exact("reflected", n, k, cos, sin, n1)
 
 
 def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) -> Exact:
@@ -71,26 +68,18 @@ def transmission(n: float, k: float, cos: float, sin: float, n1: float = 1.0) ->
     >>> print(float(transmission(1.5, 0.0, 1.0, 0.0).values[0]))
     0.96
     """
-    return _exact(_transmitted, n, k, cos, sin, n1)
+    return _exact("transmitted", n, k, cos, sin, n1)
 
 
-def _reflected(m: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    return mueller_numbers(*powers(boundary(m, c, s).reflected))
-
-
-def _transmitted(m: Any, c: Any, s: Any) -> tuple[Any, ...]:
-    return mueller_numbers(*powers(boundary(m, c, s).transmitted))
-
-
-def _exact(function: Callable[..., tuple[Any, ...]], *given: float) -> Exact:
+def _exact(way: str, *given: float) -> Exact:
     spread = sum(abs(int(mpmath.log10(x))) for x in map(mpmath.mpf, given) if x)
     with mpmath.workdps(WORKING_DIGITS + 4 * spread):
         n, k, c, s, n1 = map(mpmath.mpf, given)
         m = mpmath.mpc(n, k) / n1
-        values = _values(function, m, c, s)
+        values = _values(way, m, c, s)
         # The condition from a difference so small that half of the digits stay.
         step = mpmath.mpf(10) ** -(DIGITS // 2 + spread)
-        moved = _values(function, m, c, s * (1 + step))
+        moved = _values(way, m, c, s * (1 + step))
         conditions = tuple(
             abs(float((after / value - 1) / step)) if value and s and c else 0.0
             for value, after in zip(values, moved, strict=True)
@@ -98,6 +87,7 @@ def _exact(function: Callable[..., tuple[Any, ...]], *given: float) -> Exact:
         return Exact(values, conditions)
 
 
-def _values(function: Callable[..., tuple[Any, ...]], m: Any, c: Any, s: Any) -> tuple[Any, ...]:
+def _values(way: str, m: Any, c: Any, s: Any) -> tuple[Any, ...]:
     length = mpmath.hypot(c, s)
-    return tuple(map(cleaned, function(m, c / length, s / length)))
+    matrix = getattr(boundary(m, c / length, s / length), way)
+    return tuple(map(cleaned, mueller_numbers(*powers(matrix))))

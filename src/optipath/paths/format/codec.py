@@ -133,15 +133,13 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
         return {key: [encode(a, ANGLE.unit) for a in getattr(value, key)] for key in _ANGLES}
     if isinstance(value, str):
         return value
-    if isinstance(value, np.ndarray) and value.dtype.kind != "c":
-        return [encode(entry, unit) for entry in value.tolist()]
+    if isinstance(value, complex) or (isinstance(value, np.ndarray) and value.dtype.kind == "c"):
+        number = np.asarray(value)
+        return dict(zip(complex_parts, (number.real.tolist(), number.imag.tolist()), strict=True))
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
     if isinstance(value, (list, tuple)):
         return [encode(entry, unit) for entry in value]
-    if isinstance(value, np.ndarray):
-        parts = value.real.tolist(), value.imag.tolist()
-        return dict(zip(complex_parts, parts, strict=True))
-    if isinstance(value, complex):
-        return dict(zip(complex_parts, (value.real, value.imag), strict=True))
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return format_quantity(value, unit) if unit and np.isfinite(value) else value
     raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
@@ -185,11 +183,8 @@ def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngle
         if not isinstance(several, list):
             faults.append(f"{key} must be a list of angles, not {shown(several)}")
             continue
-        decoded = [
-            faults.attempt(f"{key}[{place}]", decode, angle, ANGLE, parameters)
-            for place, angle in enumerate(several)
-        ]
-        angles.append(tuple(decoded))
+        places = [(f"{key}[{place}]", angle) for place, angle in enumerate(several)]
+        angles.append(tuple(faults.attempt(at, decode, a, ANGLE, parameters) for at, a in places))
     if faults:
         raise PresetError(*faults)
     return VerticesByAngles(*angles)

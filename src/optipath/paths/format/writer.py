@@ -95,24 +95,18 @@ def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
 
 
 def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str, Any]:
-    unit = parameter.unit
-    row: dict[str, Any] = {}
-    if parameter.default is not None:
-        row["default"] = encode(parameter.default, unit, complex_parts)
-    if unit:
-        row["unit"] = unit
-    if np.isfinite([parameter.minimum, parameter.maximum]).any():
-        limits = (parameter.minimum, parameter.maximum)
-        row["range"] = [encode(limit, unit) for limit in limits]
-    if parameter.help:
-        row["help"] = parameter.help
-    if parameter.words:
-        row["words"] = {word: encode(v, unit) for word, v in parameter.words.items()}
-    if parameter.optional:
-        row["optional"] = True
-    if parameter.bound:
-        row["bound"] = True
-    return row
+    unit, default = parameter.unit, parameter.default
+    limits = parameter.minimum, parameter.maximum
+    row = {} if default is None else {"default": encode(default, unit, complex_parts)}
+    others = {
+        "unit": unit,
+        "range": [encode(end, unit) for end in limits] if np.isfinite(limits).any() else None,
+        "help": parameter.help,
+        "words": {word: encode(value, unit) for word, value in parameter.words.items()},
+        "optional": parameter.optional,
+        "bound": parameter.bound,
+    }
+    return row | {key: value for key, value in others.items() if value}
 
 
 def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
@@ -142,12 +136,9 @@ def _case(
     for name, value in case.values.items():
         unit = parameters[name].unit if name in parameters else ""
         values[name] = encode(value, unit, parts.get(name, INDEX.complex_parts))
-    row: dict[str, Any] = {"values": values}
-    if case.published:
-        row["published"] = {name: list(stokes) for name, stokes in case.published.items()}
-    if case.note:
-        row["note"] = case.note
-    return row
+    published = {name: list(stokes) for name, stokes in case.published.items()}
+    others = {"published": published, "note": case.note}
+    return {"values": values} | {key: value for key, value in others.items() if value}
 
 
 def _lines(header: str, row: Mapping[str, Any]) -> str:

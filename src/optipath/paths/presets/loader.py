@@ -75,10 +75,7 @@ def load_preset(
 
 
 def with_values(
-    path: PathGraph,
-    preset: str | PathLike[str],
-    case: str | int | None,
-    values: Mapping[str, Any],
+    path: PathGraph, preset: str | PathLike[str], case: str | int | None, values: Mapping[str, Any]
 ) -> PathGraph:
     """Return the path of a preset, bound to the values of a case and to others.
 
@@ -103,8 +100,7 @@ def with_values(
     PresetError, ParameterError
         As `load_preset` does.
     """
-    given = dict(values)
-    faults: list[str] = []
+    given, faults = values, []
     name = case if isinstance(case, str) else _number_of(case)
     if case is not None and name not in path.cases:
         cure = did_you_mean(name, path.cases)
@@ -141,8 +137,7 @@ def locate(preset: str | PathLike[str]) -> Path:
             f"a preset is a name or the path of a file, not {shown(preset)}"
         ) from None
     if path.suffix.lower() != ".toml":
-        names = preset_names()
-        cure = did_you_mean(path.stem, names)
+        cure = did_you_mean(path.stem, preset_names())
         if not cure.startswith("; did you mean"):
             cure = "; see the names with `optipath presets`"
         raise PresetError(

@@ -37,9 +37,8 @@ def read_case(
     Case
         With the numbers that the texts stand for.
     """
-    before = len(faults)
-    faults += schema.type_faults(where, table, schema.CASE)
-    if len(faults) > before:
+    if wrong := schema.type_faults(where, table, schema.CASE):
+        faults += wrong
         return Case({})
     values = {}
     for name, raw in table.get("values", {}).items():

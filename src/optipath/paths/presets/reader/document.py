@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.composer.validate import partial_faults
 from optipath.composer.wiring import LOOPS
@@ -21,8 +21,11 @@ from optipath.values.units import dimension_of, with_article
 if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
 
+    Table: TypeAlias = dict[str, Any]
+    Parameters: TypeAlias = dict[str, Parameter]
 
-def read(document: dict[str, Any]) -> PathGraph:
+
+def read(document: Table) -> PathGraph:
     """Return the path that a parsed TOML document describes.
 
     Raises
@@ -78,7 +81,7 @@ def read(document: dict[str, Any]) -> PathGraph:
     return path
 
 
-def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str, dict[str, Any]]:
+def _tables(document: Table, section: str, faults: Faults) -> dict[str, Table]:
     tables = document.get(section, {})
     found = {}
     for name, table in tables.items() if isinstance(tables, dict) else ():
@@ -89,13 +92,7 @@ def _tables(document: dict[str, Any], section: str, faults: Faults) -> dict[str,
     return found
 
 
-def _add(
-    path: PathGraph,
-    name: str,
-    table: dict[str, Any],
-    parameters: dict[str, Parameter],
-    faults: Faults,
-) -> bool:
+def _add(path: PathGraph, name: str, table: Table, parameters: Parameters, faults: Faults) -> bool:
     where = f"elements.{name}"
     element = read_element(where, table, parameters, faults)
     frames = read_frames(where, table.get("frames", {}), faults)
@@ -108,12 +105,7 @@ def _add(
 
 
 def _link(
-    path: PathGraph,
-    where: str,
-    table: Any,
-    parameters: dict[str, Parameter],
-    lost: set[str],
-    faults: Faults,
+    path: PathGraph, where: str, table: Any, parameters: Parameters, lost: set[str], faults: Faults
 ) -> set[str]:
     """Add a link; return the nodes whose links are not all there, if it could not be added."""
     if not isinstance(table, dict):

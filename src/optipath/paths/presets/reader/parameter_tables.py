@@ -47,15 +47,12 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         word: faults.attempt(f"{where}.words.{word}", decode, raw, domain, {})
         for word, raw in table.get("words", {}).items()
     }
-    if len(faults) > before:
-        _hint(where, unit, faults)
-        return bare
     keys: dict[str, Any] = {
         key: table[key] for key in ("help", "optional", "bound") if key in table
     }
     keys |= {"unit": unit, "minimum": low, "maximum": high, "words": words}
     default = None
-    if "default" in table:
+    if "default" in table and len(faults) == before:
         open_one = Parameter(name, **{**keys, "bound": False})
         at = f"{where}.default"
         default = faults.attempt(at, decode_given, table["default"], open_one)
