@@ -10,11 +10,7 @@ from pathlib import Path
 import optipath as op
 
 SOURCE = Path(op.__file__).parent
-LATER = {
-    "engines",
-    "plan",
-    "lab",
-}
+LATER = set()
 EXEMPT = {"property", "cached_property", "setter", "overload"}
 
 
