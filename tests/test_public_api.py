@@ -108,6 +108,16 @@ def test_no_modules_import_each_other_in_a_circle():
     assert not list(nx.selfloop_edges(imports))
 
 
+def test_packages_list_no_names_of_their_modules():
+    with_names = [
+        file.parent.relative_to(SOURCE).as_posix()
+        for file in SOURCE.rglob("__init__.py")
+        if len(ast.parse(file.read_text("utf-8")).body) > 1
+    ]
+    # What users import, and where the installed command begins.
+    assert sorted(with_names) == [".", "cli"]
+
+
 def test_no_module_is_longer_than_320_lines():
     lengths = {str(file): len(file.read_text("utf-8").splitlines()) for _, file in modules()}
     assert {name: length for name, length in lengths.items() if length > 320} == {}

@@ -159,7 +159,7 @@ def read_preset(path: Path) -> PathGraph:
     """
     # Not for every import of the library.
     from optipath.paths.format.schema import FORMAT  # noqa: PLC0415
-    from optipath.paths.presets.reader import read  # noqa: PLC0415
+    from optipath.paths.presets.reader.document import read  # noqa: PLC0415
 
     document = _parse(path, _text(path))
     number = document.get("format", FORMAT)

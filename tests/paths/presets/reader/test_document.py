@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.paths.presets.reader import read
+from optipath.paths.presets.reader.document import read
 
 GOOD = """
 format = 1

@@ -1,5 +1,1 @@
 """Reading presets: from a parsed TOML document to a path, all faults at once."""
-
-from optipath.paths.presets.reader.document import read
-
-__all__ = ["read"]
