@@ -98,12 +98,8 @@ class PresetGroup(click.Group):
         options: Sequence[click.Option] = (METHOD, MODEL, TOLERANCE, READS, JSON),
         **keywords: Any,
     ) -> None:
-        keywords = {
-            "callback": _refuse_none,
-            "subcommand_metavar": "PRESET [OPTIONS]",
-            "help": action.__doc__,
-            **keywords,
-        }
+        usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
+        keywords = {**usual, "help": action.__doc__, **keywords}
         super().__init__(name, invoke_without_command=True, **keywords)
         self.action = action
         self.options = tuple(options)

@@ -47,8 +47,8 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         word: faults.attempt(f"{where}.words.{word}", decode, raw, domain, {})
         for word, raw in table.get("words", {}).items()
     }
-    said = {key: table[key] for key in ("help", "optional", "bound") if key in table}
-    keys: dict[str, Any] = {**said, "unit": unit, "minimum": low, "maximum": high, "words": words}
+    keys: dict[str, Any] = {k: table[k] for k in ("help", "optional", "bound") if k in table}
+    keys |= {"unit": unit, "minimum": low, "maximum": high, "words": words}
     default = None
     if "default" in table and len(faults) == before:
         open_one = Parameter(name, **{**keys, "bound": False})
