@@ -10,11 +10,6 @@ import click
 from optipath.cli.console import PlainConsole, cell, headed, say
 from optipath.cli.text_files import read_text, write
 
-
-def _style(word: str) -> str:
-    return "bold red" if word.startswith("**") else ""
-
-
 SAMPLES = click.Option(
     ["--samples"],
     type=click.IntRange(1, 100_000),
@@ -53,7 +48,9 @@ def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
     for table in measure():
         shown = headed(*table.header, title=table.title, box=None)
         for row in table.rows:
-            shown.add_row(*(cell(word.strip("*"), _style(word)) for word in row))
+            styles = ("bold red" if word.startswith("**") else "" for word in row)
+            words = (word.strip("*") for word in row)
+            shown.add_row(*map(cell, words, styles))
         console.print(shown)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from optipath.cli.preset_command import Chosen
+
+    Tell: TypeAlias = Callable[[str, float], object]
+    Chart: TypeAlias = Mapping[str, Any]
 
 OUT = click.Option(
     ["--out"],
@@ -48,7 +51,7 @@ def _chart(chosen: Chosen, *, out: Path, data: Path | None, engines: tuple[str, 
     """Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it."""
     path = chosen.path()
 
-    def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
+    def measure(progress: Tell) -> Chart:
         from optipath.lab.accuracy.chart import Effort, path_chart  # noqa: PLC0415 - an extra
 
         effort = Effort(engines=engines) if engines else Effort()
@@ -62,7 +65,9 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
     if context.invoked_subcommand is not None:
         if interface or source:
             raise click.UsageError("--interface and --from stand for the preset; leave it out")
-        _refuse_early_options(context)
+        for name in ("out", "data"):
+            if context.get_parameter_source(name) is not click.core.ParameterSource.DEFAULT:
+                raise click.UsageError(f"--{name} stands behind the preset; move it there")
         return
     if interface and source:
         raise click.UsageError("--interface measures and --from does not; give one of them")
@@ -72,7 +77,7 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
             f"PRESET is missing; give a file, one of {names}, --interface, or --from"
         )
 
-    def measure(progress: Callable[[str, float], object]) -> Mapping[str, Any]:
+    def measure(progress: Tell) -> Chart:
         from optipath.lab.accuracy.chart import interface_chart  # noqa: PLC0415 - ditto
         from optipath.lab.accuracy.chart_file import read_chart  # noqa: PLC0415 - ditto
 
@@ -83,18 +88,7 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
     _measure_and_draw(measure, out, data)
 
 
-def _refuse_early_options(context: click.Context) -> None:
-    default = click.core.ParameterSource.DEFAULT
-    for name in ("out", "data"):
-        if context.get_parameter_source(name) is not default:
-            raise click.UsageError(f"--{name} stands behind the preset; move it there")
-
-
-def _measure_and_draw(
-    measure: Callable[[Callable[[str, float], object]], Mapping[str, Any]],
-    out: Path,
-    data: Path | None,
-) -> None:
+def _measure_and_draw(measure: Callable[[Tell], Chart], out: Path, data: Path | None) -> None:
     from optipath.lab.accuracy.chart_drawing import check_form, draw  # noqa: PLC0415 - ditto
     from optipath.lab.accuracy.chart_file import chart_text  # noqa: PLC0415 - an extra
 

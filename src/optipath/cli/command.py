@@ -101,9 +101,8 @@ def _invoke(arguments: Sequence[str]) -> None:
         pass  # Help and version have been printed.
 
 
-def _tell(message: Warning | str, *about: Any) -> None:
+def _tell(message: Warning | str, *_about: Any) -> None:
     """Write a warning as one line, without the place in the code that nobody asked for."""
-    del about
     _print_error(str(message))
 
 

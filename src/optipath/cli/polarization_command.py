@@ -13,8 +13,6 @@ from optipath.errors import listed
 from optipath.paths.polarization_matters import polarization as found_for
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from rich.table import Table
 
     from optipath.cli.preset_command import Chosen
@@ -46,16 +44,10 @@ polarization = PresetGroup("polarization", _polarization, [JSON])
 
 
 def _as_json(found: Polarization) -> dict[str, Any]:
-    certificate = found.certificate
-    return {
-        "exact": plain(found.exact),
-        "scalar": plain(found.scalar),
-        "difference": plain(found.difference),
-        "lower": plain(certificate.lower),
-        "upper": plain(certificate.upper),
-        "elements": {name: plain(share) for name, share in found.elements.items()},
-        "culprits": list(found.culprits),
-    }
+    numbers = {name: plain(getattr(found, name)) for name in ("exact", "scalar", "difference")}
+    bounds = {name: plain(getattr(found.certificate, name)) for name in ("lower", "upper")}
+    elements = {name: plain(share) for name, share in found.elements.items()}
+    return {**numbers, **bounds, "elements": elements, "culprits": list(found.culprits)}
 
 
 def _table(name: str, found: Polarization) -> Table:
@@ -65,20 +57,18 @@ def _table(name: str, found: Polarization) -> Table:
     table = headed(f"S0 at {name}")
     for index in shown:
         table.add_column(cell(str(list(index))) if index else "")
-    bounds = (part - 1.0 for part in (found.certificate.lower, found.certificate.upper))
-    rows: list[tuple[str, Any, Callable[[Any], str]]] = [
-        ("exact", found.exact, "{:.6g}".format),
-        ("scalar: without polarisation", found.scalar, "{:.6g}".format),
-        ("difference", found.difference, _percent),
-        *zip(("at least", "at most"), bounds, (_percent, _percent), strict=True),
-        *(
-            (f"by {element}", share, _percent)
-            for element, share in found.elements.items()
-            if np.any(np.abs(share) > _SMALL)
-        ),
-    ]
-    for head, numbers, written in rows:
-        table.add_row(*map(cell, [head, *(written(float(numbers[index])) for index in shown)]))
+    for head, powers in (("exact", found.exact), ("scalar: without polarisation", found.scalar)):
+        table.add_row(head, *(f"{powers[index]:.6g}" for index in shown))
+    shares = {
+        "difference": found.difference,
+        "at least": found.certificate.lower - 1.0,
+        "at most": found.certificate.upper - 1.0,
+    }
+    for element, share in found.elements.items():
+        if np.any(np.abs(share) > _SMALL):
+            shares[f"by {element}"] = share
+    for head, share in shares.items():
+        table.add_row(cell(head), *(_percent(float(share[index])) for index in shown))
     if len(indices) > len(shown):
         table.add_row(f"{len(indices) - len(shown)} more paths")
     return table

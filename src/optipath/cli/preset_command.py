@@ -98,12 +98,8 @@ class PresetGroup(click.Group):
         options: Sequence[click.Option] = (METHOD, MODEL, TOLERANCE, READS, JSON),
         **keywords: Any,
     ) -> None:
-        keywords = {
-            "callback": _refuse_none,
-            "subcommand_metavar": "PRESET [OPTIONS]",
-            "help": action.__doc__,
-            **keywords,
-        }
+        usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
+        keywords = {**usual, "help": action.__doc__, **keywords}
         super().__init__(name, invoke_without_command=True, **keywords)
         self.action = action
         self.options = tuple(options)
@@ -141,7 +137,7 @@ class PresetGroup(click.Group):
 
         def callback(*, case: str | None, **given: Any) -> None:
             options = {name: given.pop(name) for name in names}
-            self.action(_chosen(cmd_name, path, case, given, parameters), **options)
+            self.action(_chosen(cmd_name, path, case, given), **options)
 
         cases = printable(", ".join(path.cases)) or "none in this preset"
         case = click.Option(["--case"], metavar="NAME", help=f"Named set of values: {cases}.")
@@ -179,13 +175,10 @@ def _refuse_none() -> None:
 
 
 def _chosen(
-    preset: str,
-    path: PathGraph,
-    case: str | None,
-    texts: Mapping[str, str | None],
-    parameters: Mapping[str, Parameter],
+    preset: str, path: PathGraph, case: str | None, texts: Mapping[str, str | None]
 ) -> Chosen:
     """Return what the options give; all that is wrong with them at once."""
+    parameters = path.parameters
     values: dict[str, Any] = {}
     faults: list[str] = []
     for name, text in texts.items():

@@ -77,20 +77,14 @@ class Outcome:
         instead, exact = self.plan.instead, self.plan.reduction.model
         if instead is None:
             return exact
-        within = self._errors <= instead.most
+        within = self.errors <= instead.most
         if not within.any():
             return exact
         return instead.model if within.all() else f"{instead.model}, {exact}"
 
-    def tolerance(self) -> dict[str, Any]:
-        """Return what was allowed, and the largest errors that the certificates leave."""
-        instead = self.plan.instead
-        assert instead is not None  # noqa: S101 - asked for by who knows
-        allowed = {"most": instead.most, "model": instead.model}
-        return {**allowed, "exact": self.plan.reduction.model, "error": plain(self._errors)}
-
     @cached_property
-    def _errors(self) -> Any:
+    def errors(self) -> Any:
+        """The largest errors that the certificates leave, where some are allowed."""
         approximation = self.plan.answers.approximation
         assert approximation is not None  # noqa: S101 - asked for by who knows
         return approximation.errors_for({})
@@ -128,8 +122,9 @@ def _as_json(outcome: Outcome) -> dict[str, Any]:
         "method": plan.method,
         "engine": outcome.engine,
     }
-    if plan.instead is not None:
-        found["tolerance"] = outcome.tolerance()
+    if (instead := plan.instead) is not None:
+        allowed = {"most": instead.most, "model": instead.model, "exact": plan.reduction.model}
+        found["tolerance"] = {**allowed, "error": plain(outcome.errors)}
     if outcome.chosen.case:
         found["case"] = outcome.chosen.case
     if outcome.case.note:
@@ -153,20 +148,16 @@ def _reading(outcome: Outcome, name: str) -> dict[str, Any]:
 def _print(outcome: Outcome) -> None:
     console = PlainConsole()
     console.print(cell(outcome.chosen.title, style="bold"), cell(outcome.path.description))
-    console.print(_parameter_table(outcome))
+    table = Table(box=None, show_header=False)
+    for name, parameter in outcome.path.parameters.items():
+        table.add_row(*map(cell, (name, parameter.text(parameter.default), parameter.help)))
+    console.print(table)
     for name in outcome.lights:
         console.print(_light_table(outcome, name))
     if outcome.case.note:
         console.print(cell(f"note: {outcome.case.note}"))
     ran = f"method {outcome.plan.method}, model {outcome.model}, engine {outcome.engine}"
     console.print(cell(ran))
-
-
-def _parameter_table(outcome: Outcome) -> Table:
-    table = Table(box=None, show_header=False)
-    for name, parameter in outcome.path.parameters.items():
-        table.add_row(cell(name), cell(parameter.text(parameter.default)), cell(parameter.help))
-    return table
 
 
 def _light_table(outcome: Outcome, name: str) -> Table:

@@ -65,11 +65,6 @@ def _print(console: PlainConsole, path: PathGraph) -> None:
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:
-    described = [parameter.help, ", ".join(parameter.all_words)]
-    state = "bound to " if parameter.bound else ""
-    return (
-        parameter.name,
-        state + parameter.default_text(),
-        parameter.range_text(),
-        "; ".join(part for part in described if part),
-    )
+    described = "; ".join(filter(None, [parameter.help, ", ".join(parameter.all_words)]))
+    default = ("bound to " if parameter.bound else "") + parameter.default_text()
+    return parameter.name, default, parameter.range_text(), described

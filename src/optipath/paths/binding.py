@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     import networkx as nx
 
-    from optipath.elements.element import Element
-
 
 def bind(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
     """Return a copy of a graph of elements in which parameters are bound to values.
@@ -51,20 +49,15 @@ def bind(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> nx.MultiDiGraph:
             except OptipathError as fault:
                 faults += fault.faults
     copy = graph.copy()
-    for node in copy:
-        copy.nodes[node]["element"] = _with_bound(copy.nodes[node]["element"], bound)
-    for link in copy.edges:
-        copy.edges[link]["azimuth"] = _bound_value(copy.edges[link]["azimuth"], bound)
+    for node in copy.nodes.values():
+        if any(parameter.name in bound for parameter in node["element"].parameters()):
+            node["element"] = _with_bound_fields(node["element"], bound)
+    for link in copy.edges.values():
+        link["azimuth"] = _bound_value(link["azimuth"], bound)
     faults += value_faults(copy)
     if faults:
         raise ParameterError(*faults)
     return copy
-
-
-def _with_bound(element: Element, bound: Mapping[str, Parameter]) -> Any:
-    if not any(parameter.name in bound for parameter in element.parameters()):
-        return element
-    return _with_bound_fields(element, bound)
 
 
 def _with_bound_fields(whole: Any, bound: Mapping[str, Parameter]) -> Any:

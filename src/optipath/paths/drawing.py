@@ -29,10 +29,10 @@ def draw(path: PathGraph) -> str:
     """
     graph = path.graph
     wiring = Wiring(graph)
-    order = _in_order_of_travel(wiring)
+    travelled = [name for stretch in wiring.stretches for name, _ in stretch.ports]
+    order = list(dict.fromkeys([*travelled, *wiring.elements]))
     name_width = max(map(len, order))
     kind_width = max(len(path.element(name).kind) for name in order)
-    leaving = set(wiring.outlets)
     lines = []
     for name in order:
         element = path.element(name)
@@ -42,17 +42,9 @@ def draw(path: PathGraph) -> str:
         for _, end, (leaves, enters), azimuth in links:
             turn = "" if azimuth is None else f"  turned by {_text(azimuth, 'deg')}"
             lines.append(f"  | {leaves} --> {end}.{enters}{turn}")
-        lines += [
-            f"  | {port} --> leaves the path"
-            for port in element.outputs
-            if f"{name}.{port}" in leaving
-        ]
+        leaving = [port for port in element.outputs if f"{name}.{port}" in wiring.outlets]
+        lines += [f"  | {port} --> leaves the path" for port in leaving]
     return "\n".join(lines)
-
-
-def _in_order_of_travel(wiring: Wiring) -> list[str]:
-    passed = [name for stretch in wiring.stretches for name, _ in stretch.ports]
-    return list(dict.fromkeys([*passed, *wiring.elements]))
 
 
 def _values(element: Element) -> str:

@@ -84,8 +84,10 @@ def path_from_vertices(
     except PathError as error:
         faults += error.faults
         is_sound = is_sound and _is_sound(chain, len(several))
-    if normals is not None:
-        faults += _normal_faults(chain, normals, len(several), is_sound=is_sound)
+    if normals is not None and is_sound and not isinstance(chain, np.ndarray):
+        faults.append("normals are checked against points that are known; leave them out")
+    elif normals is not None:
+        faults += normal_faults(chain if is_sound else None, normals, len(several))
     if faults:
         raise PathError(*faults)
     return path
@@ -97,12 +99,6 @@ def _is_sound(chain: Any, count: int) -> bool:
     except ValueFault:
         return not isinstance(chain, np.ndarray)
     return True
-
-
-def _normal_faults(chain: Any, normals: Any, count: int, *, is_sound: bool) -> list[str]:
-    if is_sound and not isinstance(chain, np.ndarray):
-        return ["normals are checked against points that are known; leave them out"]
-    return normal_faults(chain if is_sound else None, normals, count)
 
 
 def _path(chain: Any, materials: Sequence[Any], intensity: Any) -> PathGraph:

@@ -56,9 +56,8 @@ def read_case(
         if _is_stokes(stokes):
             published[name] = tuple(map(float, stokes))
         else:
-            faults.append(
-                f"{where}.published.{name} must be four finite numbers, not {shown(stokes)}"
-            )
+            at = f"{where}.published.{name}"
+            faults.append(f"{at} must be four finite numbers, not {shown(stokes)}")
     return Case(values, published, table.get("note", ""))
 
 

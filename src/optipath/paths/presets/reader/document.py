@@ -83,13 +83,10 @@ def read(document: Table) -> PathGraph:
 
 def _tables(document: Table, section: str, faults: Faults) -> dict[str, Table]:
     tables = document.get(section, {})
-    found = {}
-    for name, table in tables.items() if isinstance(tables, dict) else ():
-        if isinstance(table, dict):
-            found[name] = table
-        else:
-            faults.append(f"{section}.{name} must be a table, not {shown(table)}")
-    return found
+    entries = tables.items() if isinstance(tables, dict) else ()
+    wrong = {name: table for name, table in entries if not isinstance(table, dict)}
+    faults += [f"{section}.{name} must be a table, not {shown(wrong[name])}" for name in wrong]
+    return {name: table for name, table in entries if name not in wrong}
 
 
 def _add(path: PathGraph, name: str, table: Table, parameters: Parameters, faults: Faults) -> bool:

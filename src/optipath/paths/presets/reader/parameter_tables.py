@@ -47,9 +47,7 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         word: faults.attempt(f"{where}.words.{word}", decode, raw, domain, {})
         for word, raw in table.get("words", {}).items()
     }
-    keys: dict[str, Any] = {
-        key: table[key] for key in ("help", "optional", "bound") if key in table
-    }
+    keys: dict[str, Any] = {k: table[k] for k in ("help", "optional", "bound") if k in table}
     keys |= {"unit": unit, "minimum": low, "maximum": high, "words": words}
     default = None
     if "default" in table and len(faults) == before:
@@ -57,7 +55,8 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         at = f"{where}.default"
         default = faults.attempt(at, decode_given, table["default"], open_one)
     if len(faults) > before:
-        _hint(where, unit, faults)
+        if not unit and any(f.startswith(where) and "has the unit" in f for f in faults):
+            faults.append(f'{where} declares no unit; if its values have one, add unit = "..."')
         return bare
     return faults.attempt(where, Parameter, name, default, **keys) or bare
 
@@ -71,8 +70,3 @@ def _range(where: str, table: dict[str, Any], domain: Domain, faults: Faults) ->
     if isinstance(low, list) or isinstance(high, list):
         faults.append(f"{where}: the ends of 'range' must be single values")
     return low, high
-
-
-def _hint(where: str, unit: str, faults: Faults) -> None:
-    if not unit and any(fault.startswith(where) and "has the unit" in fault for fault in faults):
-        faults.append(f'{where} declares no unit; if its values have one, add unit = "..."')
