@@ -202,6 +202,11 @@ class Plan(PlanTexts):
         **parameters : float or array_like
             As in `run`.
 
+        Returns
+        -------
+        Mueller
+            Of shape (..., 4, 4), the broadcast shape of all values in front.
+
         Raises
         ------
         ParameterError
@@ -227,6 +232,11 @@ class Plan(PlanTexts):
             Its name; needed only where there are several.
         **parameters : float or array_like
             As in `run`.
+
+        Returns
+        -------
+        Certificate
+            Its arrays have the broadcast shape of all values.
 
         Raises
         ------
@@ -263,6 +273,10 @@ class Plan(PlanTexts):
             How often light may be reflected at most on its way.
         **parameters : float or array_like
             As in `run`; of a batch, the brightest member counts.
+
+        Returns
+        -------
+        list of LightPath
 
         Raises
         ------

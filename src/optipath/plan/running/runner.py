@@ -132,6 +132,11 @@ class Runner:
             By which the batch is found again.
         ahead : int, optional
             How many paths there are in all, where this is a part.
+
+        Returns
+        -------
+        Any
+            As the class of the question says.
         """
         floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
         if floats and not given.batch:
@@ -247,6 +252,20 @@ class Runner:
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE
     ) -> AbstractContextManager[None]:
         """Return a context for so many numbers a path.
+
+        Parameters
+        ----------
+        batch : tuple of int
+            The shape of the batch.
+        numbers : int
+            How many of the plan's precision each path takes.
+        cure : str, optional
+            What to do where there is no memory for them.
+
+        Returns
+        -------
+        context manager
+            What runs out of memory within it raises the same error.
 
         Raises
         ------
