@@ -53,7 +53,7 @@ class Results(NamedTuple):
         rows : ndarray, shape (results, paths)
             The results.
         read : int
-            How many of them, the first, are given the precision of the plan; the others are exponents.
+            How many, the first, get the precision of the plan; the others are exponents.
         dtype : dtype
             That precision.
 

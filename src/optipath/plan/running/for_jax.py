@@ -76,8 +76,8 @@ class ForJax:
 
         Parameters
         ----------
-        sound : Array of bool
-            Where enough light leaves every loop for what JAX gives to hold.
+        sound : bool, of JAX
+            Whether so much light leaves every loop that what JAX gives holds.
         resolved : mapping of str to Resolved
             What is given.
 

@@ -40,7 +40,7 @@ def pieces(batch: tuple[int, ...], size: int) -> Iterator[Piece]:
     Yields
     ------
     Piece
-        None of a batch that is empty.
+        In the order of memory.
 
     Examples
     --------
