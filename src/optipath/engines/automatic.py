@@ -179,7 +179,20 @@ def usual_engine(engine: str, count: int, operations: int | None, *, floats: boo
 
 
 def cost(operations: int, count: int) -> float:
-    """Return how many seconds so many paths take without Numba."""
+    """Return how many seconds so many paths take without Numba.
+
+    Parameters
+    ----------
+    operations : int
+        How many each path takes.
+    count : int
+        How many paths.
+
+    Returns
+    -------
+    float
+        By floats or by NumPy, whichever takes less.
+    """
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
 
 
@@ -190,7 +203,20 @@ def most_operations(engine: str) -> float:
 
 
 def batches(engine: str, operations: int | None) -> str:
-    """Return in words what runs batches of which size."""
+    """Return in words what runs batches of which size.
+
+    Parameters
+    ----------
+    engine : str
+        What is asked for, other than ``"jax"``.
+    operations : int or None
+        How many each path takes; None where there is no formula.
+
+    Returns
+    -------
+    str
+        Without a full stop.
+    """
     if engine == "numba":
         return "one path of floats is run as Python, every array by numba"
     if engine == "numpy":
@@ -228,7 +254,19 @@ def missing(engine: str) -> MissingExtraError:
 
 
 def compile_array_path(engine: str, formula: Formula) -> ArrayPath:
-    """Return a formula compiled by an engine."""
+    """Return a formula compiled by an engine.
+
+    Parameters
+    ----------
+    engine : str
+        ``"numpy"`` or ``"numba"``.
+    formula : Formula
+        What is compiled.
+
+    Returns
+    -------
+    ArrayPath
+    """
     path: ArrayPath = REGISTRY[engine].compiled(formula)
     return path
 

@@ -59,8 +59,9 @@ class CodeCache:
 
     *It is bounded.* On disk by ``OPTIPATH_CACHE_BYTES`` (128 MiB), in memory by
     ``OPTIPATH_CACHE_FUNCTIONS`` (256): what has not been used for longest goes first. The
-    memory of a function is free again when no plan holds it either; of each that a process has
-    compiled itself, some 0.2 MB stay with Numba and LLVM.
+    memory of a function is free again when no plan holds it either, nor one of the last runners
+    that are kept for equal paths (`runner_for`); of each that a process has compiled itself,
+    some 0.2 MB stay with Numba and LLVM.
 
     Examples
     --------

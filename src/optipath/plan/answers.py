@@ -69,7 +69,22 @@ class Answers:
         return dict((self.approximation or self.light).answer(self.question, parameters))
 
     def stream(self, size: int, parameters: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:
-        """Yield the index of each part of a batch, and the light at every end for it."""
+        """Yield the index of each part of a batch, and the light at every end for it.
+
+        Parameters
+        ----------
+        size : int
+            How many paths a part has at most.
+        parameters : mapping of str to Any
+            What is given.
+
+        Yields
+        ------
+        where : tuple of (int or slice)
+            The index of the part.
+        lights : dict of str to (Stokes vectors, exponents)
+            As `lights` gives it.
+        """
         return (self.approximation or self.light).stream(self.question, size, parameters)
 
     def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Any:
@@ -83,6 +98,11 @@ class Answers:
             An end of the path as it stands.
         parameters : mapping of str to Any
             What is given.
+
+        Returns
+        -------
+        ndarray, shape (..., 4, 4)
+            In the frames of the source and of the end.
         """
         question = MatrixQuestion(self.plan.whole, source, reading)
         return self.whole.answer(question, parameters)
@@ -103,6 +123,10 @@ class Answers:
             As `lights` gives it.
         parameters, where
             As `framed` takes them.
+
+        Returns
+        -------
+        dict of str to Light
         """
         found = {}
         for name, reading in self.plan.program.readings.items():
@@ -124,6 +148,11 @@ class Answers:
             What was given.
         where : tuple, optional
             Which part of the batch the light is.
+
+        Returns
+        -------
+        Frame or LaterFrame
+            The latter is a frame when it is called.
         """
         if isinstance(frame, Frame):
             return frame

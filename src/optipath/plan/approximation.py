@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.plan.running.answering import Answering
 from optipath.plan.running.pieces import pieces
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ _MOST = 0.5
 """From which share of paths that need the exact model it is run for all."""
 
 
-class Approximation:
+class Approximation(Answering):
     """Runs a model that is not exact, path by path, as far as a tolerance allows.
 
     Two questions in turn: how large the errors are, and what the light is.
@@ -55,7 +56,6 @@ class Approximation:
         self.tolerance = tolerance
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
-        """Return the light at every end."""
         if self.exact.for_jax.is_asked(parameters):
             return self.exact.answer(question, parameters)
         return self._of(question, self.whole.read_for_bounds(parameters), parameters)
@@ -63,7 +63,6 @@ class Approximation:
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
-        """Yield the index of a part of the batch, and the light at every end for it."""
         if self.exact.for_jax.is_asked(parameters):
             yield from self.exact.stream(question, size, parameters)
             return

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from optipath.engines.automatic import LARGE
 from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.light.mueller.matrix import Mueller
+from optipath.plan.part import Part
 from optipath.plan.plan_texts import PlanTexts
 from optipath.values.whole_numbers import whole_number
 
@@ -26,13 +27,6 @@ if TYPE_CHECKING:
 
 
 _MADE = ("_detector", "answers")
-
-
-class Part(NamedTuple):
-    """A part of a batch: its index in arrays of the batch's shape, and its light."""
-
-    where: tuple[int | slice, ...]
-    light: Light
 
 
 @dataclass(frozen=True)
@@ -202,6 +196,11 @@ class Plan(PlanTexts):
         **parameters : float or array_like
             As in `run`.
 
+        Returns
+        -------
+        Mueller
+            Of shape (..., 4, 4), the broadcast shape of all values in front.
+
         Raises
         ------
         ParameterError
@@ -227,6 +226,11 @@ class Plan(PlanTexts):
             Its name; needed only where there are several.
         **parameters : float or array_like
             As in `run`.
+
+        Returns
+        -------
+        Certificate
+            Its arrays have the broadcast shape of all values.
 
         Raises
         ------
@@ -263,6 +267,10 @@ class Plan(PlanTexts):
             How often light may be reflected at most on its way.
         **parameters : float or array_like
             As in `run`; of a batch, the brightest member counts.
+
+        Returns
+        -------
+        list of LightPath
 
         Raises
         ------

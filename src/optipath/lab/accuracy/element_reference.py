@@ -75,7 +75,20 @@ class Reader:
         return np.broadcast_to(numbers, self.batch)[self.at]
 
     def real(self, value: Any, part: str = "") -> Any:
-        """Return a number."""
+        """Return a number.
+
+        Parameters
+        ----------
+        value : float, array_like or Parameter
+            A value of the path, or an operand of a kernel.
+        part : str, optional
+            Which of its parts, such as ``"real"``.
+
+        Returns
+        -------
+        mpf
+            As the float that the library is given has it, exactly.
+        """
         operand = Operand(value, part) if part else operand_of(value)
         number = exactly(self.pick(operand.numbers(self.given)))
         self.decades += abs(int(mpmath.log10(number))) if number > 0 else 0
@@ -92,13 +105,41 @@ class Reader:
         return mpmath.mpc(self.real(value, "real"), self.real(value, "imag"))
 
     def angle(self, value: Any, turns: int = 1) -> Any:
-        """Return an angle; its tangent, or that of `turns` times it, is what may be moved."""
+        """Return an angle; its tangent, or that of `turns` times it, is what may be moved.
+
+        Parameters
+        ----------
+        value : float, array_like or Parameter
+            In radians.
+        turns : int, optional
+            How many times the angle it is that matters.
+
+        Returns
+        -------
+        mpf
+            In radians; a multiple of 45 degrees is one exactly.
+        """
         return self.move(
             exact_angle(float(self.pick(operand_of(value).numbers(self.given)))), turns
         )
 
     def angle_along(self, per_length: Any, length: Any, turns: int = 1) -> Any:
-        """Return an angle that grows with a length, both given; else as `angle`."""
+        """Return an angle that grows with a length, both given; else as `angle`.
+
+        Parameters
+        ----------
+        per_length : float, array_like or Parameter
+            In radians a metre.
+        length : float, array_like or Parameter
+            In metres.
+        turns : int, optional
+            As in `angle`.
+
+        Returns
+        -------
+        mpf
+            In radians.
+        """
         angle = self.real(per_length) * self.real(length)
         nearest = exact_angle(float(angle))
         # A multiple of 45 degrees is one, however its factors are rounded.
@@ -112,7 +153,20 @@ class Reader:
         return cos_sin(exact_angle(angle))[operand.part == "sin"]
 
     def move(self, angle: Any, turns: int) -> Any:
-        """Return an angle, moved if it is the one."""
+        """Return an angle, moved if it is the one.
+
+        Parameters
+        ----------
+        angle : mpf
+            In radians.
+        turns : int
+            How many times the angle it is whose tangent changes.
+
+        Returns
+        -------
+        mpf
+            In radians, to first order in the change.
+        """
         self.count += 1
         if self.count - 1 != self.moved:
             return angle
@@ -127,7 +181,22 @@ def turn(angle: Any) -> Jones:
 
 @singledispatch
 def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
-    """Return the Jones matrix of a way through; None where only Mueller's will do."""
+    """Return the Jones matrix of a way through; None where only Mueller's will do.
+
+    Parameters
+    ----------
+    element : Element
+        What the light meets.
+    way : Coupling
+        The way through.
+    read : Reader
+        Gives its values in many digits.
+
+    Returns
+    -------
+    Jones or None
+        Its rows.
+    """
     del element, way, read
     return None
 
@@ -281,7 +350,17 @@ def _turned(matrix: Jones, angle: Any) -> Jones:
 
 
 def times(first: Jones, second: Jones) -> Jones:
-    """Return the product of two matrices."""
+    """Return the product of two matrices.
+
+    Parameters
+    ----------
+    first, second : Jones
+        The second is met first by the light.
+
+    Returns
+    -------
+    Jones
+    """
     (a, b), (c, d) = first
     (e, f), (g, h) = second
     return (a * e + b * g, a * f + b * h), (c * e + d * g, c * f + d * h)

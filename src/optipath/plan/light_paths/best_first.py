@@ -46,7 +46,17 @@ class _Branch:
 
 
 class Search:
-    """Goes along all ways at once, always on from where most may come of it."""
+    """Goes along all ways at once, always on from where most may come of it.
+
+    Parameters
+    ----------
+    whole : Runner
+        The path as it stands.
+    parameters : mapping of str to Any
+        What is given.
+    framed : callable
+        Gives the frame of a reading for these values, or what makes it.
+    """
 
     def __init__(
         self, whole: Runner, parameters: Mapping[str, Any], framed: Callable[[Any], Any]

@@ -38,6 +38,10 @@ def light_paths(
     framed : callable
         Gives the frame of a reading for these values, or what makes it.
 
+    Returns
+    -------
+    list of LightPath
+
     Raises
     ------
     ParameterError

@@ -86,11 +86,39 @@ class Layout:
         return tuple(self.shape[axis] for axis in sorted(axes))
 
     def among(self, array: Array, own: frozenset[int], axes: frozenset[int]) -> Array:
-        """Return an array with an axis for each of some, long where it differs along it."""
+        """Return an array with an axis for each of some, long where it differs along it.
+
+        Parameters
+        ----------
+        array : ndarray
+            One that differs along its own axes.
+        own : frozenset of int
+            These, of those that are left.
+        axes : frozenset of int
+            The axes that the result has.
+
+        Returns
+        -------
+        ndarray
+            A view where it can be one.
+        """
         return array.reshape([self.shape[axis] if axis in own else 1 for axis in sorted(axes)])
 
     def in_batch(self, array: Array, own: frozenset[int]) -> Array:
-        """Return an array with an axis for each of the batch, long where it differs along it."""
+        """Return an array with an axis for each of the batch, long where it differs along it.
+
+        Parameters
+        ----------
+        array : ndarray
+            One that differs along its own axes.
+        own : frozenset of int
+            These, of those that are left.
+
+        Returns
+        -------
+        ndarray
+            It broadcasts to the shape of the batch.
+        """
         lengths = [1] * len(self.batch)
         for axis in own:
             for member in self.groups[axis]:
@@ -101,7 +129,19 @@ class Layout:
 def sliced(array: Array, batch: tuple[int, ...], where: tuple[Any, ...]) -> Array:
     """Return what belongs to a part of the batch, still without the axes along which it is one.
 
-    The part is an index for each axis, or a mask of the paths in it.
+    Parameters
+    ----------
+    array : ndarray
+        It broadcasts to the batch.
+    batch : tuple of int
+        The shape of the batch.
+    where : tuple
+        The part: an index for each axis, or a mask of the paths in it.
+
+    Returns
+    -------
+    ndarray
+        It broadcasts to the part.
 
     Examples
     --------

@@ -46,19 +46,55 @@ class Results(NamedTuple):
 
     @classmethod
     def of(cls, rows: Array, read: int, dtype: np.dtype[Any]) -> Results:
-        """Return results that stand in rows, so many of them read in the precision of a plan."""
+        """Return results that stand in rows, so many of them read in the precision of a plan.
+
+        Parameters
+        ----------
+        rows : ndarray, shape (results, paths)
+            The results.
+        read : int
+            How many, the first, get the precision of the plan; the others are exponents.
+        dtype : dtype
+            That precision.
+
+        Returns
+        -------
+        Results
+        """
         out = rows if rows.dtype == dtype else rows[:read].astype(dtype)
         return cls([*out[:read], *rows[read:]], out, [*range(read), *[None] * (len(rows) - read)])
 
     def together(self, start: int, stop: int) -> Array | None:
-        """Return some results as rows of one array, if they stand there one after the other."""
+        """Return some results as rows of one array, if they stand there one after the other.
+
+        Parameters
+        ----------
+        start, stop : int
+            The range of the results.
+
+        Returns
+        -------
+        ndarray, shape (stop - start, paths), or None
+            A view of `out`.
+        """
         first = self.rows[start]
         if first is None or self.rows[start:stop] != list(range(first, first + stop - start)):
             return None
         return self.out[first : first + stop - start]
 
     def block(self, start: int, stop: int) -> Array:
-        """Return some results as rows of one array, copied if need be."""
+        """Return some results as rows of one array, copied if need be.
+
+        Parameters
+        ----------
+        start, stop : int
+            The range of the results.
+
+        Returns
+        -------
+        ndarray, shape (stop - start, paths)
+            A view of `out` where they stand there together.
+        """
         together = self.together(start, stop)
         if together is not None:
             return together
@@ -124,6 +160,10 @@ class BatchRunner:
             what is given.
         fallback : callable
             Gives the results for a piece of the batch, where the formula does not hold.
+
+        Returns
+        -------
+        Results
         """
         if self.formula.unread:
             refused()

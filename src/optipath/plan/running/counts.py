@@ -22,9 +22,19 @@ def operations(
 ) -> dict[str, int] | None:
     """Return how many operations a path takes in all, and of the dear sorts.
 
-    Light may be counted as carried in another way than it is.
+    Parameters
+    ----------
+    runner : Runner
+        What runs the path.
+    unreduced : bool
+        Whether everything is counted for each path.
+    carrier : type, optional
+        How light is carried, if not as it is.
 
-    None for what cannot be compiled, and so not counted.
+    Returns
+    -------
+    dict of str to int, or None
+        None for what cannot be compiled, and so not counted.
     """
     formulas = runner.formulas
     forms = formulas.all_given_as(MANY)
@@ -36,6 +46,18 @@ def operations(
 
 def evaluations(runner: Runner, parameters: Mapping[str, Any]) -> dict[str, int]:
     """Return how often the numbers of each step are computed for a batch.
+
+    Parameters
+    ----------
+    runner : Runner
+        What runs the path.
+    parameters : mapping of str to Any
+        What is given.
+
+    Returns
+    -------
+    dict of str to int
+        By the labels of the steps.
 
     Raises
     ------

@@ -72,7 +72,20 @@ class ForJax:
         return traced or self.options.engine == "jax"
 
     def needs_closer_look(self, sound: Any, resolved: Mapping[str, Resolved]) -> bool:
-        """Tell whether hardly any light leaves a loop, of values that are all known."""
+        """Tell whether hardly any light leaves a loop, of values that are all known.
+
+        Parameters
+        ----------
+        sound : bool, of JAX
+            Whether so much light leaves every loop that what JAX gives holds.
+        resolved : mapping of str to Resolved
+            What is given.
+
+        Returns
+        -------
+        bool
+            Never where JAX traces a value.
+        """
         traces = self.has_traced or any(is_traced(given.value) for given in resolved.values())
         return not traces and not np.all(sound)
 
@@ -87,6 +100,11 @@ class ForJax:
             What is given.
         axes : int
             How many there are behind the batch.
+
+        Returns
+        -------
+        Array
+            Of the shape of the numbers.
         """
         inside = self.inputs.inside(resolved)
         if inside is True:
@@ -98,6 +116,13 @@ class ForJax:
 
     def refuse_traced(self, parameters: Mapping[str, Any], what: str) -> None:
         """Refuse values that are not known yet.
+
+        Parameters
+        ----------
+        parameters : mapping of str to Any
+            What is given.
+        what : str
+            What is done, such as ``"certificates are made"``.
 
         Raises
         ------

@@ -89,6 +89,11 @@ class FormulaMaker:
             How light is carried, if not as it is.
         **options : Any
             Handed on.
+
+        Returns
+        -------
+        Formula
+            Of four components at every end, and of the exponents behind them.
         """
         kind, carrier = self.dtype.name, carrier or self.carrier
         return lights_formula(self.program, carrier, kind, forms, self.limits, **options)

@@ -38,7 +38,19 @@ class Stage(NamedTuple):
 
     @classmethod
     def of(cls, engine: str, formula: Formula) -> Stage:
-        """Return a formula compiled by an engine."""
+        """Return a formula compiled by an engine.
+
+        Parameters
+        ----------
+        engine : str
+            ``"numpy"`` or ``"numba"``.
+        formula : Formula
+            What is done.
+
+        Returns
+        -------
+        Stage
+        """
         inputs = tuple((formula.name_of(s), formula.place_of(s)) for s in formula.inputs)
         return cls(formula, compile_array_path(engine, formula), inputs)
 
@@ -99,7 +111,20 @@ class Grid:
             self.given.append(number)
 
     def fill(self, piece: Piece, out: Array) -> bool:
-        """Fill a piece of the results; return whether the formula holds for all of it."""
+        """Fill a piece of the results; return whether the formula holds for all of it.
+
+        Parameters
+        ----------
+        piece : Piece
+            Which paths.
+        out : ndarray, shape (results, paths)
+            Filled in the columns of these.
+
+        Returns
+        -------
+        bool
+            Where it is false, what was filled means nothing.
+        """
         given, count = list(self.given), piece.stop - piece.start
         for place in self.cells:
             # One number after the other.

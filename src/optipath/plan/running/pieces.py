@@ -30,6 +30,18 @@ class Piece(NamedTuple):
 def pieces(batch: tuple[int, ...], size: int) -> Iterator[Piece]:
     """Yield the parts of a batch in order, each of a size at most.
 
+    Parameters
+    ----------
+    batch : tuple of int
+        The shape of the batch.
+    size : int
+        How many paths a part has at most.
+
+    Yields
+    ------
+    Piece
+        In the order of memory.
+
     Examples
     --------
     >>> [piece.where for piece in pieces((2, 3), 4)]

@@ -158,7 +158,20 @@ class Recipe:
 
     @staticmethod
     def holds(given: ResolvedInputs, parameters: Mapping[str, Any]) -> bool:
-        """Tell whether what was read says as much of the next batch of the same shapes."""
+        """Tell whether what was read says as much of the next batch of the same shapes.
+
+        Parameters
+        ----------
+        given : ResolvedInputs
+            What was read.
+        parameters : mapping of str to Any
+            What it was read from.
+
+        Returns
+        -------
+        bool
+            Whether a recipe may be made of it.
+        """
         if not parameters.keys() <= {key.name for key in given.numbers}:
             return False  # What nothing needs is looked at each time.
         return all(

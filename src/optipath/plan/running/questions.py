@@ -67,23 +67,82 @@ class Question(ABC):
 
     @abstractmethod
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        """Return the formula of the results, for numbers of some forms."""
+        """Return the formula of the results, for numbers of some forms.
+
+        Parameters
+        ----------
+        maker : FormulaMaker
+            Makes the formulas of the program.
+        forms : mapping of InputKey to str
+            In which form each number is given.
+        axes : mapping of str to frozenset of int
+            Along which axes of a batch the arrays differ.
+
+        Returns
+        -------
+        Formula
+            Of `read` results, and of the exponents that may follow.
+        """
 
     @abstractmethod
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        """Return the results, shape (results, paths), step by step."""
+        """Return the results step by step.
+
+        Parameters
+        ----------
+        runner : Asked
+            What does the steps.
+        given : ResolvedInputs
+            The numbers.
+        shared : Shared
+            What some evaluations come to for the whole batch; only light makes use of it.
+
+        Returns
+        -------
+        ndarray, shape (results, paths)
+        """
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        """Return what the user gets of JAX; None where NumPy is to be asked."""
+        """Return what the user gets of JAX; None where NumPy is to be asked.
+
+        Parameters
+        ----------
+        runner : Asked
+            What runs the program by JAX.
+        resolved : mapping of str to Resolved
+            What is given, with defaults.
+        batch : tuple of int
+            The shape of all values together.
+        parameters : mapping of str to Any
+            What is given, as it came.
+
+        Returns
+        -------
+        Any
+            As `answer` gives it; None as well where the question is not for JAX.
+        """
         del runner, resolved, batch, parameters
 
     @abstractmethod
     def answer(self, results: Results, batch: Batch) -> Any:
-        """Return what the user gets."""
+        """Return what the user gets.
+
+        Parameters
+        ----------
+        results : Results
+            What the formula, or the steps, came to.
+        batch : tuple of int
+            The shape that the user gets.
+
+        Returns
+        -------
+        Any
+            As the class of the question says.
+        """
 
 
 class LightQuestion(Question):
-    """The light at every end, as (Stokes vectors, exponents of two).
+    """The light by the name of each end, as (Stokes vectors, exponents of two).
 
     A Stokes vector is an array (..., 4), or a tuple of its four components.
     """
@@ -99,15 +158,13 @@ class LightQuestion(Question):
         self.counts = [reading.components for reading in self.ends.values()]
 
     def numbers(self, *, stepped: bool) -> int:
-        """Return how many numbers a path takes; step by step, parts with exponents are joined."""
+        # Step by step, parts with exponents are joined.
         return (10 if stepped else 4) * len(self.ends)
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        """Return the formula of the components at every end, and of the exponents."""
         return maker.lights(forms, axes=axes, unreduced=maker.unreduced, polynomials=True)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        """Return the components at every end, and the exponents."""
         found = runner.interpreter.lights(given, shared)
         for (stokes, _), count in zip(found, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
@@ -115,7 +172,6 @@ class LightQuestion(Question):
         return np.concatenate([*components, *(power.reshape(1, -1) for _, power in found)])
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        """Return the light by the name of each end."""
         found, sound = runner.for_jax.path.lights(resolved, batch, parameters)
         if runner.for_jax.needs_closer_look(sound, resolved):
             return None
@@ -126,7 +182,6 @@ class LightQuestion(Question):
         return lights
 
     def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
-        """Return the light by the name of each end."""
         faint, found = False, {}
         for power in results.each[self.read :]:
             faint = faint or bool(power.any() if isinstance(power, np.ndarray) else power)
@@ -150,7 +205,17 @@ class LightQuestion(Question):
 
 
 class MatrixQuestion(Question):
-    """The Mueller matrix from a source to a reading, shape (..., 4, 4)."""
+    """The Mueller matrix from a source to a reading, shape (..., 4, 4).
+
+    Parameters
+    ----------
+    program : Program
+        The path as it stands.
+    source : str
+        The name of the source.
+    reading : Reading
+        An end of the path.
+    """
 
     read = 16
 
@@ -161,24 +226,20 @@ class MatrixQuestion(Question):
         self.key = source, reading.light, reading.components
 
     def numbers(self, *, stepped: bool) -> int:
-        """Return how many numbers a path takes: a matrix, twice."""
-        del stepped
+        del stepped  # The matrix, twice.
         return 32
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        """Return the formula of the matrix, row by row."""
         kind, limits = maker.dtype.name, maker.limits
         return matrix_formula(self.program, self.source, self.reading, kind, forms, limits, axes)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        """Return the sixteen entries."""
         del shared  # Each is needed in several columns.
         found = runner.interpreter.matrix(given, self.source, self.reading)
         runner.refuse_infinite(found[..., : self.reading.components, :])
         return found.reshape(-1, 16).T
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        """Return the matrices."""
         name = next(n for n, end in self.program.readings.items() if end is self.reading)
         found, sound = runner.for_jax.path.matrix(resolved, batch, parameters, self.source, name)
         if runner.for_jax.needs_closer_look(sound, resolved):
@@ -188,12 +249,11 @@ class MatrixQuestion(Question):
         return found
 
     def answer(self, results: Results, batch: Batch) -> Array:
-        """Return the matrices."""
         return _behind(results.block(0, 16), batch, (4, 4))
 
 
 class BoundsQuestion(Question):
-    """Bounds of the intensity at every end, as certificates."""
+    """Bounds of the intensity by the name of each end, as certificates."""
 
     model: str | None = None
 
@@ -204,21 +264,18 @@ class BoundsQuestion(Question):
         self.key = ("bounds", self.model)
 
     def numbers(self, *, stepped: bool) -> int:
-        """Return how many numbers a path takes; step by step, parts are joined."""
+        # Step by step, parts are joined.
         return 8 * len(self.ends) if stepped else self.read
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        """Return the formula of the bounds, four numbers for each end."""
         kind, limits = maker.dtype.name, maker.limits
         return bounds_formula(self.program, kind, forms, limits, axes, self.model)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        """Return the bounds, four numbers for each end."""
         del shared  # Those of bounds are of another sort.
         return np.concatenate([rows.reshape(4, -1) for rows in runner.interpreter.bounds(given)])
 
     def answer(self, results: Results, batch: Batch) -> dict[str, Certificate]:
-        """Return the certificate of each end."""
         each = results.block(0, self.read).reshape(len(self.ends), 4, *batch)
         return {
             name: Certificate(*map(np.asarray, found[:3]))
@@ -227,7 +284,15 @@ class BoundsQuestion(Question):
 
 
 class ErrorsQuestion(BoundsQuestion):
-    """The scalar intensity at every end, and the largest error of a model at any."""
+    """The scalar intensity by the name of each end, and the largest error of a model at any.
+
+    Parameters
+    ----------
+    program : Program
+        The path as it stands.
+    model : str
+        What is carried in place of all: ``"scalar"``, ``"sp"`` or ``"linear"``.
+    """
 
     def __init__(self, program: Program, model: str) -> None:
         self.model = model
@@ -235,14 +300,12 @@ class ErrorsQuestion(BoundsQuestion):
         self.read = len(self.ends) + 1
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        """Return the intensities, and the errors behind them."""
         bounds = super().rows(runner, given, shared).reshape(-1, 4, given.paths)
         assert self.model is not None  # noqa: S101 - for mypy
         errors = [Certificate(*found[:3]).error_of(self.model) for found in bounds]
         return np.array([*bounds[:, 0], np.max(errors, axis=0)])
 
     def answer(self, results: Results, batch: Batch) -> Any:
-        """Return the intensities by the names of the ends, and the errors."""
         *totals, error = (row.reshape(batch) for row in results.block(0, self.read))
         return dict(zip(self.ends, totals, strict=True)), error
 

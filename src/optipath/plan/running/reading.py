@@ -155,7 +155,20 @@ class InputReader:
         return ResolvedInputs(numbers, batch)
 
     def is_plain(self, name: str, value: Any) -> bool:
-        """Tell whether a value is taken as it stands: a float, an array of them, or an angle."""
+        """Tell whether a value is taken as it stands: a float, an array of them, or an angle.
+
+        Parameters
+        ----------
+        name : str
+            The parameter.
+        value : Any
+            What is given for it.
+
+        Returns
+        -------
+        bool
+            If not, the domain of the parameter looks at it.
+        """
         if name not in self._plain:
             return False
         tail = self.inputs.tails[name]
@@ -172,7 +185,22 @@ class InputReader:
         return bool(value.shape[value.ndim - len(tail) :] == tail)
 
     def part(self, key: InputKey, value: Any, present: Any = True) -> Any:  # noqa: FBT002
-        """Return a part of a value that has been read."""
+        """Return a part of a value that has been read.
+
+        Parameters
+        ----------
+        key : InputKey
+            Which part.
+        value : float or ndarray
+            The value.
+        present : bool or ndarray, optional
+            Where the element is there that has it.
+
+        Returns
+        -------
+        float, bool or ndarray
+            Without the axes of a row of numbers, of which the part is one.
+        """
         if key.part == "present":
             return True if np.all(present) else present
         if type(value) is float:

@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.engines.automatic import FLOATS, NUMPY_STEPS, usual_engine
 from optipath.errors import ParameterError
+from optipath.plan.running.answering import Answering
 from optipath.plan.running.batch import Layout
 from optipath.plan.running.batch_runner import Results
 from optipath.plan.running.for_jax import ForJax
@@ -40,7 +41,7 @@ MOST_KEPT = 64
 """How many sorts of batches are kept prepared; the oldest goes first."""
 
 
-class Runner:
+class Runner(Answering):
     """Runs one program, and keeps what has been prepared.
 
     Parameters
@@ -73,20 +74,6 @@ class Runner:
         self._recipes: dict[Any, Recipe] = {}
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
-        """Return what is asked for.
-
-        Parameters
-        ----------
-        question : Question
-            What that is.
-        parameters : mapping of str to Any
-            What is given.
-
-        Raises
-        ------
-        ParameterError
-            With every fault of what is given, or if a result is not finite.
-        """
         key = self.reader.key(parameters)
         recipe = None if key is None else self._recipes.get((question.key, key))
         numbers = None if recipe is None else recipe.numbers(parameters)
@@ -99,7 +86,6 @@ class Runner:
     def stream(
         self, question: Question, size: int, parameters: Mapping[str, Any]
     ) -> Iterator[tuple[Any, Any]]:
-        """Yield the index of a part of the batch, and what is asked for it."""
         if self.for_jax.is_asked(parameters):
             raise ParameterError(
                 "a stream is not for JAX, which keeps a batch whole; use run, or engine 'numba'"
@@ -132,6 +118,11 @@ class Runner:
             By which the batch is found again.
         ahead : int, optional
             How many paths there are in all, where this is a part.
+
+        Returns
+        -------
+        Any
+            As the class of the question says.
         """
         floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
         if floats and not given.batch:
@@ -247,6 +238,20 @@ class Runner:
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE
     ) -> AbstractContextManager[None]:
         """Return a context for so many numbers a path.
+
+        Parameters
+        ----------
+        batch : tuple of int
+            The shape of the batch.
+        numbers : int
+            How many of the plan's precision each path takes.
+        cure : str, optional
+            What to do where there is no memory for them.
+
+        Returns
+        -------
+        context manager
+            What runs out of memory within it raises the same error.
 
         Raises
         ------

@@ -61,6 +61,10 @@ class FloatFunction(NamedTuple):
             What is given, as formulas name it.
         layout : Layout
             The axes of the batch.
+
+        Returns
+        -------
+        ndarray or None
         """
         columns: list[Any] = []
         for name in self.names:

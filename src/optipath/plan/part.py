@@ -1,0 +1,23 @@
+"""Part: a piece of a stream of light."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from optipath.light.light import Light
+
+
+class Part(NamedTuple):
+    """A part of a batch, and its light.
+
+    Attributes
+    ----------
+    where : tuple of (int or slice)
+        The index of the part in arrays of the batch's shape.
+    light : Light
+        The light of the part.
+    """
+
+    where: tuple[int | slice, ...]
+    light: Light

@@ -1,0 +1,65 @@
+"""Answering: what runners have in common, whether they run one model or two in turn."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.plan.running.questions import Question
+
+
+class Answering(ABC):
+    """What answers questions about a path."""
+
+    @abstractmethod
+    def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
+        """Return what is asked for.
+
+        Parameters
+        ----------
+        question : Question
+            What that is.
+        parameters : mapping of str to Any
+            What is given.
+
+        Returns
+        -------
+        Any
+            As the class of the question says.
+
+        Raises
+        ------
+        ParameterError
+            With every fault of what is given, or if a result is not finite.
+        """
+
+    @abstractmethod
+    def stream(
+        self, question: Question, size: int, parameters: Mapping[str, Any]
+    ) -> Iterator[tuple[Any, Any]]:
+        """Yield what is asked for, part by part.
+
+        Parameters
+        ----------
+        question : Question
+            What that is.
+        size : int
+            How many paths a part has at most.
+        parameters : mapping of str to Any
+            What is given.
+
+        Yields
+        ------
+        where : tuple of (int or slice)
+            The index of the part in arrays of the batch's shape.
+        answer : Any
+            As `answer` gives it.
+
+        Raises
+        ------
+        ParameterError
+            As `answer`, of each part when it is met; and if JAX is asked, which has no parts.
+        """
