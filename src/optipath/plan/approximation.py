@@ -12,7 +12,7 @@ from optipath.plan.running.pieces import pieces
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.plan.running.questions import Question
+    from optipath.plan.running.question import Question
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.plan.running.runner import Runner
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from optipath.engines.automatic import LARGE
 from optipath.errors import ParameterError, did_you_mean, shown
 from optipath.light.frames import Frame
 from optipath.light.light import Light
@@ -83,25 +82,6 @@ class Plan(PlanTexts):
         With a tolerance, what is carried wherever a certificate allows it.
         """
         return self.instead.model if self.instead else self.reduction.model
-
-    @property
-    def engine(self) -> str:
-        """What runs large batches; `engine_for` says what runs smaller ones."""
-        return self.engine_for(LARGE).partition(",")[0]
-
-    def engine_for(self, count: int, /) -> str:
-        """Return what runs a batch of so many paths.
-
-        Examples
-        --------
-        >>> import optipath as op
-        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
-        >>> plan.engine, plan.engine_for(10)
-        ('numpy', 'numpy, step by step')
-        """
-        if faults := whole_number("the number of paths", count, 0):
-            raise ParameterError(*faults)
-        return self.answers.light.engine_for(count)
 
     def run(self, /, **parameters: Any) -> Light:
         """Return the light at the only detector.

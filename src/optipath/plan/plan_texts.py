@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.engines.automatic import LARGE
+from optipath.errors import ParameterError
+from optipath.values.whole_numbers import whole_number
+
 if TYPE_CHECKING:
     from optipath.plan.explanation import Explanation
 
@@ -12,6 +16,25 @@ class PlanTexts:
     """The part of a plan that explains it."""
 
     answers: Any
+
+    @property
+    def engine(self) -> str:
+        """What runs large batches; `engine_for` says what runs smaller ones."""
+        return self.engine_for(LARGE).partition(",")[0]
+
+    def engine_for(self, count: int, /) -> str:
+        """Return what runs a batch of so many paths.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> plan = op.Composer(engine="numpy").compose(op.load_preset("malus"))
+        >>> plan.engine, plan.engine_for(10)
+        ('numpy', 'numpy, step by step')
+        """
+        if faults := whole_number("the number of paths", count, 0):
+            raise ParameterError(*faults)
+        return self.answers.light.engine_for(count)
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.

@@ -6,7 +6,8 @@ import pytest
 
 import optipath as op
 from optipath.elements.coupling import Coupling
-from optipath.lab.accuracy.element_reference import Reader, mueller
+from optipath.lab.accuracy.element_reference import mueller
+from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
 from optipath.lab.accuracy.reference import reflection, transmission
 from published import npgr026

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.plan.running.questions import Question
+    from optipath.plan.running.question import Question
 
 
 class Answering(ABC):

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from optipath.plan.running.batch import Layout
     from optipath.plan.running.formula_maker import FormulaMaker
     from optipath.plan.running.options import RunOptions
-    from optipath.plan.running.questions import Question
+    from optipath.plan.running.question import Question
     from optipath.plan.running.reading import InputReader, ResolvedInputs
     from optipath.plan.running.scalar_runner import FloatFunction, ScalarRunner
     from optipath.values.operands import InputKey

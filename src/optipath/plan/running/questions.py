@@ -1,144 +1,28 @@
-"""What can be asked of a path: its light, a Mueller matrix, or bounds of its intensities.
-
-A question says which formula answers it, how it is answered step by step, what JAX is asked,
-and what becomes of the results. How a batch is run is the same for all: see `Runner`.
-"""
+"""What can be asked of a path: its light, a Mueller matrix, or bounds of its intensities."""
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.engines.formulas.path_formula import bounds_formula, matrix_formula
 from optipath.light.underflow import folded
 from optipath.plan.certificate import Certificate
-from optipath.values.arrays.memory import CURE
+from optipath.plan.running.question import Question
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Mapping
+    from collections.abc import Mapping
 
     from optipath.engines.formulas.formula import Formula
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.running.batch_runner import Results
-    from optipath.plan.running.for_jax import ForJax
     from optipath.plan.running.formula_maker import FormulaMaker
-    from optipath.plan.running.interpreter import Interpreter, Shared
+    from optipath.plan.running.interpreter import Shared
+    from optipath.plan.running.question import Asked, Batch
     from optipath.plan.running.reading import ResolvedInputs
 
     Array = np.ndarray[Any, Any]
-    Batch = tuple[int, ...]
-
-
-class Asked(Protocol):
-    """What a question asks: a program that is run step by step, or by JAX."""
-
-    interpreter: Interpreter
-    for_jax: ForJax
-
-    def refuse_infinite(self, numbers: Any) -> None:
-        """Refuse light that is not finite."""
-
-
-class Question(ABC):
-    """What is asked of a runner.
-
-    Attributes
-    ----------
-    key : hashable
-        By which what has been prepared for it is found again.
-    read : int
-        How many results are read; powers of two may follow, one for each end.
-    cure : str
-        What to do where there is no memory for a batch.
-    is_light : bool
-        Whether it is the light, for which there are functions of floats.
-    """
-
-    key: Hashable
-    read: int
-    cure = CURE
-    is_light = False
-
-    @abstractmethod
-    def numbers(self, *, stepped: bool) -> int:
-        """Return how many numbers a path takes at least, results and what is made on the way."""
-
-    @abstractmethod
-    def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        """Return the formula of the results, for numbers of some forms.
-
-        Parameters
-        ----------
-        maker : FormulaMaker
-            Makes the formulas of the program.
-        forms : mapping of InputKey to str
-            In which form each number is given.
-        axes : mapping of str to frozenset of int
-            Along which axes of a batch the arrays differ.
-
-        Returns
-        -------
-        Formula
-            Of `read` results, and of the exponents that may follow.
-        """
-
-    @abstractmethod
-    def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
-        """Return the results step by step.
-
-        Parameters
-        ----------
-        runner : Asked
-            What does the steps.
-        given : ResolvedInputs
-            The numbers.
-        shared : Shared
-            What some evaluations come to for the whole batch; only light makes use of it.
-
-        Returns
-        -------
-        ndarray, shape (results, paths)
-        """
-
-    def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:
-        """Return what the user gets of JAX; None where NumPy is to be asked.
-
-        Parameters
-        ----------
-        runner : Asked
-            What runs the program by JAX.
-        resolved : mapping of str to Resolved
-            What is given, with defaults.
-        batch : tuple of int
-            The shape of all values together.
-        parameters : mapping of str to Any
-            What is given, as it came.
-
-        Returns
-        -------
-        Any
-            As `answer` gives it; None as well where the question is not for JAX.
-        """
-        del runner, resolved, batch, parameters
-
-    @abstractmethod
-    def answer(self, results: Results, batch: Batch) -> Any:
-        """Return what the user gets.
-
-        Parameters
-        ----------
-        results : Results
-            What the formula, or the steps, came to.
-        batch : tuple of int
-            The shape that the user gets.
-
-        Returns
-        -------
-        Any
-            As the class of the question says.
-        """
 
 
 class LightQuestion(Question):

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from optipath.engines.program.program import Program
     from optipath.plan.running.options import RunOptions
-    from optipath.plan.running.questions import Question
+    from optipath.plan.running.question import Question
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
 
