@@ -9,8 +9,7 @@ import pytest
 
 import optipath as op
 from optipath.kernels.catalogue import METHODS, REFLECTION, TRANSMISSION
-from optipath.lab.accuracy import reference
-from optipath.lab.accuracy.boundary_reference import stack
+from optipath.lab.accuracy.boundary_reference import boundary, mueller_numbers, powers, stack
 from optipath.lab.accuracy.many_digits import cos_sin, exact_angle
 
 jax = pytest.importorskip("jax")
@@ -19,7 +18,6 @@ sloped = pytest.importorskip("optipath.engines.jax_primitives").sloped
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40
 PORTS = {"reflection": "reflected", "transmission": "transmitted"}
-REFERENCES = {"reflection": reference._reflected, "transmission": reference._transmitted}
 
 
 def all_or_some(combinations, *some):
@@ -66,7 +64,8 @@ def differences(function, point, order=1):
 
 def one_boundary(what):
     def light(n1, n, k, angle):
-        return seen(*REFERENCES[what](mpmath.mpc(n, k) / n1, *cos_sin(angle)))
+        face = boundary(mpmath.mpc(n, k) / n1, *cos_sin(angle))
+        return seen(*mueller_numbers(*powers(getattr(face, PORTS[what]))))
 
     return light
 
