@@ -34,7 +34,7 @@ class PlanTexts:
         """
         if faults := whole_number("the number of paths", count, 0):
             raise ParameterError(*faults)
-        return self.answers.light.engine_for(count)
+        return self.answers.light.engine_for(count)  # type: ignore[no-any-return]
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.
