@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def put_off() -> Iterator[None]:
-    """Collect no garbage for a while: each time, all elements of a long path are walked again.
+    """Collect no garbage for a while: each time, all elements of a long path are looked at.
 
     Examples
     --------

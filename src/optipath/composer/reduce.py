@@ -40,7 +40,7 @@ class Pass:
 
 
 def passes_for(model: str, composing: str, dtype: str) -> tuple[tuple[Pass, ...], int]:
-    """Return what programs go through, in order, and how often as long as the last one helps.
+    """Return what programs go through, in order, and how often as long as one of them helps.
 
     Parameters
     ----------
@@ -81,13 +81,13 @@ def reduced(whole: Program, model: str, composing: str, dtype: str) -> Reduction
         By any model but ``"full"``, the smallest one.
     """
     passes, rounds = passes_for(model, composing, dtype)
-    program, notes = whole, []
+    program, notes = whole, list[str]()
     for _ in range(rounds):
-        found: list[str] = []
+        done = len(notes)
         for each in passes:
             program, found = each(program)
             notes += found
-        if not found:
+        if len(notes) == done:
             break
     folded = tuple(dict.fromkeys(notes))
     program = replace(program, live=program.live or Live(program).components)

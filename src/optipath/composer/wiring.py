@@ -34,7 +34,7 @@ def link_text(link: Link) -> str:
 
 
 class Wiring:
-    """A graph of elements seen by its ports, each view gathered once.
+    """A graph of elements seen by its ports, each list of them gathered once.
 
     Working on ports rather than nodes tells light that passes an element twice, by
     different ways, from light that goes round in a loop.

@@ -224,7 +224,7 @@ class Operand:
         return (-high, -low) if self.value.negative else (low, high)
 
     def negated(self) -> Operand:
-        """Return the same view of the value with the other sign."""
+        """Return the same part of the value with the other sign."""
         return Operand(-self.value, self.part, self.tail)
 
     def key(self) -> Hashable:
