@@ -1,7 +1,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from optipath.kernels.numbers.double_double import DoubleDouble
@@ -65,6 +65,8 @@ def test_a_product_and_its_rounding_are_exact_in_every_precision(dtype):
     angle=st.one_of(st.floats(-10, 10), st.floats(1e-300, 1e-3), st.floats(-1e15, 1e15)),
     rest=st.floats(-0.4, 0.4),
 )
+@example(angle=901824470526042.0, rest=0.0)
+@example(angle=4e15, rest=0.3)
 def test_sines_and_cosines_have_twice_the_digits(xp, angle, rest):
     kind = float if xp is FLOAT else np.float64
     number = DoubleDouble(xp, kind(angle), kind(rest * 2.0**-53 * angle))

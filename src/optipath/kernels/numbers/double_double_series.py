@@ -116,6 +116,13 @@ def angle(y: DoubleDouble, x: DoubleDouble) -> DoubleDouble:
 
 def _near_zero(number: DoubleDouble, parts: Sequence[float]) -> tuple[Any, DoubleDouble]:
     """Return how many times something fits into a number, and what is left."""
+    count, left = _rest(number, parts)
+    # Of large numbers the quotient is rounded, and what is left may be more than half.
+    more, left = _rest(left, parts)
+    return count + more, left
+
+
+def _rest(number: DoubleDouble, parts: Sequence[float]) -> tuple[Any, DoubleDouble]:
     count = np.rint(number.high / parts[0])
     times = DoubleDouble(number.xp, count)
     return count, reduce(lambda left, part: left - times * part, parts, number)
