@@ -7,6 +7,7 @@ import optipath as op
 from optipath.engines.formulas.path_formula import lights_formula
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.values.operands import MANY
+from paths import chain
 
 numba_helpers = pytest.importorskip("optipath.engines.numba_helpers")
 from optipath.engines.machine_code import assembly  # noqa: E402 - needs numba
@@ -43,3 +44,23 @@ def test_what_a_product_loses_is_kept():
     a, b = 1.0 + 2.0**-30, 1.0 - 2.0**-29
     rest = numba_helpers.product_rest(a, b)
     assert rest == float(np.longdouble(a) * np.longdouble(b) - np.longdouble(a * b))
+
+
+SINGLE = np.linspace(0.1, 1.0, 5, dtype=np.float32)
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float16, ">f4", ">f8"])
+def test_arrays_of_any_precision_are_read_as_the_numbers_that_they_are(kind):
+    plan = op.Composer(engine="numba").compose(op.load_preset("malus"))
+    given = SINGLE.astype(kind)
+    law = 0.5 * np.cos(given.astype(np.float64)) ** 2
+    np.testing.assert_allclose(plan.run(angle=given).intensity, law, rtol=1e-14)
+    np.testing.assert_allclose(plan.mueller(angle=given).matrix[:, 0, 0], law, rtol=1e-14)
+
+
+def test_parts_of_complex_numbers_of_single_precision_are_read_as_what_they_are():
+    path = chain([op.Interface(op.Parameter("m"), 0.0)], [1.0, 0.0, 0.0, 0.0])
+    m = (1.5 + SINGLE + 1j * SINGLE).astype(np.complex64)
+    law = np.abs((m.astype(complex) - 1.0) / (m.astype(complex) + 1.0)) ** 2
+    found = op.Composer(engine="numba").compose(path).run(m=m).intensity
+    np.testing.assert_allclose(found, law, rtol=1e-13)

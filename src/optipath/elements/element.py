@@ -35,7 +35,8 @@ class Element:
     to light by either of
 
     - ``mueller_rows(xp, *values)``, a static method that returns the rows of its Mueller
-      matrix, elementwise: `xp` has ``sin``, ``cos``, ``exp``, ``sqrt``, ``where``, ...
+      matrix, elementwise and out of these values alone, since it is asked once for many
+      paths and runs: `xp` has ``sin``, ``cos``, ``exp``, ``sqrt``, ``where``, ...
       Each field gives one value, but an `Index` gives two (n and k), an `Amplitude` two
       (its parts), a Stokes vector four and a matrix sixteen. A field ``azimuth`` gives
       none: it turns the frame of ``in`` against the one before it, for every element; or

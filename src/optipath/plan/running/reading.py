@@ -99,6 +99,8 @@ class InputReader:
     def __init__(self, program: Program, inputs: Inputs, dtype: np.dtype[Any]) -> None:
         self.inputs = inputs
         self._widest = np.result_type(dtype, np.float64)
+        # An engine of doubles reads what it is given as doubles, where it stands.
+        self._known_kinds = "fd?" if dtype == np.float32 else "d?"
         found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         self.keys = {name: [r for r in found if r.name == name] for name in inputs.open}
         # A formula checks the range of a number that it reads, and of no other.
@@ -212,7 +214,7 @@ class InputReader:
         if isinstance(value, bool) or type(value) is float:
             return value
         array = np.asarray(value)
-        if array.dtype.char not in "fd?" or not array.dtype.isnative:
+        if array.dtype.char not in self._known_kinds or not array.dtype.isnative:
             array = array.astype(self._widest)
         return _one_number(array)
 
