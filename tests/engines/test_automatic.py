@@ -4,8 +4,12 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.composer import composer
 from optipath.engines import automatic
 from optipath.engines.automatic import FLOATS, HANDFUL, NUMPY_STEPS, EngineChoice
+from optipath.engines.engine import Engine
+from optipath.engines.known_engines import REGISTRY
+from optipath.engines.numpy_engine import NumpyEngine
 from optipath.plan.running import shared
 
 
@@ -121,3 +125,61 @@ def test_a_plan_says_what_ran():
     assert plan.engine_for(1000) == "numpy"
     stream = plan.stream(1000, angle=np.linspace(0.0, 1.0, 2500))
     assert [part.light.stokes.shape[0] for part in stream] == [1000, 1000, 500]
+
+
+class Toy(Engine):
+    """What NumPy does, counted, in one precision and for formulas that are not long."""
+
+    name, precisions, longest = "toy", ("float64",), 400
+
+    def __init__(self):
+        self.compilations = 0
+
+    def compiled(self, formula):
+        self.compilations += 1
+        return NumpyEngine().compiled(formula)
+
+
+@pytest.fixture
+def toy(monkeypatch):
+    engine = Toy()
+    monkeypatch.setitem(REGISTRY, "toy", engine)
+    monkeypatch.setitem(composer.CHOICES, "engine", (*automatic.ENGINES, "toy"))
+    shared._RUNNERS.clear()
+    return engine
+
+
+def test_a_new_engine_runs_what_is_composed_for_it(toy):
+    path, angles = op.load_preset("malus"), np.linspace(0.0, 1.0, 20)
+    plan = op.Composer(engine="toy").compose(path)
+    found = plan.run(angle=angles).stokes
+    assert toy.compilations
+    assert plan.engine == plan.engine_for(20) == plan.engine_for(10**6) == "toy"
+    assert plan.explain().count("every array by toy") == 1
+    numpy = op.Composer(engine="numpy").compose(path)
+    many = numpy.run(angle=np.resize(angles, 2000)).stokes
+    np.testing.assert_array_equal(found, many[:20])
+
+
+def test_a_new_engine_is_given_nothing_beyond_its_limits(toy):
+    single = op.Composer(engine="toy", dtype="float32").compose(op.load_preset("malus"))
+    single.run(angle=np.linspace(0.0, 1.0, 2000))
+    assert single.engine == single.engine_for(10) == "numpy"
+    assert "all paths are run by numpy, since toy does not take float32" in single.explain()
+    assert EngineChoice("toy", floats=True).of(2, Paths(400)) == "toy"
+    assert EngineChoice("toy", floats=True).of(2, Paths(401)) == "numpy"
+    assert not toy.compilations
+
+
+@pytest.mark.parametrize(
+    ("dtype", "engine", "words"),
+    [
+        ("float64", FLOATS, "fewer than 58 paths are run as floats one by one, more by numpy"),
+        ("float32", NUMPY_STEPS, "fewer than 58 paths are run step by step, more by numpy"),
+    ],
+)
+def test_the_explanation_says_what_runs_a_few_paths(dtype, engine, words):
+    plan = op.Composer(dtype=dtype).compose(op.load_preset("malus"))
+    assert plan.engine_for(10) == plan.engine_for(HANDFUL - 1) == engine
+    assert plan.engine_for(HANDFUL) == "numpy"
+    assert words in plan.explain()

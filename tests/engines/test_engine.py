@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optipath.engines.engine import Engine
-from optipath.engines.float_engine import FLOATS
+from optipath.engines.float_engine import FLOAT_ENGINE
 from optipath.engines.formulas.formula import Formula
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.known_engines import REGISTRY
@@ -29,7 +29,7 @@ def test_an_engine_whose_package_is_not_there_names_what_brings_it():
 
 
 def test_what_needs_no_compiler_is_always_ready():
-    assert FLOATS.is_ready(doubled())
+    assert FLOAT_ENGINE.is_ready(doubled())
     assert REGISTRY["numpy"].is_ready(doubled())
 
 

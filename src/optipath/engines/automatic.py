@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Any, Protocol
 
+from optipath.engines.float_engine import FloatEngine
 from optipath.engines.jax_engine import CarriedProgram
 from optipath.engines.known_engines import REGISTRY
 
@@ -20,11 +21,14 @@ if TYPE_CHECKING:
 
 ENGINES = ("auto", *REGISTRY)
 
-FLOATS = "floats"
+FLOATS = FloatEngine.name
 """What runs one path, and a handful one by one: functions of plain Python floats."""
 
 NUMPY_STEPS = "numpy, step by step"
 """What runs batches that are too small, or paths that are too long, to be compiled for."""
+
+COMPILER = "numba"
+"""The engine that compiles for "auto", where that pays."""
 
 LARGE = 1 << 30
 """A batch for which any engine is worth its while."""
@@ -57,11 +61,11 @@ class Work(Protocol):
 
     @property
     def is_kept(self) -> bool:
-        """Whether Numba's code of it is on disk."""
+        """Whether the compiler's code of it is on disk."""
 
 
 class EngineChoice:
-    """Chooses an engine for each batch of one sort, and keeps count of what others have cost.
+    """Chooses an engine for each batch of one kind, and keeps count of what others have cost.
 
     Parameters
     ----------
@@ -69,6 +73,8 @@ class EngineChoice:
         What is asked for; what JAX is not given is run step by step.
     floats : bool
         Whether all that is given are floats of double precision.
+    dtype : str, optional
+        The precision of the plan.
     runs : int, optional
         How many there have been.
 
@@ -78,13 +84,14 @@ class EngineChoice:
     'numpy, step by step'
     """
 
-    def __init__(self, engine: str, *, floats: bool, runs: int = 0) -> None:
+    def __init__(self, engine: str, *, floats: bool, dtype: str = "float64", runs: int = 0) -> None:
         self.engine = engine
-        self.most = most_operations(engine) if is_installed("numba") else -1
+        self.compiler = COMPILER if engine == "auto" else engine
+        self.most = most_operations(engine, dtype) if is_installed(self.compiler) else -1
         self.floats = floats
         self.settled = NUMPY_STEPS if engine == "jax" else ""
         # For how many paths something is made, be it never asked for again.
-        self._least = 0 if engine == "numba" else FEW
+        self._least = FEW if engine in ("auto", "numpy") else 0
         self._runs = runs
         self._cost = 0.0
         self._looked = False
@@ -118,14 +125,14 @@ class EngineChoice:
         if operations is None:
             self.settled = NUMPY_STEPS
         elif operations <= self.most and self._pays(operations, count, ahead, work):
-            self.settled = "numba"
-        elif self.engine == "numba":
+            self.settled = self.compiler
+        elif self.engine not in ("auto", "numpy"):
             self.settled = "numpy"
         return self.settled or (FLOATS if few else "numpy")
 
     def _pays(self, operations: int, count: int, ahead: int, work: Work) -> bool:
-        """Tell whether Numba is worth its while."""
-        if self.engine == "numba":
+        """Tell whether the compiler is worth its while; one that is asked for by name is."""
+        if self.engine != "auto":
             return True
         self._cost += cost(operations, count)
         earned = FORESIGHT * (self._cost + cost(operations, max(0, ahead - count)))
@@ -150,12 +157,14 @@ class _Unseen:
         return self.length
 
 
-def usual_engine(engine: str, count: int, operations: int | None, *, floats: bool) -> str:
+def default_engine(
+    engine: str, count: int, operations: int | None, *, floats: bool, dtype: str = "float64"
+) -> str:
     """Return what runs so many paths once that has been done several times.
 
     Parameters
     ----------
-    engine, floats
+    engine, floats, dtype
         As `EngineChoice` takes them.
     count : int
         How many paths.
@@ -169,12 +178,12 @@ def usual_engine(engine: str, count: int, operations: int | None, *, floats: boo
 
     Examples
     --------
-    >>> usual_engine("auto", 10, 300, floats=True)
+    >>> default_engine("auto", 10, 300, floats=True)
     'floats'
-    >>> usual_engine("numba", 10, 300, floats=True)
+    >>> default_engine("numba", 10, 300, floats=True)
     'numba'
     """
-    choice = EngineChoice(engine, floats=floats, runs=SEVERAL)
+    choice = EngineChoice(engine, floats=floats, dtype=dtype, runs=SEVERAL)
     return choice.of(count, _Unseen(operations))
 
 
@@ -196,13 +205,28 @@ def cost(operations: int, count: int) -> float:
     return operations * min(_BY_FLOATS * count, _CALL + _BY_NUMPY * count)
 
 
-def most_operations(engine: str) -> float:
-    """Return how many operations Numba is given: by name, as many as it can take."""
-    most = {"numba": REGISTRY["numba"].longest, "auto": 1500}
-    return most.get(engine, -1)
+def most_operations(engine: str, dtype: str) -> float:
+    """Return how many operations are compiled: by name, as many as the engine can take.
+
+    Parameters
+    ----------
+    engine : str
+        What is asked for.
+    dtype : str
+        The precision of the plan.
+
+    Returns
+    -------
+    float
+        -1 where nothing is compiled.
+    """
+    limits = REGISTRY[COMPILER if engine == "auto" else engine]
+    if engine == "numpy" or dtype not in limits.precisions:
+        return -1
+    return 1500 if engine == "auto" else limits.longest
 
 
-def batches(engine: str, operations: int | None) -> str:
+def batches(engine: str, operations: int | None, dtype: str) -> str:
     """Return in words what runs batches of which size.
 
     Parameters
@@ -211,23 +235,37 @@ def batches(engine: str, operations: int | None) -> str:
         What is asked for, other than ``"jax"``.
     operations : int or None
         How many each path takes; None where there is no formula.
+    dtype : str
+        The precision of the plan.
 
     Returns
     -------
     str
         Without a full stop.
     """
-    if engine == "numba":
-        return "one path of floats is run as Python, every array by numba"
+    most = most_operations(engine, dtype)
+    if 0 <= most < (operations or 0):
+        compiler = (COMPILER if engine == "auto" else engine).capitalize()
+        return (
+            f"large batches are run by numpy: formulas of more than {most:,} operations take "
+            f"{compiler} too long to compile"
+        )
     if engine == "numpy":
-        return f"less than {FEW:,} paths are run step by step, from {FEW:,} by numpy"
-    runs = f"less than {HANDFUL} paths are run as floats one by one, more by numpy"
-    if not operations or not is_installed("numba"):
+        return f"fewer than {FEW:,} paths are run step by step, from {FEW:,} by numpy"
+    floats = dtype == "float64"
+    if engine != "auto":
+        runs = engine if most >= 0 else f"numpy, since {engine} does not take {dtype}"
+        if floats:
+            return f"one path of floats is run as Python, every array by {runs}"
+        return f"all paths are run by {runs}"
+    how = "as floats one by one" if floats else "step by step"
+    runs = f"fewer than {HANDFUL} paths are run {how}, more by numpy"
+    if not operations or not is_installed(COMPILER):
         return runs
     price = _BEGINNING + _COMPILING * operations
     paths = price / (FORESIGHT * _BY_NUMPY * operations)
     return (
-        f"{runs}, and all by numba where it has compiled the path before, or after some "
+        f"{runs}, and all by {COMPILER} where it has compiled the path before, or after some "
         f"{paths:.2g} paths, when compiling takes less time than it saves"
     )
 
@@ -259,7 +297,7 @@ def compile_array_path(engine: str, formula: Formula) -> ArrayPath:
     Parameters
     ----------
     engine : str
-        ``"numpy"`` or ``"numba"``.
+        Any but ``"jax"``.
     formula : Formula
         What is compiled.
 
@@ -272,5 +310,5 @@ def compile_array_path(engine: str, formula: Formula) -> ArrayPath:
 
 
 def is_kept(formula: Formula) -> bool:
-    """Tell whether Numba's code of a formula is there already."""
-    return REGISTRY["numba"].is_ready(formula)
+    """Tell whether the compiler's code of a formula is there already."""
+    return REGISTRY[COMPILER].is_ready(formula)

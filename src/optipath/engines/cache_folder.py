@@ -165,14 +165,14 @@ def read_own(file: Path) -> bytes:
         return stream.read()
 
 
-def whole_number(name: str, usual: int) -> int:
+def whole_number_of_environment(name: str, default: int) -> int:
     """Return a number of the environment.
 
     Parameters
     ----------
     name : str
         What it is called there.
-    usual : int
+    default : int
         What it is where it is not set.
 
     Returns
@@ -184,7 +184,7 @@ def whole_number(name: str, usual: int) -> int:
     CacheError
         If it is no whole number.
     """
-    text = os.environ.get(name) or str(usual)
+    text = os.environ.get(name) or str(default)
     if not text.isascii() or not text.isdigit() or len(text) > 18:
-        raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {usual}")
+        raise CacheError(f"{name} is {shown(text)}; set it to a whole number such as {default}")
     return int(text)

@@ -17,7 +17,7 @@ from optipath.engines.cache_folder import (
     entries_in,
     own_folder,
     read_own,
-    whole_number,
+    whole_number_of_environment,
 )
 from optipath.engines.code_key import CODE_SUFFIX, name_of_code, name_of_text
 from optipath.errors import CacheError
@@ -83,12 +83,12 @@ class CodeCache:
     @property
     def limit(self) -> int:
         """How many bytes are kept on disk."""
-        return whole_number("OPTIPATH_CACHE_BYTES", 1 << 27)
+        return whole_number_of_environment("OPTIPATH_CACHE_BYTES", 1 << 27)
 
     @property
     def most_functions(self) -> int:
         """How many functions are kept in memory."""
-        return whole_number("OPTIPATH_CACHE_FUNCTIONS", 256)
+        return whole_number_of_environment("OPTIPATH_CACHE_FUNCTIONS", 256)
 
     def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         """Return the function of a text, compiled where it is not kept.

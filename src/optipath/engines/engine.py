@@ -9,11 +9,11 @@ from typing import ClassVar, Generic, TypeVar
 
 from optipath.errors import MissingExtraError
 
-Given = TypeVar("Given")
-Path = TypeVar("Path")
+FormulaT = TypeVar("FormulaT")
+PathT = TypeVar("PathT")
 
 
-class Engine(ABC, Generic[Given, Path]):
+class Engine(ABC, Generic[FormulaT, PathT]):
     """Makes a function of a formula: the one entry of an engine, in a file of its own.
 
     An engine takes a `Formula` and gives a function of numbers. JAX alone takes what stands
@@ -38,10 +38,10 @@ class Engine(ABC, Generic[Given, Path]):
     longest: ClassVar[float] = math.inf
 
     @abstractmethod
-    def compiled(self, formula: Given) -> Path:
+    def compiled(self, formula: FormulaT) -> PathT:
         """Return the function of a formula."""
 
-    def is_ready(self, formula: Given) -> bool:
+    def is_ready(self, formula: FormulaT) -> bool:
         """Tell whether a formula can be run at once: nothing is left to compile that takes time.
 
         Of what an extra brings, it is not known unless the engine says so.

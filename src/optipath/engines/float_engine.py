@@ -54,7 +54,7 @@ class FloatEngine(Engine["Formula", "Callable[..., tuple[Any, ...] | None]"]):
         return path
 
 
-FLOATS = FloatEngine()
+FLOAT_ENGINE = FloatEngine()
 
 
 def source(formula: Formula) -> str:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.automatic import LARGE, batches, most_operations
+from optipath.engines.automatic import LARGE, batches
 from optipath.errors import ParameterError
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
@@ -127,13 +127,8 @@ def _notes(plan: Any) -> Iterator[str]:
             f"all batches are run step by step: paths of at most {LONGEST} "
             f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
         )
-    elif engine in ("auto", "numba") and (runner.formulas.length or 0) > most_operations(engine):
-        yield (
-            f"large batches are run by numpy: formulas of more than "
-            f"{most_operations(engine):,} operations take Numba too long to compile"
-        )
     elif engine != "jax":
-        yield batches(engine, runner.formulas.length)
+        yield batches(engine, runner.formulas.length, runner.dtype.name)
     yield from _each(plan.copied, "feeds several links: each takes all its light")
 
 

@@ -109,7 +109,7 @@ def test_no_more_sorts_are_kept_than_there_is_room_for(monkeypatch):
         plan.run(theta=np.linspace(0.1, 1.2, count))
         plan.run(theta=0.2, phi=np.linspace(0.1, 1.2, count))
     assert len(plan.answers.light._recipes) <= 2
-    assert len(plan.answers.light._sorts) <= 2
+    assert len(plan.answers.light._kinds) <= 2
 
 
 def test_a_long_batch_is_looked_at_in_pieces(monkeypatch):

@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from optipath.values.operands import InputKey
 
 
-class Sort:
-    """Batches of one sort: one question, numbers of the same forms, the same axes.
+class BatchKind:
+    """Batches of one kind: one question, numbers of the same forms, the same axes.
 
     Parameters
     ----------
@@ -61,7 +61,7 @@ class Sort:
         self.formulas = formulas
         self.single = single
         self.options = options
-        self.choice = EngineChoice(options.engine, floats=floats)
+        self.choice = EngineChoice(options.engine, floats=floats, dtype=formulas.dtype.name)
 
     @cached_property
     def batches(self) -> BatchRunner | None:
@@ -94,7 +94,7 @@ class Sort:
 
     @property
     def is_kept(self) -> bool:
-        """Whether Numba's code is on disk."""
+        """Whether the compiler's code is on disk."""
         return self.batches is not None and all(map(is_kept, self.batches.parts))
 
 
@@ -103,7 +103,7 @@ class Prepared(NamedTuple):
 
     Attributes
     ----------
-    sort : Sort
+    kind : BatchKind
         What it has in common with others.
     layout : Layout
         Its axes.
@@ -111,7 +111,7 @@ class Prepared(NamedTuple):
         The arrays that are known beforehand, as formulas name them.
     """
 
-    sort: Sort
+    kind: BatchKind
     layout: Layout
     known: Mapping[str, np.ndarray[Any, Any]]
 

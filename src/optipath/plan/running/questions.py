@@ -66,23 +66,25 @@ class LightQuestion(Question):
         return lights
 
     def answer(self, results: Results, batch: Batch) -> dict[str, tuple[Any, Any]]:
-        faint, found = False, {}
+        underflow, found = False, {}
         for power in results.each[self.read :]:
-            faint = faint or bool(power.any() if isinstance(power, np.ndarray) else power)
+            underflow = underflow or bool(power.any() if isinstance(power, np.ndarray) else power)
         for end, name in enumerate(self.ends):
-            found[name] = self._light(results, batch, end, faint=faint)
+            found[name] = self._light(results, batch, end, underflow=underflow)
         return found
 
-    def _light(self, results: Results, batch: Batch, end: int, *, faint: bool) -> tuple[Any, Any]:
+    def _light(
+        self, results: Results, batch: Batch, end: int, *, underflow: bool
+    ) -> tuple[Any, Any]:
         first, count = 4 * end, self.counts[end]
         block = None if count < 4 else results.together(first, first + 4)
-        if block is None and not faint:
+        if block is None and not underflow:
             rest = [_in_shape(part, batch) for part in results.each[first + 1 : first + count]]
             return (results.array(first).reshape(batch), *rest, *[np.nan] * (4 - count)), 0
         stokes = _behind(results.block(first, first + 4) if block is None else block, batch, (4,))
         if count < 4:
             stokes[..., count:] = np.nan
-        if not faint:
+        if not underflow:
             return stokes, 0
         power = np.broadcast_to(results.each[self.read + end], results.out.shape[1])
         return folded(stokes, power.astype(np.int64).reshape(batch))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.automatic import FLOATS, NUMPY_STEPS, usual_engine
+from optipath.engines.automatic import FLOATS, NUMPY_STEPS, default_engine
 from optipath.errors import ParameterError
 from optipath.plan.running.answering import Answering
 from optipath.plan.running.batch import Layout
@@ -16,7 +16,7 @@ from optipath.plan.running.for_jax import ForJax
 from optipath.plan.running.formula_maker import FormulaMaker
 from optipath.plan.running.interpreter import Interpreter, carrier_of
 from optipath.plan.running.pieces import pieces
-from optipath.plan.running.prepared import Prepared, Recipe, Sort
+from optipath.plan.running.prepared import BatchKind, Prepared, Recipe
 from optipath.plan.running.reading import InputReader
 from optipath.plan.running.scalar_runner import ScalarRunner
 from optipath.values.arrays.jax_values import is_traced
@@ -38,7 +38,7 @@ CACHED = 8192
 """How many paths are taken at once, step after step."""
 
 MOST_KEPT = 64
-"""How many sorts of batches are kept prepared; the oldest goes first."""
+"""How many kinds of batches are kept prepared; the oldest goes first."""
 
 
 class Runner(Answering):
@@ -70,7 +70,7 @@ class Runner(Answering):
         self.interpreter = Interpreter(program, self.carrier, self.dtype)
         self.formulas = FormulaMaker(program, inputs, self.carrier, self.dtype, unreduced=unreduced)
         self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas)
-        self._sorts: dict[Any, Sort] = {}
+        self._kinds: dict[Any, BatchKind] = {}
         self._recipes: dict[Any, Recipe] = {}
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
@@ -133,7 +133,7 @@ class Runner(Answering):
         known = {name: given.cut(array) for name, array in self.formulas.known_arrays.items()}
         arrays = {str(key): n for key, n in given.numbers.items() if isinstance(n, np.ndarray)}
         layout = Layout(given.batch, arrays | known)
-        prepared = Prepared(self._sort(question, given, layout, floats=floats), layout, known)
+        prepared = Prepared(self._kind(question, given, layout, floats=floats), layout, known)
         if not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)
         elif key is not None and Recipe.holds(given, parameters):
@@ -158,17 +158,17 @@ class Runner(Answering):
         self.for_jax.refuse_traced(parameters, "certificates are made")
         return self.reader.read(parameters)
 
-    def _sort(
+    def _kind(
         self, question: Question, given: ResolvedInputs, layout: Layout, *, floats: bool
-    ) -> Sort:
+    ) -> BatchKind:
         """Return what this batch has in common with others."""
         forms = given.forms(self.dtype)
         key = question.key, forms, layout.key, floats
-        found = self._sorts.get(key)
+        found = self._kinds.get(key)
         if found is None:
             own = self.formulas, self.single, self.options
-            found = Sort(question, dict(forms), layout, *own, floats=floats)
-            _kept(self._sorts, key, found)
+            found = BatchKind(question, dict(forms), layout, *own, floats=floats)
+            _kept(self._kinds, key, found)
         return found
 
     def _run(
@@ -180,8 +180,8 @@ class Runner(Answering):
         given: ResolvedInputs | None = None,
         ahead: int = 0,
     ) -> Any:
-        sort, layout = prepared.sort, prepared.layout
-        engine = sort.choice.of(layout.paths, sort, ahead)
+        kind, layout = prepared.kind, prepared.layout
+        engine = kind.choice.of(layout.paths, kind, ahead)
         stepped = engine == NUMPY_STEPS
 
         def part(piece: Any) -> Array:
@@ -192,16 +192,16 @@ class Runner(Answering):
         numbers_each = 0 if few else question.numbers(stepped=stepped)
         with nullcontext() if few else self.enough_for(layout.batch, numbers_each, question.cure):
             rows = None
-            if engine == FLOATS and sort.function is not None:
-                rows = sort.function.rows(numbers, layout)
+            if engine == FLOATS and kind.function is not None:
+                rows = kind.function.rows(numbers, layout)
             if rows is not None:
                 results = Results.of(rows, question.read, self.dtype)
             elif stepped or engine == FLOATS:
                 self.inputs.resolve(parameters)
                 return self._stepped(question, given or self.reader.read(parameters))
             else:
-                assert sort.batches is not None  # noqa: S101 - or it would not be chosen
-                results = sort.batches.results(
+                assert kind.batches is not None  # noqa: S101 - or it would not be chosen
+                results = kind.batches.results(
                     engine, numbers, layout, lambda: self.inputs.resolve(parameters), part
                 )
             return question.answer(results, layout.batch)
@@ -230,9 +230,11 @@ class Runner(Answering):
             return engine
         if count == 1 and floats:
             return FLOATS
-        if any(sort.choice.settled == "numba" for sort in self._sorts.values()):
-            return "numba"
-        return usual_engine(engine, count, self.formulas.length, floats=floats)
+        for kind in self._kinds.values():
+            if kind.choice.settled == kind.choice.compiler:
+                return kind.choice.compiler
+        length, dtype = self.formulas.length, self.dtype.name
+        return default_engine(engine, count, length, floats=floats, dtype=dtype)
 
     def enough_for(
         self, batch: tuple[int, ...], numbers: int, cure: str = CURE

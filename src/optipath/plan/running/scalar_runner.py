@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from optipath.engines.float_engine import FLOATS
+from optipath.engines.float_engine import FLOAT_ENGINE
 from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
 
@@ -113,16 +113,16 @@ class ScalarRunner:
         self.functions: dict[frozenset[str], FloatFunction | None] = {}
         self._looked_at: set[frozenset[str]] = set()
         self._runs = 0
-        self._usual: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
+        self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
     def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
         """Return what `lights` gives for plain floats beside defaults, without reading them.
 
         None where no function has been made, or where it takes more care.
         """
-        if self._usual is None:
+        if self._default_call is None:
             return None
-        path, order, names = self._usual
+        path, order, names = self._default_call
         for name, value in parameters.items():
             if type(value) is not float or name not in names:
                 return None
@@ -142,8 +142,8 @@ class ScalarRunner:
             return self._stepped(given)
         if absent not in self._looked_at:
             self._looked_at.add(absent)
-            if self._is_usual(given):
-                self._usual = self._unread(given, function)
+            if self._is_default(given):
+                self._default_call = self._unread(given, function)
         return _called(function.path, [given.numbers[key] for key in function.keys])
 
     def function(self, absent: frozenset[str]) -> FloatFunction | None:
@@ -166,9 +166,9 @@ class ScalarRunner:
         names = tuple(str(symbol.operands[0]) for symbol in formula.inputs)
         named = {str(key): key for key in keys}
         own = [named[name] for name in names if name in named]
-        return FloatFunction(FLOATS.compiled(formula), names, own, len(formula.steps))
+        return FloatFunction(FLOAT_ENGINE.compiled(formula), names, own, len(formula.steps))
 
-    def _is_usual(self, given: ResolvedInputs) -> bool:
+    def _is_default(self, given: ResolvedInputs) -> bool:
         """Tell whether the optional elements are there as they are by default."""
         there = {key.name: n for key, n in given.numbers.items() if key.part == "present"}
         opened = self.inputs.open
