@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.fresnel.boundary import hypotenuse
+from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Primitives

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.kernels.fresnel.boundary import complex_root
+from optipath.kernels.numbers.complex_pairs import complex_root
 
 if TYPE_CHECKING:
     from collections.abc import Callable

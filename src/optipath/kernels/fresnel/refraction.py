@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.fresnel.boundary import absorbing_boundary, hypotenuse, refracted_wave
+from optipath.kernels.fresnel.boundary import absorbing_boundary, refracted_wave
+from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives

@@ -8,9 +8,9 @@ from optipath.kernels.fresnel.boundary import (
     Boundary,
     absorbing_boundary,
     denser_boundary,
-    hypotenuse,
     lossless_boundary,
 )
+from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:
     from collections.abc import Callable
