@@ -111,6 +111,17 @@ def test_memory_is_asked_of_the_machine_and_taken_for_16_gib_where_it_does_not_t
         plan().run(**GOLD, **WIDE)
 
 
+def test_few_paths_of_which_much_is_kept_are_asked_for_too(monkeypatch):
+    path = op.PathGraph()
+    node = path.add("lamp", op.Source(op.Parameter("power")))
+    for number in range(300):
+        node = node >> path.add(f"filter{number}", op.Attenuator(0.999))
+    node >> path.add("eye", op.Detector())
+    monkeypatch.setattr(memory, "memory", lambda: 2**27)
+    with pytest.raises(op.ParameterError, match=r"of shape \(8000,\), takes 0.2 GB"):
+        op.Composer(keep="all").compose(path).run_all(power=np.ones(8000))
+
+
 def test_memory_that_runs_out_on_the_way_is_told_in_the_same_words():
     told = pytest.raises(op.ShapeError, match=r"a batch of 12 paths, of shape \(3, 4\), takes")
     with told, memory.enough_for((3, 4), 32):

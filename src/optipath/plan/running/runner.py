@@ -40,6 +40,9 @@ CACHED = 8192
 MOST_KEPT = 64
 """How many kinds of batches are kept prepared; the oldest goes first."""
 
+_LITTLE = 1 << 20
+"""How many bytes every machine has memory for."""
+
 
 class Runner(Answering):
     """Runs one program, and keeps what has been prepared.
@@ -188,9 +191,9 @@ class Runner(Answering):
             whole = given or self.reader.read(parameters)
             return question.rows(self, whole.part(piece.where), {})
 
-        few = layout.paths <= CACHED  # which every machine has memory for
-        numbers_each = 0 if few else question.numbers(stepped=stepped)
-        with nullcontext() if few else self.enough_for(layout.batch, numbers_each, question.cure):
+        each = question.numbers(stepped=stepped)
+        little = layout.paths * each * self.dtype.itemsize <= _LITTLE
+        with nullcontext() if little else self.enough_for(layout.batch, each, question.cure):
             rows = None
             if engine == FLOATS and kind.function is not None:
                 rows = kind.function.rows(numbers, layout)
