@@ -14,7 +14,8 @@ from optipath.composer.path_values import Values
 from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.validate import refuse_faults
 from optipath.composer.wiring import KEPT, LOOPS, Wiring
-from optipath.engines.automatic import ENGINES, is_installed, missing
+from optipath.engines.automatic import ENGINES, is_installed
+from optipath.engines.known_engines import REGISTRY
 from optipath.engines.program.reduction import MODELS
 from optipath.errors import ComposerError, shown, unknown
 from optipath.kernels.catalogue import METHODS
@@ -122,7 +123,7 @@ class Composer:
             for word in (self.engine, self.dtype, self.model, self.composing)
         )
         if engine in ENGINES and not is_installed(engine):
-            faults += missing(engine).faults
+            faults += REGISTRY[engine].missing.faults
         if (engine, dtype) == ("jax", "longdouble"):
             faults.append("engine 'jax' has no longdouble; use engine 'numpy'")
         faults += whole_number("threads", self.threads)

@@ -8,16 +8,10 @@ for each operation of a batch, however small, and Numba for compiling it.
 from __future__ import annotations
 
 import sys
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Protocol
 
 from optipath.engines.float_engine import FloatEngine
-from optipath.engines.jax_engine import CarriedProgram
 from optipath.engines.known_engines import REGISTRY
-
-if TYPE_CHECKING:
-    from optipath.engines.array_path import ArrayPath
-    from optipath.engines.formulas.formula import Formula
-    from optipath.errors import MissingExtraError
 
 ENGINES = ("auto", *REGISTRY)
 
@@ -273,42 +267,3 @@ def batches(engine: str, operations: int | None, dtype: str) -> str:
 def is_installed(engine: str) -> bool:
     """Tell whether what an engine needs is installed, without importing it."""
     return engine == "auto" or REGISTRY[engine].is_installed
-
-
-def jax_path(*program: Any) -> Any:
-    """Return a program for JAX.
-
-    Raises
-    ------
-    MissingExtraError
-        If JAX is not installed.
-    """
-    return REGISTRY["jax"].compiled(CarriedProgram(*program))
-
-
-def missing(engine: str) -> MissingExtraError:
-    """Return the error that an engine is not installed."""
-    return REGISTRY[engine].missing
-
-
-def compile_array_path(engine: str, formula: Formula) -> ArrayPath:
-    """Return a formula compiled by an engine.
-
-    Parameters
-    ----------
-    engine : str
-        Any but ``"jax"``.
-    formula : Formula
-        What is compiled.
-
-    Returns
-    -------
-    ArrayPath
-    """
-    path: ArrayPath = REGISTRY[engine].compiled(formula)
-    return path
-
-
-def is_kept(formula: Formula) -> bool:
-    """Tell whether the compiler's code of a formula is there already."""
-    return REGISTRY[COMPILER].is_ready(formula)

@@ -12,7 +12,8 @@ from itertools import product
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.composer import Composer
-from optipath.engines.automatic import ENGINES, is_installed, missing
+from optipath.engines.automatic import ENGINES, is_installed
+from optipath.engines.known_engines import REGISTRY
 from optipath.kernels.catalogue import METHODS
 from optipath.lab.bench.random_values import random_values
 from optipath.lab.bench.timing import race
@@ -91,7 +92,7 @@ def bench(
     found = [*engines] or [name for name in ENGINES if name != "auto" and is_installed(name)]
     for engine in found:
         if not is_installed(engine):
-            raise missing(engine)
+            raise REGISTRY[engine].missing
 
     @cache
     def plan_of(engine: str, dtype: str, method: str) -> Plan:

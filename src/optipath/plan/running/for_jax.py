@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.automatic import jax_path
+from optipath.engines.jax_engine import CarriedProgram
+from optipath.engines.known_engines import REGISTRY
 from optipath.errors import ParameterError
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_jax, is_traced, namespace
@@ -48,7 +49,8 @@ class ForJax:
     @cached_property
     def path(self) -> Any:
         """The program, ready for JAX."""
-        return jax_path(self.program, self.carrier, np.dtype(self.options.dtype))
+        program = CarriedProgram(self.program, self.carrier, np.dtype(self.options.dtype))
+        return REGISTRY["jax"].compiled(program)
 
     @cached_property
     def has_traced(self) -> bool:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines.automatic import compile_array_path
+from optipath.engines.known_engines import REGISTRY
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,7 +52,7 @@ class Stage(NamedTuple):
         Stage
         """
         inputs = tuple((formula.name_of(s), formula.place_of(s)) for s in formula.inputs)
-        return cls(formula, compile_array_path(engine, formula), inputs)
+        return cls(formula, REGISTRY[engine].compiled(formula), inputs)
 
 
 class Grid:

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.engines.automatic import EngineChoice, is_kept
+from optipath.engines.automatic import COMPILER, EngineChoice
+from optipath.engines.known_engines import REGISTRY
 from optipath.plan.running.batch_runner import BatchRunner
 from optipath.values.operands import ABSENT
 
@@ -95,7 +96,9 @@ class BatchKind:
     @property
     def is_kept(self) -> bool:
         """Whether the compiler's code is on disk."""
-        return self.batches is not None and all(map(is_kept, self.batches.parts))
+        return self.batches is not None and all(
+            map(REGISTRY[COMPILER].is_ready, self.batches.parts)
+        )
 
 
 class Prepared(NamedTuple):
