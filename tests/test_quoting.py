@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.errors import OptipathError, did_you_mean, few_suggestions, printable, shown
+from optipath.errors import OptipathError, did_you_mean, printable, shown
+from optipath.spelling import few_suggestions
 
 
 def deep(levels):

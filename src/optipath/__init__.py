@@ -5,10 +5,18 @@ composer aligns the frames and orders the work; the plan it makes runs on one se
 values or on millions.
 """
 
-# First, for Ctrl-C while the others are imported.
+import sys
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+# At once, for Ctrl-C while the others are imported.
 from optipath.errors import (
+    AngleWarning,
     ComposerError,
     FrameError,
+    IndexFault,
+    LightError,
     LoopWarning,
     OptipathError,
     ParameterError,
@@ -18,64 +26,68 @@ from optipath.errors import (
     UnitError,
     ValueFault,
 )
+from optipath.spelling import closest
 
-# isort: split
-from optipath.composer.composer import Composer
-from optipath.elements.attenuator import Attenuator
-from optipath.elements.beam_splitter import BeamSplitter
-from optipath.elements.combiner import Combiner
-from optipath.elements.coupling import Coupling, Operation
-from optipath.elements.depolarizer import Depolarizer
-from optipath.elements.diattenuator import Diattenuator
-from optipath.elements.element import Element
-from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
-from optipath.elements.interface import Interface
-from optipath.elements.layer_stack import LayerStack
-from optipath.elements.medium import Medium
-from optipath.elements.mirror import Mirror
-from optipath.elements.mueller_element import MuellerElement
-from optipath.elements.polarizer import Polarizer
-from optipath.elements.retarder import Retarder
-from optipath.elements.rotator import Rotator
-from optipath.elements.source import Source
-from optipath.elements.specular_vertex import SpecularVertex
-from optipath.elements.terminal import Detector, Dump
-from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
-from optipath.light.frames import Frame
-from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
-from optipath.light.light import Light
-from optipath.light.mueller.matrix import LuChipman, Mueller
-from optipath.paths.path_graph import PathGraph
-from optipath.paths.polarization_matters import Polarization, polarization
-from optipath.paths.presets.loader import load_preset, preset_names
-from optipath.paths.vertex_paths import path_from_vertices
-from optipath.plan.certificate import Certificate, intensity_bounds
-from optipath.plan.light_paths.light_path import LightPath
-from optipath.plan.plan import Plan
-from optipath.values.angles import CosSin
-from optipath.values.cases import Case
-from optipath.values.domains.quantities import (
-    Absorption,
-    Amplitude,
-    Angle,
-    AnglePerLength,
-    Fraction,
-    Incidence,
-    Index,
-    Length,
-    MuellerMatrix,
-    NonNegative,
-    Real,
-    StokesState,
-)
-from optipath.values.materials import Material
-from optipath.values.parameters import Parameter
+if TYPE_CHECKING:
+    from optipath.composer.composer import Composer
+    from optipath.elements.attenuator import Attenuator
+    from optipath.elements.beam_splitter import BeamSplitter
+    from optipath.elements.combiner import Combiner
+    from optipath.elements.coupling import Coupling, Operation
+    from optipath.elements.depolarizer import Depolarizer
+    from optipath.elements.diattenuator import Diattenuator
+    from optipath.elements.element import Element
+    from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
+    from optipath.elements.interface import Interface
+    from optipath.elements.layer_stack import LayerStack
+    from optipath.elements.medium import Medium
+    from optipath.elements.mirror import Mirror
+    from optipath.elements.mueller_element import MuellerElement
+    from optipath.elements.polarizer import Polarizer
+    from optipath.elements.retarder import Retarder
+    from optipath.elements.rotator import Rotator
+    from optipath.elements.source import Source
+    from optipath.elements.specular_vertex import SpecularVertex
+    from optipath.elements.terminal import Detector, Dump
+    from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
+    from optipath.light.frames import Frame
+    from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
+    from optipath.light.light import Light
+    from optipath.light.mueller.matrix import LuChipman, Mueller
+    from optipath.paths.path_graph import PathGraph
+    from optipath.paths.polarization_matters import Polarization, polarization
+    from optipath.paths.presets.loader import load_preset, preset_names
+    from optipath.paths.vertex_paths import path_from_vertices
+    from optipath.plan.certificate import Certificate, intensity_bounds
+    from optipath.plan.light_paths.light_path import LightPath
+    from optipath.plan.plan import Plan
+    from optipath.values.angles import CosSin
+    from optipath.values.cases import Case
+    from optipath.values.domains.quantities import (
+        Absorption,
+        Amplitude,
+        Angle,
+        AnglePerLength,
+        Fraction,
+        Incidence,
+        Index,
+        Length,
+        MuellerMatrix,
+        NonNegative,
+        Real,
+        StokesState,
+        YesOrNo,
+    )
+    from optipath.values.follows import FOLLOWS
+    from optipath.values.materials import Material
+    from optipath.values.parameters import Parameter
 
-__all__ = [
+__all__ = [  # noqa: RUF022 - as sorted() has it
     "Absorption",
     "Amplitude",
     "Angle",
     "AnglePerLength",
+    "AngleWarning",
     "Attenuator",
     "BeamSplitter",
     "Case",
@@ -90,15 +102,18 @@ __all__ = [
     "Diattenuator",
     "Dump",
     "Element",
+    "FOLLOWS",
     "Fraction",
     "Frame",
     "FrameError",
     "Incidence",
     "Index",
+    "IndexFault",
     "Interface",
     "LayerStack",
     "Length",
     "Light",
+    "LightError",
     "LightPath",
     "LoopWarning",
     "LuChipman",
@@ -130,6 +145,7 @@ __all__ = [
     "UnitError",
     "ValueFault",
     "VerticesByAngles",
+    "YesOrNo",
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
@@ -141,3 +157,83 @@ __all__ = [
     "refraction_angle",
     "vertices_from_angles",
 ]
+
+_HOMES = {
+    "composer.composer": ["Composer"],
+    "elements.attenuator": ["Attenuator"],
+    "elements.beam_splitter": ["BeamSplitter"],
+    "elements.combiner": ["Combiner"],
+    "elements.coupling": ["Coupling", "Operation"],
+    "elements.depolarizer": ["Depolarizer"],
+    "elements.diattenuator": ["Diattenuator"],
+    "elements.element": ["Element"],
+    "elements.fresnel": ["fresnel_reflection", "fresnel_transmission", "refraction_angle"],
+    "elements.interface": ["Interface"],
+    "elements.layer_stack": ["LayerStack"],
+    "elements.medium": ["Medium"],
+    "elements.mirror": ["Mirror"],
+    "elements.mueller_element": ["MuellerElement"],
+    "elements.polarizer": ["Polarizer"],
+    "elements.retarder": ["Retarder"],
+    "elements.rotator": ["Rotator"],
+    "elements.source": ["Source"],
+    "elements.specular_vertex": ["SpecularVertex"],
+    "elements.terminal": ["Detector", "Dump"],
+    "elements.vertices.by_angles": ["VerticesByAngles", "vertices_from_angles"],
+    "light.frames": ["Frame"],
+    "light.incidence": ["PlaneOfIncidence", "plane_of_incidence"],
+    "light.light": ["Light"],
+    "light.mueller.matrix": ["LuChipman", "Mueller"],
+    "paths.path_graph": ["PathGraph"],
+    "paths.polarization_matters": ["Polarization", "polarization"],
+    "paths.presets.loader": ["load_preset", "preset_names"],
+    "paths.vertex_paths": ["path_from_vertices"],
+    "plan.certificate": ["Certificate", "intensity_bounds"],
+    "plan.light_paths.light_path": ["LightPath"],
+    "plan.plan": ["Plan"],
+    "values.angles": ["CosSin"],
+    "values.cases": ["Case"],
+    "values.domains.quantities": [
+        "Absorption",
+        "Amplitude",
+        "Angle",
+        "AnglePerLength",
+        "Fraction",
+        "Incidence",
+        "Index",
+        "Length",
+        "MuellerMatrix",
+        "NonNegative",
+        "Real",
+        "StokesState",
+        "YesOrNo",
+    ],
+    "values.follows": ["FOLLOWS"],
+    "values.materials": ["Material"],
+    "values.parameters": ["Parameter"],
+}
+"""Where the names are from; all are imported when the first of them is used (PEP 562)."""
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+if not TYPE_CHECKING:  # Else any name would do for who checks types.
+
+    def __getattr__(name: str) -> Any:
+        if name == "__version__":
+            from importlib.metadata import version  # noqa: PLC0415 - takes its time
+
+            return version("optipath")
+        if not any(name in names for names in _HOMES.values()):
+            if find_spec(f"optipath.{name}") is not None:
+                return import_module(f"optipath.{name}")
+            near = closest(name, __all__)
+            cure = f"; did you mean '{near}'?" if near else ""
+            wrong = f"module 'optipath' has no attribute '{name}'{cure}"
+            raise AttributeError(wrong, name=name, obj=sys.modules[__name__])
+        for home, names in _HOMES.items():
+            module = import_module(f"optipath.{home}")
+            globals().update({each: getattr(module, each) for each in names})
+        return globals()[name]

@@ -6,30 +6,25 @@ while NumPy, which takes longer than a user to change their mind, is still being
 
 from __future__ import annotations
 
-import math
 import os
 import re
 import signal
 import sys
-from contextlib import contextmanager, suppress
-from contextvars import ContextVar
+from contextlib import suppress
 from copyreg import __newobj__  # type: ignore[attr-defined]
-from difflib import get_close_matches
 from reprlib import Repr
 from typing import TYPE_CHECKING, Any
 
+from optipath.spelling import closest, looks_left
+
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterable, Sequence
 
 INTERRUPTED = 130
 """The status of a command that Ctrl-C ended: 128 and the number of the signal."""
 
 _LONGEST = 600
-_MOST_NAMES = 1000
 _MOST_LISTED = 30
-_LONGEST_NAME = 100
-
-_looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 
 
 class OptipathError(Exception):
@@ -40,6 +35,8 @@ class OptipathError(Exception):
     *faults : str
         One sentence for each fault: the thing, the value, and the cure. Control characters
         that it quotes are shown by their codes.
+    about : str, optional
+        What all of them are about, such as a file.
 
     Examples
     --------
@@ -47,12 +44,18 @@ class OptipathError(Exception):
     2 faults:
     - port 'a.out' is free
     - port 'b.in' is fed twice
+    >>> print(OptipathError("'kind' is missing", about="glass.toml"))
+    glass.toml: 'kind' is missing
     """
 
-    def __init__(self, *faults: str) -> None:
+    about = ""
+
+    def __init__(self, *faults: str, about: str = "") -> None:
         short = tuple(printable(_shortened(fault)) for fault in faults)
         super().__init__(*short)
         self.faults = short
+        if about:
+            self.about = printable(_shortened(about))
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Whatever a subclass is made of, its sentences are what it is.
@@ -61,8 +64,10 @@ class OptipathError(Exception):
     def __str__(self) -> str:
         """All faults, one a line; a single fault stands alone."""
         if len(self.faults) == 1:
-            return self.faults[0]
-        return "\n".join([f"{len(self.faults)} faults:", *(f"- {fault}" for fault in self.faults)])
+            return f"{self.about}: {self.faults[0]}" if self.about else self.faults[0]
+        counted = f"{len(self.faults)} faults:"
+        head = f"{self.about} has {counted}" if self.about else counted
+        return "\n".join([head, *(f"- {fault}" for fault in self.faults)])
 
 
 class FrameError(OptipathError):
@@ -81,6 +86,14 @@ class ValueFault(OptipathError):  # noqa: N818 - a fault is what the messages ca
     """A number outside the domain of the quantity it is given for."""
 
 
+class LightError(OptipathError, TypeError):
+    """Something that cannot be done with light, such as to take it times -1."""
+
+
+class IndexFault(OptipathError, IndexError):  # noqa: N818 - a fault is what the messages call it
+    """An index that does not fit a batch of light."""
+
+
 class PathError(OptipathError):
     """A path graph that cannot be composed; carries every fault found."""
 
@@ -91,6 +104,10 @@ class CacheError(OptipathError):
 
 class LoopWarning(UserWarning):
     """Nearly all of the light that goes round in a loop comes back each time."""
+
+
+class AngleWarning(UserWarning):
+    """An angle beyond a whole turn, given as a plain number: degrees, perhaps, for radians."""
 
 
 class MissingExtraError(OptipathError):
@@ -142,38 +159,25 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     >>> did_you_mean("xyz", ["in", "out"])
     '; there are: in, out'
     """
-    left = _looks_left.get()
-    if left <= 0:
+    if not looks_left():
         return ""
-    _looks_left.set(left - 1)
     names = list(known)
-    text = word if isinstance(word, str) else shown(word)
-    # The time of a comparison grows with the product of the lengths.
-    near = [n for n in reversed(names[:_MOST_NAMES]) if len(n) <= _LONGEST_NAME >= len(text)]
-    by_lower = {name.lower(): name for name in near}
-    close = get_close_matches(text.lower(), by_lower, n=1)
-    if close:
-        return f"; did you mean '{by_lower[close[0]]}'?"
-    if (more := len(names) - _MOST_LISTED) > 0:
-        return f"; there are: {', '.join(names[:_MOST_LISTED])} and {more} more"
-    return f"; there are: {', '.join(names)}" if names else "; there are none"
+    if (found := closest(word if isinstance(word, str) else shown(word), names)) is not None:
+        return f"; did you mean '{found}'?"
+    return there_are(names)
 
 
-@contextmanager
-def few_suggestions(most: int = 20) -> Iterator[None]:
-    """Let `did_you_mean` look for so many words inside, and no more: each look takes its time.
+def there_are(names: Sequence[str]) -> str:
+    """Return what there is, ready to be put behind a fault.
 
     Examples
     --------
-    >>> with few_suggestions(1):
-    ...     [did_you_mean(word, ["in", "out"]) for word in ("ou", "inn")]
-    ["; did you mean 'out'?", '']
+    >>> there_are(["in", "out"]), there_are([])
+    ('; there are: in, out', '; there are none')
     """
-    token = _looks_left.set(most)
-    try:
-        yield
-    finally:
-        _looks_left.reset(token)
+    if (more := len(names) - _MOST_LISTED) > 0:
+        return f"; there are: {', '.join(names[:_MOST_LISTED])} and {more} more"
+    return f"; there are: {', '.join(names)}" if names else "; there are none"
 
 
 def unknown(what: str, word: object, known: Collection[str]) -> list[str]:

@@ -122,8 +122,9 @@ def test_a_picture_is_as_wide_as_what_it_shows(tmp_path, capsys):
     assert "eye" * 60 + ".in" in "".join(ET.fromstring(picture.read_text("utf-8")).itertext())  # noqa: S314
 
 
-def bare(text):
-    return sorted(re.findall(r"[^\s│┃]+", text))
+def words_of(text):
+    """The words of what is printed, in a table or row by row, the frame of tables aside."""
+    return {word.rstrip(":,") for word in re.findall(r"[^\s│┃┏┳┓┡╇┩├┼┤└┴┘━─]+", text)}
 
 
 @pytest.mark.parametrize("columns", ["", "0", "1", "20", "-5", "abc", "²", "9" * 5000, "50"])
@@ -131,13 +132,10 @@ def bare(text):
     "command", [["presets"], ["show", "npgr026"], ["run", "npgr026", "--case", "3"]]
 )
 def test_nothing_is_cut_whatever_columns_says(columns, command, monkeypatch, capsys):
-    def words():
-        return [word for word in bare(everything(capsys, *command)[1]) if word[0] not in "┏┡├└"]
-
     monkeypatch.setenv("COLUMNS", "300")
-    whole = words()
+    whole = everything(capsys, *command)[1]
     monkeypatch.setenv("COLUMNS", columns)
-    assert words() == whole
+    assert words_of(everything(capsys, *command)[1]) >= words_of(whole)
 
 
 @pytest.mark.parametrize(

@@ -61,7 +61,7 @@ def test_an_interrupt_while_it_starts_is_told_in_one_line(library, as_script, tm
     (tmp_path / "bin").mkdir()
     environment = with_library(tmp_path, library, WAITS)
     start = script(tmp_path / "bin") if as_script else START
-    found = interrupted(["presets"], environment, signal.SIGINT, start)
+    found = interrupted(["run", "malus"], environment, signal.SIGINT, start)
     assert found == (130, "optipath: interrupted\n")
 
 

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.values.made import checked_later
 
 
 def chain(*elements):
@@ -21,48 +22,49 @@ def faults_of(path):
 
 
 @pytest.mark.parametrize(
-    ("element", "message"),
+    ("make", "message"),
     [
-        (op.Interface(1.5, -0.1), "e0.incidence is -5.72"),
-        (op.Interface(1.5, 1.6), "within 0 deg .. 90 deg"),
-        (op.Interface(-1.5, 0.1), "e0.index is"),
-        (op.Interface(1.5 - 1j, 0.1), "k > 0 absorbs"),
-        (op.Interface(np.nan, 0.1), "e0.index is nan"),
-        (op.Interface(complex(1.5, np.inf), 0.1), "finite"),
-        (op.Interface(op.Material(-1.0, 0.0), 0.1), "e0.index.n is -1"),
-        (op.Interface(op.Material(1.0, -2.0), 0.1), "e0.index.k is -2"),
-        (op.Interface(1.5, 0.1, outside=0.0), "e0.outside is 0"),
-        (op.Interface(1.5, 0.1, outside=1.5 + 1j), "e0.outside is complex"),
-        (op.Interface(1.5, 0.1, outside=op.Material(1.5, 0.1)), "e0.outside.k is 0.1"),
-        (op.Interface("glass", 0.1), "e0.index must be"),
-        (op.Interface(1.5, None), "e0.incidence must be"),
-        (op.Interface(1.5, [0.1, [0.2]]), "unequal"),
-        (op.Polarizer(np.inf), "e0.angle is inf"),
-        (op.Polarizer(transmittance=1.5), "e0.transmittance is 1.5"),
-        (op.Polarizer(1j), "e0.angle is complex"),
-        (op.Attenuator(-0.1), "e0.transmittance is -0.1"),
-        (op.Retarder("quarter"), "e0.retardance must be"),
-        (op.MuellerElement(np.eye(3)), "shape (..., 4, 4), not (3, 3)"),
+        (lambda: op.Interface(1.5, -0.1), "e0.incidence is -5.72"),
+        (lambda: op.Interface(1.5, 1.6), "within 0 deg .. 90 deg"),
+        (lambda: op.Interface(-1.5, 0.1), "e0.index is"),
+        (lambda: op.Interface(1.5 - 1j, 0.1), "k > 0 absorbs"),
+        (lambda: op.Interface(np.nan, 0.1), "e0.index is nan"),
+        (lambda: op.Interface(complex(1.5, np.inf), 0.1), "finite"),
+        (lambda: op.Interface(op.Material(-1.0, 0.0), 0.1), "e0.index.n is -1"),
+        (lambda: op.Interface(op.Material(1.0, -2.0), 0.1), "e0.index.k is -2"),
+        (lambda: op.Interface(1.5, 0.1, outside=0.0), "e0.outside is 0"),
+        (lambda: op.Interface(1.5, 0.1, outside=1.5 + 1j), "e0.outside is complex"),
+        (lambda: op.Interface(1.5, 0.1, outside=op.Material(1.5, 0.1)), "e0.outside.k is 0.1"),
+        (lambda: op.Interface(1.5, None), "e0.incidence must be"),
+        (lambda: op.Interface(1.5, [0.1, [0.2]]), "unequal"),
+        (lambda: op.Polarizer(np.inf), "e0.angle is inf"),
+        (lambda: op.Polarizer(transmittance=1.5), "e0.transmittance is 1.5"),
+        (lambda: op.Polarizer(1j), "e0.angle is complex"),
+        (lambda: op.Attenuator(-0.1), "e0.transmittance is -0.1"),
+        (lambda: op.MuellerElement(np.eye(3)), "shape (..., 4, 4), not (3, 3)"),
     ],
 )
-def test_a_value_out_of_its_domain_is_named_with_its_node(element, message):
+def test_a_value_out_of_its_domain_is_named_with_its_node_where_a_path_is_checked(make, message):
+    with checked_later():
+        element = make()
     (fault,) = faults_of(chain(element))
     assert message in fault
 
 
 @pytest.mark.parametrize(
-    ("source", "message"),
+    ("make", "message"),
     [
-        (op.Source(-1.0), "lamp.intensity is -1"),
-        (op.Source(stokes=[1.0, 1.0, 0.1, 0.0]), "more than 100 %"),
-        (op.Source(stokes=[-1.0, 0.0, 0.0, 0.0]), "negative intensity -1"),
-        (op.Source(stokes=[1.0, 0.0, 0.0]), "shape (..., 4), not (3,)"),
-        (op.Source(stokes=[np.nan, 0.0, 0.0, 0.0]), "nan"),
+        (lambda: op.Source(-1.0), "lamp.intensity is -1"),
+        (lambda: op.Source(stokes=[1.0, 1.0, 0.1, 0.0]), "more than 100 %"),
+        (lambda: op.Source(stokes=[-1.0, 0.0, 0.0, 0.0]), "negative intensity -1"),
+        (lambda: op.Source(stokes=[1.0, 0.0, 0.0]), "shape (..., 4), not (3,)"),
+        (lambda: op.Source(stokes=[np.nan, 0.0, 0.0, 0.0]), "nan"),
     ],
 )
-def test_light_that_cannot_be_is_refused(source, message):
+def test_light_that_cannot_be_is_refused_where_a_path_is_checked(make, message):
     path = op.PathGraph()
-    path.add("lamp", source) >> path.add("eye", op.Detector())
+    with checked_later():
+        path.add("lamp", make()) >> path.add("eye", op.Detector())
     (fault,) = faults_of(path)
     assert message in fault
 
@@ -76,8 +78,9 @@ def test_fully_polarised_light_is_allowed_whatever_its_rounding():
 
 def test_all_faults_are_told_at_once():
     path = op.PathGraph()
-    path.add("lamp", op.Source(-1.0))
-    path.add("glass", op.Interface(np.nan, 2.0))
+    with checked_later():
+        path.add("lamp", op.Source(-1.0))
+        path.add("glass", op.Interface(np.nan, 2.0))
     path.add("alone", op.Polarizer())
     path.connect("lamp.out", "glass.in")
     faults = faults_of(path)
@@ -92,8 +95,9 @@ def test_a_node_that_no_source_reaches_is_named():
 
 
 def test_a_node_that_reaches_no_detector_is_named():
-    path = chain()
-    path["lamp"] >> path.add("lost", op.Polarizer())
+    path = chain(op.Interface(1.5, 0.3))
+    path.add("lost", op.Polarizer())
+    path.connect("e0.transmitted", "lost.in")
     (fault,) = faults_of(path)
     assert "'lost' reaches no detector" in fault
     assert "'lost.out'" in fault
@@ -128,12 +132,13 @@ def test_an_in_port_fed_twice_is_named_with_both_feeders():
 
 
 def test_a_cycle_is_printed_in_order():
-    path = chain(op.Combiner(), op.Polarizer())
-    split = path.add("split", op.BeamSplitter())
-    path["e1"] >> split
+    path = op.PathGraph()
+    around = path.add("e0", op.Combiner()) >> path.add("e1", op.Polarizer())
+    path.add("lamp", op.Source()) >> path["e0"]
+    around >> path.add("split", op.BeamSplitter())
     path.connect("split.reflected", "e0.in")
-    path.add("dump", op.Dump())
-    path.connect("split.transmitted", "dump.in")
+    path.add("eye", op.Detector())
+    path.connect("split.transmitted", "eye.in")
     faults = faults_of(path)
     assert " | ".join(faults) == (
         "light goes round in a cycle: e0 -> e1 -> split -> e0; "
@@ -175,7 +180,8 @@ def test_a_parameter_is_one_kind_of_value():
 
 
 def test_shapes_are_told_beside_other_faults():
-    path = chain(op.Polarizer(np.zeros(2), transmittance=np.ones(3), leakage=3.0))
+    with checked_later():
+        path = chain(op.Polarizer(np.zeros(2), transmittance=np.ones(3), leakage=3.0))
     faults = " | ".join(faults_of(path))
     assert "e0.leakage is 3" in faults
     assert "e0.angle (2,), e0.transmittance (3,)" in faults
@@ -210,8 +216,8 @@ def test_one_parameter_and_its_negative_cancel():
 
 
 def test_a_parameter_of_another_dimension_is_refused():
-    (fault,) = faults_of(chain(op.Attenuator(op.Parameter("t", unit="deg"))))
-    assert "'t' is in deg, but e0.transmittance takes" in fault
+    with pytest.raises(op.ValueFault, match="'t' is in deg, but Attenuator transmittance takes"):
+        op.Attenuator(op.Parameter("t", unit="deg"))
 
 
 def test_an_optional_parameter_may_only_take_out_what_light_goes_straight_through():
@@ -229,10 +235,8 @@ def test_one_optional_parameter_is_enough_for_an_element():
 
 @pytest.mark.parametrize("reads", ["stoke", 3, None, op.Parameter("reads")])
 def test_a_reading_that_does_not_exist_is_refused(reads):
-    path = op.PathGraph()
-    path.add("lamp", op.Source()) >> path.add("eye", op.Detector(reads=reads))
-    (fault,) = faults_of(path)
-    assert "eye.reads" in fault
+    with pytest.raises(op.ValueFault, match="Detector reads"):
+        op.Detector(reads=reads)
 
 
 def test_an_azimuth_is_given_in_one_place():

@@ -40,5 +40,5 @@ def test_a_depolarizer_that_takes_nothing_is_left_out():
 
 @pytest.mark.parametrize("depolarization", [-0.1, 1.1])
 def test_shares_outside_0_to_1_are_refused(depolarization):
-    with pytest.raises(op.PathError, match=r"depolarizer\.depolarization is"):
-        op.Depolarizer(depolarization).mueller()
+    with pytest.raises(op.ValueFault, match=r"^Depolarizer depolarization is"):
+        op.Depolarizer(depolarization)

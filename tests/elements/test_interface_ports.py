@@ -80,12 +80,8 @@ def test_the_last_face_of_a_slab_keeps_its_digits_next_to_grazing_incidence():
 
 @pytest.mark.parametrize("value", [0.0, -1.0, 1.5 + 1j, "air", op.Material(1.0, 0.1)])
 def test_the_incidence_is_measured_in_a_medium_that_light_comes_from(value):
-    path = op.PathGraph()
-    lamp = path.add("lamp", op.Source())
-    face = path.add("face", op.Interface(1.5, 0.5, incidence_in=value))
-    lamp >> face >> path.add("eye", op.Detector())
-    with pytest.raises(op.PathError, match=r"face\.incidence_in"):
-        path.check()
+    with pytest.raises(op.ValueFault, match=r"^Interface incidence_in"):
+        op.Interface(1.5, 0.5, incidence_in=value)
 
 
 def test_the_azimuth_of_an_element_is_that_of_its_front():

@@ -70,8 +70,8 @@ def test_a_parameter_of_amplitudes_may_be_real_and_have_a_sign():
 
 
 def test_amplitudes_that_give_light_are_refused():
-    with pytest.raises(op.PathError, match=r"mirror\.r_s is 1\.2; .* a size of 1 or less") as error:
-        op.Mirror(1.2, 0.8 + 0.8j).mueller()
+    with pytest.raises(op.ValueFault, match=r"Mirror r_s is 1\.2; .* a size of 1 or less") as error:
+        op.Mirror(1.2, 0.8 + 0.8j)
     assert len(error.value.faults) == 2
 
 
@@ -123,3 +123,31 @@ def test_amplitudes_may_be_given_as_texts(tmp_path):
     file = tmp_path / "mirror.toml"
     file.write_text(text)
     assert op.load_preset(str(file)) == path
+
+
+@pytest.mark.parametrize("amplitude", [0.9, -0.9, 0.3 - 0.4j, "-0.9+0.1j", np.array([0.1, 0.2])])
+@pytest.mark.parametrize("given", ["r_s", "r_p"])
+def test_where_one_amplitude_is_given_the_other_is_minus_that(given, amplitude):
+    matrix = op.Mirror(**{given: amplitude}).mueller().matrix
+    share = np.abs(complex(amplitude) if isinstance(amplitude, str) else amplitude) ** 2
+    ideal = np.diag([1.0, 1.0, -1.0, -1.0])
+    np.testing.assert_allclose(matrix, np.multiply.outer(share, ideal), rtol=1e-15, atol=1e-16)
+
+
+def test_an_amplitude_follows_a_parameter_and_goes_to_files_so():
+    path = chain([op.Mirror(op.Parameter("r"))], STATE)
+    wanted = np.array([1.0, 0.5, -0.6, -0.4]) * 0.81
+    np.testing.assert_allclose(path.trace(r=-0.9).stokes, wanted, rtol=1e-15)
+    assert 'r_p = "-$r"' in path.to_toml()
+
+
+def test_a_file_that_says_one_amplitude_has_the_other(tmp_path):
+    file = tmp_path / "path.toml"
+    text = chain([op.Mirror(-0.9)]).to_toml()
+    file.write_text(text.replace("r_p = 0.9\n", ""), "utf-8")
+    assert "r_p = 0.9\n" in text
+    assert op.load_preset(file) == chain([op.Mirror(-0.9, 0.9)])
+    file.write_text(text.replace("r_p = 0.9\n", "").replace("r_s = -0.9", "r_s = 1.2"), "utf-8")
+    with pytest.raises(op.OptipathError) as told:
+        op.load_preset(file)
+    assert len(told.value.faults) == 1

@@ -70,7 +70,7 @@ TURNS = [0.4, np.array([0.1, -0.4, 2.0]), op.Parameter("turn", 0.4), -op.Paramet
 
 def angle_of(turn):
     if isinstance(turn, op.Parameter):
-        return -turn.default if turn.negative else turn.default
+        return turn.placed(turn.default)
     return turn
 
 
@@ -177,23 +177,29 @@ def test_light_of_two_vertices_is_the_same_whichever_way_they_are_added():
 
 
 @pytest.mark.parametrize(
-    ("vertex", "message"),
+    ("chain", "place", "others", "message"),
     [
-        (op.SpecularVertex(1.5, CORNER, place=2), r"vertex.place must be .* of 1 .. 1, not 2"),
-        (op.SpecularVertex(1.5, CORNER, place=0), r"vertex.place must be .* not 0"),
-        (op.SpecularVertex(1.5, CORNER, place=1.5), r"vertex.place must be .* not 1.5"),
-        (op.SpecularVertex(1.5, CORNER, 1, reflections=-1), r"reflections must be .* not -1"),
-        (op.SpecularVertex(1.5, CORNER, 1, reflections=2), r"shape \(..., 4, 3\), not \(3, 3\)"),
-        (op.SpecularVertex(1.5, op.Parameter("v"), 1), r"tell the number of reflections"),
-        (op.SpecularVertex(1.5, [1.0, 2.0], 1), r"shape \(..., 3, 3\), not \(2,\)"),
-        (op.SpecularVertex(1.5, [[0, 0, 0], [1, 1]], 1), "rows of unequal lengths"),
-        (op.SpecularVertex(1.5, [[1j, 0, 0], [0, 1, 0], [0, 0, 1]], 1), "is complex"),
+        (CORNER, 2, {}, r"^SpecularVertex.place must be .* of 1 .. 1, not 2"),
+        (CORNER, 0, {}, r"place must be .* not 0"),
+        (CORNER, 1.5, {}, r"place must be .* not 1.5"),
+        (CORNER, 1, {"reflections": -1}, r"reflections must be .* not -1"),
+        (CORNER, 1, {"reflections": 2}, r"vertices must have shape \(..., 4, 3\), not \(3, 3\)"),
+        (op.Parameter("v"), 1, {}, r"tell the number of reflections"),
+        ([1.0, 2.0], 1, {}, r"shape \(..., 3, 3\), not \(2,\)"),
+        ([[0, 0, 0], [1, 1]], 1, {}, "rows of unequal lengths"),
+        ([[1j, 0, 0], [0, 1, 0], [0, 0, 1]], 1, {}, "is complex"),
     ],
 )
-def test_a_vertex_that_is_not_in_its_chain_is_refused(vertex, message):
-    path = path_of(("lamp", op.Source()), ("vertex", vertex), ("eye", op.Detector()))
-    with pytest.raises(op.PathError, match=message):
-        path.check()
+def test_a_vertex_that_is_not_in_its_chain_is_refused(chain, place, others, message):
+    with pytest.raises(op.ValueFault, match=message):
+        op.SpecularVertex(1.5, chain, place, **others)
+
+
+@pytest.mark.parametrize("place", [1, 1.0, np.float64(1.0), "1"])
+def test_a_place_is_a_whole_number_however_it_is_given(place):
+    vertex = op.SpecularVertex(1.5, CORNER, place)
+    assert vertex.place == 1
+    assert type(vertex.place) is int
 
 
 def test_a_vertex_takes_no_frames_but_its_own():

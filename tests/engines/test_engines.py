@@ -179,10 +179,12 @@ def test_one_bad_value_among_many_is_refused_in_the_same_words(engine, bad):
         op.load_preset("npgr026").trace(delta=bad)
     with pytest.raises(op.ParameterError) as many:
         plan.run(delta=values)
-    # Of several, it is told which one is no number.
-    assert str(many.value).replace(" at 1234", "") == str(one.value)
+    # Of several, it is told which one is no number; an optimiser gives them one by one.
+    alone = str(one.value).removesuffix(" (in a fit, give the optimiser bounds=)")
+    assert str(many.value).replace(" at 1234", "") == alone
 
 
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 @pytest.mark.parametrize("engine", ["numpy", "numba"])
 def test_angles_of_many_turns_are_right(engine):
     path = chain([op.Polarizer(op.Parameter("angle"))], [1.0, 0.5, 0.0, 0.5])
@@ -386,8 +388,8 @@ def two_detectors():
     lamp >> path.add("filter", op.Polarizer(op.Parameter("a")))
     path.add("dim", op.Detector(reads="intensity"))
     path.add("full", op.Detector())
-    for end in ("dim", "full"):
-        path.connect("filter.out", f"{end}.in")
+    for end, tap in (("dim", True), ("full", False)):
+        path.connect("filter.out", f"{end}.in", tap=tap)
     return path
 
 

@@ -8,6 +8,9 @@ import optipath as op
 from optipath.engines.automatic import is_installed
 from paths import chain
 
+# They are meant in radians.
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
+
 A = op.Parameter("a")
 STATE = (1.0, 0.5, 0.3, 0.4)
 ELEMENTS = {

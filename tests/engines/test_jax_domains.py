@@ -19,6 +19,9 @@ def _double():
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
 
 
+# Angles of any size are meant in radians.
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
+
 V = op.Parameter("v")
 STATE = (1.0, 0.5, 0.3, 0.4)
 POINTS = np.array([[0.0, 0, 2], [0, 0, 0], [0, 2, 0]])
@@ -150,7 +153,7 @@ def test_a_traced_cosine_and_sine_that_belong_to_no_angle_give_nan():
 def ring(reflectance=0.9):
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source()) >> path.add("meet", op.Combiner())
-    path.add("gain", op.MuellerElement(op.Parameter("gain")))
+    path.add("gain", op.MuellerElement(op.Parameter("gain"), physical=False))
     path.add("splitter", op.BeamSplitter(reflectance))
     for start, end in (
         ("meet.out", "gain.in"),

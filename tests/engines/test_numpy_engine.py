@@ -12,22 +12,27 @@ from paths import chain
 
 ANGLES = st.floats(-4.0, 4.0)
 FRACTIONS = st.floats(0.0, 1.0)
-REFLECTIONS = st.builds(
-    op.Interface,
-    index=st.builds(complex, st.floats(0.2, 4.0), st.one_of(st.just(0.0), st.floats(1e-3, 5.0))),
-    incidence=st.floats(0.0, np.pi / 2),
-    outside=st.floats(1.0, 2.0),
-    azimuth=ANGLES,
-)
-ELEMENTS = st.one_of(
-    REFLECTIONS,
+MEDIA = st.floats(1.0, 2.0)
+INDICES = st.builds(complex, st.floats(0.2, 4.0), st.one_of(st.just(0.0), st.floats(1e-3, 5.0)))
+STRAIGHT = st.one_of(
     st.builds(op.Polarizer, ANGLES, ANGLES, FRACTIONS, FRACTIONS),
     st.builds(op.Retarder, ANGLES, ANGLES, ANGLES),
     st.builds(op.Rotator, ANGLES),
     st.builds(op.Attenuator, FRACTIONS),
     st.builds(op.Combiner),
 )
-CHAINS = st.lists(ELEMENTS, min_size=1, max_size=8)
+
+
+def reflections_in(medium):
+    incidences = st.floats(0.0, np.pi / 2)
+    return st.builds(op.Interface, INDICES, incidences, st.just(medium), azimuth=ANGLES)
+
+
+# All surfaces of a chain stand in one medium.
+CHAINS = MEDIA.flatmap(
+    lambda medium: st.lists(st.one_of(reflections_in(medium), STRAIGHT), min_size=1, max_size=8)
+)
+PAIRS = MEDIA.flatmap(lambda medium: st.lists(reflections_in(medium), min_size=2, max_size=2))
 
 
 @st.composite
@@ -62,7 +67,7 @@ def test_no_chain_gives_more_than_it_gets_nor_more_than_polarised_light(elements
     assert polarised <= light.intensity + 1e-13 * state[0]
 
 
-@given(elements=st.lists(REFLECTIONS, min_size=2, max_size=2), azimuth=ANGLES)
+@given(elements=PAIRS, azimuth=ANGLES)
 def test_light_that_runs_backwards_sees_the_reciprocal_matrix(elements, azimuth):
     forth, back = (op.PathGraph() for _ in range(2))
     for path, (first, second) in ((forth, elements), (back, elements[::-1])):

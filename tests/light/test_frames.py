@@ -6,7 +6,7 @@ from hypothesis.extra import numpy as hnp
 
 import optipath as op
 
-ANGLES = st.floats(-10.0, 10.0)
+ANGLES = st.floats(-2.0 * np.pi, 2.0 * np.pi)
 VECTORS = hnp.arrays(float, 3, elements=st.floats(-1.0, 1.0)).filter(
     lambda v: np.linalg.norm(v) > 0.1
 )

@@ -99,7 +99,7 @@ def test_what_makes_no_plane_is_refused(arguments, message):
 def test_frames_are_aligned_within_four_roundings():
     rng = np.random.default_rng(2)
     frame = op.Frame.from_direction(unit(rng, (500, 3)), unit(rng, (500, 3)))
-    other = frame.turned(rng.uniform(-7, 7, 500))
+    other = frame.turned(rng.uniform(-2 * np.pi, 2 * np.pi, 500))
     c, s = frame.turn_to(other)
     with mpmath.workdps(50):
         for i in range(500):

@@ -7,6 +7,7 @@ import optipath as op
 from light_figures import FIGURES as LIGHT
 
 jax = pytest.importorskip("jax")
+jnp = jax.numpy
 
 STOKES = np.array([[2.0, 0.6, -0.3, 0.8], [1.0, 1 / 3, 0.2, 0.1]])
 MUELLER = [
@@ -117,3 +118,37 @@ def test_the_degree_of_polarisation_has_a_slope_at_unpolarised_light():
     np.testing.assert_allclose(slope(jax.numpy.array([1.0, 0.0, 0.0, 0.0])), 0.0)
     found = slope(jax.numpy.array([1.0, 0.6, 0.0, 0.8]))
     np.testing.assert_allclose(found, [-1.0, 0.6, 0.0, 0.8], rtol=1e-5, atol=1e-7)
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda a: op.Interface(a + 3.4j, 1.1).mueller().delta,
+        lambda a: (op.Polarizer(a) @ op.Light([1.0, 0.0, 0.0, 0.0])).S0,
+        lambda a: op.refraction_angle(1.5, a),
+        lambda a: op.Frame().turned(a).x[0],
+        lambda a: op.Light(jnp.ones(4) * a) == op.Light(jnp.ones(4) * a),
+        lambda a: op.Mueller(jnp.eye(4) * a) == op.Mueller(jnp.eye(4) * a),
+    ],
+)
+def test_what_takes_numbers_alone_says_so_of_what_jax_traces(ask):
+    def traced(number):
+        return 1.0 * ask(number)
+
+    with pytest.raises(op.OptipathError, match=r"JAX traces; do it outside of jit and grad"):
+        jax.jit(traced)(0.2)
+
+
+def test_a_default_that_jax_traces_has_a_slope():
+    def intensity(angle):
+        first = op.Polarizer(op.Parameter("angle", default=angle))
+        path = op.Source(1.0) >> first >> op.Polarizer(0.0) >> op.Detector()
+        return path.trace().S0
+
+    jax.config.update("jax_enable_x64", val=True)
+    try:
+        found = jax.grad(intensity)(0.3)
+    finally:
+        jax.config.update("jax_enable_x64", val=False)
+    # Half of cos^2 has the slope -sin cos.
+    np.testing.assert_allclose(found, -np.sin(0.3) * np.cos(0.3), rtol=1e-12)

@@ -51,7 +51,7 @@ def test_the_detector_is_named_where_there_are_several():
     assert op.polarization(path, "b").exact == 0.75
     with pytest.raises(op.ParameterError, match="2 detectors"):
         op.polarization(path)
-    with pytest.raises(op.ParameterError, match="did you mean"):
+    with pytest.raises(op.ParameterError, match="there are: a, b"):
         op.polarization(path, "bb")
 
 

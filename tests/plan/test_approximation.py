@@ -54,8 +54,10 @@ def test_a_tolerated_intensity_is_as_near_as_it_may_be(size, tolerance):
 def test_each_of_several_tolerated_intensities_is_as_near_as_it_may_be(rng, size):
     path = op.PathGraph()
     path.add("lamp", op.Source()) >> path.add("first", op.Interface(1.5, op.Parameter("a")))
-    for way, turn in (("reflected", 0.3), ("transmitted", op.Parameter("turn"))):
-        path.add(f"pane {way}", op.Interface(2.0, op.Parameter("b"), azimuth=turn))
+    ways = ("reflected", 1.0, 0.3), ("transmitted", 1.5, op.Parameter("turn"))
+    for way, medium, turn in ways:
+        pane = op.Interface(2.0, op.Parameter("b"), outside=medium, azimuth=turn)
+        path.add(f"pane {way}", pane)
         path.add(f"eye {way}", op.Detector("intensity"))
         path.connect(f"first.{way}", f"pane {way}.in")
         path.connect(f"pane {way}.reflected", f"eye {way}.in")

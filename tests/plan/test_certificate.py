@@ -1,4 +1,5 @@
 import os
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -14,12 +15,18 @@ REFUSED = r"'e0' is unphysical, having a coherency eigenvalue of -.*Mueller\(mat
 
 
 class OwnElement(op.Element, kind="test-own-matrix"):
+    physical: ClassVar[bool] = False
     share: float = 1.0
 
     @staticmethod
     def mueller_rows(xp, share):
         inner = [xp.absolute(share) * ROOT] * 3
         return (1.0, 0.0, 0.0, 0.0), *[(0.0, *inner)] * 3
+
+
+def measured(matrix):
+    """An element of any matrix, which bounds must look at themselves."""
+    return op.MuellerElement(matrix, physical=False)
 
 
 def asked_in_every_way(path, **values):
@@ -50,7 +57,7 @@ def unphysical_with_short_rows(rng, count):
     return found[values[:, 3] < -1e-6][:count]
 
 
-@pytest.mark.parametrize("element", [op.MuellerElement(NO_ROW_TOO_LONG), OwnElement()])
+@pytest.mark.parametrize("element", [measured(NO_ROW_TOO_LONG), OwnElement()])
 def test_no_bound_is_given_for_an_unphysical_matrix(element):
     path = chain([element, op.Polarizer(0.3)], [1.0, *[ROOT] * 3], reads="intensity")
     for asked in asked_in_every_way(path):
@@ -63,7 +70,7 @@ def test_no_bound_is_given_for_an_unphysical_matrix(element):
 def test_one_unphysical_matrix_of_a_batch_is_refused(size, own):
     values = {"M": np.broadcast_to(np.eye(4), (*size, 4, 4)).copy()}
     values["M"][-1 if size else ...] = NO_ROW_TOO_LONG
-    element = op.MuellerElement(op.Parameter("M"))
+    element = measured(op.Parameter("M"))
     if own:
         element, values = OwnElement(op.Parameter("s")), {"s": np.full(size, 0.1)}
         values["s"][-1 if size else ...] = 1.0
@@ -75,7 +82,7 @@ def test_one_unphysical_matrix_of_a_batch_is_refused(size, own):
 
 @pytest.mark.parametrize("dtype", ["float64", "float32", "longdouble"])
 def test_every_matrix_with_a_negative_eigenvalue_is_refused_however_short_its_rows(dtype):
-    plan = op.Composer(dtype=dtype).compose(chain([op.MuellerElement(op.Parameter("M"))]))
+    plan = op.Composer(dtype=dtype).compose(chain([measured(op.Parameter("M"))]))
     for matrix in unphysical_with_short_rows(np.random.default_rng(1), 100):
         if op.Mueller(matrix).is_physical(1e-4):
             continue
@@ -87,7 +94,7 @@ def test_every_matrix_with_a_negative_eigenvalue_is_refused_however_short_its_ro
 def test_compiled_bounds_refuse_one_unphysical_matrix_of_many():
     matrices = np.broadcast_to(np.eye(4), (20_000, 4, 4)).copy()
     matrices[12_345] = NO_ROW_TOO_LONG
-    plan = op.Composer(engine="numba").compose(chain([op.MuellerElement(op.Parameter("M"))]))
+    plan = op.Composer(engine="numba").compose(chain([measured(op.Parameter("M"))]))
     with pytest.raises(op.ParameterError, match=REFUSED):
         plan.certificate(M=matrices)
 
@@ -97,7 +104,7 @@ def test_no_physical_matrix_is_refused_whatever_engine_bounds_it(terms):
     rng = np.random.default_rng(terms)
     scale = rng.choice([1e-150, 1e-3, 1.0], (20_000, 1, 1))
     matrices = scale * physical(rng, 20_000, terms=terms)
-    path = chain([op.MuellerElement(op.Parameter("M"))], [1.0, 0.8, 0.0, 0.6], reads="intensity")
+    path = chain([measured(op.Parameter("M"))], [1.0, 0.8, 0.0, 0.6], reads="intensity")
     compiled, fallback = (
         op.Composer(engine=engine).compose(path).certificate(M=part)
         for engine, part in (("numba", matrices), ("numpy", matrices[:500]))
@@ -125,7 +132,7 @@ def drawn(rng, count, length, terms):
 def test_no_physical_matrices_found_by_climbing_violate_a_bound(terms, length, end):
     rng, count = np.random.default_rng([terms, length]), 500
     names = [f"M{i}" for i in range(length)]
-    elements = [op.MuellerElement(op.Parameter(name)) for name in names]
+    elements = [measured(op.Parameter(name)) for name in names]
     path = chain(elements, op.Parameter("state"), reads="intensity")
     plan = op.Composer(engine="numpy").compose(path)
 
@@ -161,7 +168,7 @@ def test_what_a_rounded_matrix_lacks_is_given_away_and_no_more(share):
         spoilt /= spoilt[0, 0]
         state = np.concatenate([np.ones((200, 1)), unit_vectors(rng, 200)], axis=-1)
         found, exact = (
-            chain(list(map(op.MuellerElement, pair)), state).compose().certificate()
+            chain(list(map(measured, pair)), state).compose().certificate()
             for pair in ([spoilt, second], [first, second])
         )
         true = behind(state, [spoilt, second])
@@ -191,7 +198,7 @@ def test_matrices_of_single_precision_are_bounded_as_constants_and_as_parameters
     matrices = physical(rng, 200, terms=1).astype(np.float32)
     state = np.concatenate([np.ones((200, 1)), 0.999 * unit_vectors(rng, 200)], axis=-1)
     for matrix, values in ((matrices, {}), (op.Parameter("M"), {"M": matrices})):
-        elements = [op.MuellerElement(matrix), op.MuellerElement(matrix)]
+        elements = [measured(matrix), measured(matrix)]
         found = chain(elements, state, reads="intensity").compose().certificate(**values)
         true = behind(state, [matrices.astype(np.float64)] * 2)
         assert np.all(found.lower * found.scalar <= true)

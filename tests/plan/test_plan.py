@@ -173,7 +173,7 @@ def test_a_copied_path_is_another_path():
 
 def test_a_bound_parameter_cannot_be_given_again():
     with pytest.raises(op.ParameterError, match="'delta' is bound to 48 deg"):
-        op.load_preset("npgr026", case="7").trace(delta=0.1)
+        op.load_preset("npgr026", delta="48 deg").trace(delta=0.1)
 
 
 def test_a_parameter_without_default_must_be_given():
@@ -197,7 +197,7 @@ def test_several_detectors_are_read_by_name():
     path.connect("split.transmitted", "split2.in")
     path.connect("split2.reflected", "b.in")
     path.connect("split2.transmitted", "c.in")
-    with pytest.raises(op.ParameterError, match=r"2 detectors \(a, c\); use run_all"):
+    with pytest.raises(op.ParameterError, match=r"2 detectors \(a, c\); use trace_all"):
         path.trace()
     lights = path.trace_all()
     assert {name: float(light.intensity) for name, light in lights.items()} == {
@@ -271,7 +271,7 @@ def test_what_is_no_number_of_paths_is_refused(odd):
 def test_what_is_no_name_of_a_source_or_detector_is_refused(odd):
     plan = op.load_preset("malus").compose()
     for names in [(odd,), (None, odd)]:
-        with pytest.raises(op.ParameterError, match="does not exist; there are: "):
+        with pytest.raises(op.ParameterError, match="values are given by name: mueller"):
             plan.mueller(*names, angle=0.3)
 
 
@@ -297,3 +297,10 @@ def test_a_duration_is_no_number(give):
             "count": lambda: path.compose().engine_for(days),
             "size": lambda: next(path.compose().stream(days, angle=[0.1])),
         }[give]()
+
+
+def test_the_ends_of_a_matrix_are_given_by_place():
+    path = op.load_preset("glass-slab")
+    told = r"detector is given by its place: .* such as mueller\('lamp', 'transmitted'\)"
+    with pytest.raises(op.ParameterError, match=told):
+        path.mueller(detector="transmitted")

@@ -85,7 +85,7 @@ def test_a_batch_may_be_faint_in_part():
     np.testing.assert_allclose(light.log10_intensity, [np.log10(0.25), -600, -np.inf])
     np.testing.assert_array_equal(light.exponent == 0, [True, False, True])
     np.testing.assert_allclose(light.stokes[0], np.multiply(POLARISED, 0.25))
-    np.testing.assert_allclose(light.dop, [1.0, 1.0, 0.0], rtol=0, atol=1e-15)
+    np.testing.assert_allclose(light.dop, [1.0, 1.0, np.nan], rtol=0, atol=1e-15)
 
 
 def test_faint_light_adds_to_faint_light():

@@ -28,12 +28,20 @@ sugar = path.add("sugar", op.Medium(length=0.1, rotation=2.0))
 ink = path.add("ink", op.Medium.from_extinction(1e-6, k=0.1, wavelength=500e-9))
 lamp >> glass >> metal >> mirror >> partial >> ground >> sugar >> ink >> plate
 plate >> path.add("eye", op.Detector(reads="linear"))
+chained: op.PathGraph = op.Source(100.0) >> op.Polarizer(0.3).named("analyser") >> op.Detector()
+longer: op.PathGraph = op.PathGraph() >> op.Source() >> op.Polarizer() >> op.Detector()
 light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])
 lights: dict[str, op.Light] = path.trace_all(theta=0.1, angle=0.2)
 matrix: op.Mueller = path.mueller(theta=0.1, angle=0.2) @ op.Polarizer(0.1).mueller()
 attenuated: op.Light = matrix @ light
+brighter: op.Light = 2 * light[0] / 3 + op.Polarizer(0.1) @ light[..., 0, :1]
+single: list[float] = [float(each.S0.max()) for each in light.reshape(-1)]
+noisy: op.Light = op.Light([1, 1, 1, 1], physical=False).nearest_physical()
 parts_of_matrix: op.LuChipman = matrix.lu_chipman()
 again: op.Mueller = parts_of_matrix.depolarizer @ parts_of_matrix.retarder
+theirs: op.Light = op.Light.from_("mitsuba", light.to("mitsuba"), light.frame)
+their_matrix: op.Mueller = op.Mueller.from_("hecht", matrix.to("ellipsometry"))
+psi_and_delta: tuple[Any, Any] = matrix.ellipsometric_angles("tmm")
 physical: bool = bool(matrix.nearest_physical().is_physical(tolerance=1e-9).all())
 angles: list[Any] = [light.psi, light.aop, matrix.delta, parts_of_matrix.retardance]
 plan: op.Plan = op.Composer(method="textbook").compose(path)
@@ -43,6 +51,11 @@ quick: op.Light = (
 parts: list[op.Light] = [part.light for part in plan.stream(9, theta=0.1, angle=0.2)]
 engines: tuple[str, str] = plan.engine, plan.engine_for(1_000)
 text: str = plan.explain() + path.to_toml()
+doubled: op.Parameter = 2 * op.Parameter("theta") - "10 deg"
+turned: op.Element = op.Rotator(0.1 - op.Parameter("theta") / 2)
+varied: op.Light = op.load_preset("npgr026", case=8).trace(delta=[0.1, 0.2])
+started: op.PathGraph = op.load_preset("malus").with_defaults(angle=0.3)
+in_singles: op.Composer = op.Composer(dtype=np.float32)
 preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
 chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))

@@ -25,7 +25,7 @@ def test_words_stand_for_values_and_none_for_absence():
         ({"name": "a", "bound": True}, "bound but has no value"),
         ({"name": "a", "minimum": 2.0, "maximum": 1.0}, "lower end"),
         ({"name": "a", "minimum": np.nan}, "lower end"),
-        ({"name": "a", "minimum": "x"}, "must be numbers"),
+        ({"name": "a", "minimum": "x"}, "is not a quantity"),
         ({"name": "a", "maximum": 1.0, "words": {"up": 2.0}}, "outside its range"),
         ({"name": "a", "words": {"up": np.nan}}, "finite"),
         ({"name": "a", "words": {"up": [1.0]}}, "must be a number"),
@@ -80,7 +80,7 @@ def test_a_float_is_judged_as_an_array_of_it_is(number, limits):
 def test_a_negative_parameter_differs_in_its_sign_alone():
     words = {"up": 1.0}
     parameter = op.Parameter("a", 0.5, "deg", -1.0, 1.0, help="a turn", words=words, optional=True)
-    assert (-parameter).negative
-    assert not parameter.negative
+    assert (-parameter).is_negative
+    assert not parameter.is_negative
     assert (-parameter).same_specification(parameter)
     assert -parameter != parameter

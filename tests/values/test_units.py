@@ -1,10 +1,13 @@
 import math
+import re
 from contextlib import suppress
+from pathlib import Path
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import optipath as op
 from optipath.errors import UnitError
 from optipath.values.units import UNITS, format_quantity, in_unit, parse_quantity
 
@@ -32,18 +35,29 @@ def test_quantities_are_read_in_their_units(text, dimension, value):
 @pytest.mark.parametrize(
     ("text", "dimension", "message"),
     [
-        ("30 dgr", "angle", "'dgr' is unknown; did you mean 'deg'"),
+        ("30 dgr", "angle", "unit 'dgr' of '30 dgr' is unknown; did you mean 'deg'"),
+        ("30°", "angle", "'°' of '30°' is unknown; did you mean 'deg'"),
+        ("0.2+3.4i", "", r"'0.2\+3.4i' is not a quantity; did you mean '0.2\+3.4j'"),
+        ("30,5 deg", "angle", "'30,5 deg' is not a quantity; did you mean '30.5 deg'"),
+        ("45 degrees", "angle", "'degrees' of '45 degrees' is unknown; did you mean 'deg'"),
+        ("0.5 µm", "length", "'µm' of '0.5 µm' is unknown; did you mean 'um'"),
+        ("500 Nanometres", "length", "of '500 Nanometres' is unknown; did you mean 'nm'"),
+        ("5 cm^-1", "inverse length", r"of '5 cm\^-1' is unknown; did you mean '1/cm'"),
+        ("30 furlongs", "angle", "unknown; there are: deg, rad, mrad, arcmin, arcsec$"),
+        ("0:90:10", "angle", "^'0:90:10' is not a quantity; write a number such as '30 deg'$"),
+        ("1, 2", "length", "^'1, 2' is not a quantity; write a number such as '30 nm'$"),
+        ("1.5+2i", "", r"^'1.5\+2i' is not a quantity; did you mean '1.5\+2j'\?$"),
         ("30", "angle", "'30' has no unit"),
         ("30 nm", "angle", "no angle"),
         ("30 deg", "", "pure number"),
         ("30", "length", "a length is asked for; add one of nm, um"),
         ("5 mm", "inverse length", "no inverse length; use one of 1/um, 1/mm, 1/cm, 1/dm, 1/m"),
         ("5 deg", "angle per length", "no angle per length; use one of deg/um"),
-        ("5 deg/km", "angle per length", "'deg/km' is unknown; did you mean 'deg/m'"),
+        ("5 deg/km", "angle per length", "'deg/km' of '5 deg/km' is unknown; did you mean 'deg/m'"),
         ("thirty deg", "angle", "not a quantity"),
         ("", "", "not a quantity"),
         ("nan deg", "angle", "not a quantity"),
-        ("1_000", "", "unknown"),
+        ("1_000", "", "not a quantity"),
     ],
 )
 def test_what_is_no_quantity_is_refused(text, dimension, message):
@@ -141,3 +155,36 @@ def test_numbers_of_many_digits_are_read_as_the_nearest():
     assert parse_quantity("1" * 300 + "+" + "2" * 300 + "j", "") == complex(
         float("1" * 300), float("2" * 300)
     )
+
+
+def test_the_table_of_units_in_the_documents_is_that_of_the_library():
+    text = (Path(__file__).parents[2] / "docs" / "conventions.md").read_text("utf-8")
+    rows = re.findall(r"^\| (\S[^|]*) \| (`[^|]*`) \|$", text, re.MULTILINE)
+    told = {unit: dimension for dimension, units in rows for unit in re.findall("`([^`]+)`", units)}
+    assert told == {name: unit.dimension for name, unit in UNITS.items()}
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"),
+    [
+        ("degrees", "deg"),
+        ("Degree", "deg"),
+        ("°", "deg"),
+        ("radians", "rad"),
+        ("meter", "m"),
+        ("metres", "m"),
+        ("micron", "um"),
+        ("µm", "um"),
+        ("μm", "um"),
+        ("nanometers", "nm"),
+        ("degrees per millimetre", "deg/mm"),
+    ],
+)
+def test_a_common_name_of_a_unit_is_told_how_it_is_written(name, unit):
+    with pytest.raises(op.OptipathError, match=f"'{name}' is unknown; did you mean '{unit}'"):
+        op.Parameter("p", unit=name)
+
+
+def test_of_an_unknown_unit_one_of_each_dimension_is_listed():
+    with pytest.raises(op.OptipathError, match=r"unknown; there are: deg, nm, 1/cm, deg/mm$"):
+        op.Parameter("p", unit="furlongs")

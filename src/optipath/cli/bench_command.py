@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any
 import click
 from rich.table import Table
 
-from optipath.cli.console import PlainConsole, say_json
-from optipath.cli.preset_command import JSON, PresetGroup
+from optipath.cli.console import JSON, PlainConsole, say_json
+from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress_bar import progress_bar
-from optipath.paths.presets.loader import load_preset, with_values
+from optipath.lab.bench.timing import duration
+from optipath.paths.presets.loader import bound_preset, load_preset
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
-    from optipath.cli.preset_command import Chosen
+    from optipath.cli.chosen import Chosen
     from optipath.lab.bench.report import Report
     from optipath.paths.path_graph import PathGraph
 
@@ -46,7 +47,8 @@ def _bench(chosen: Chosen, *, as_json: bool, **options: Any) -> None:
     from optipath.lab.bench.report import bench  # noqa: PLC0415 - not for every command
 
     def load() -> Any:
-        return load_preset(chosen.preset, case=chosen.case, **chosen.values)
+        path = load_preset(chosen.preset)
+        return bound_preset(path, chosen.preset, chosen.case, chosen.values)
 
     path = _opened(chosen)
     steps = 5 + len(options["engines"] or ENGINES) * (4 * len(str(options["largest"])) + 4)
@@ -70,27 +72,29 @@ def _opened(chosen: Chosen) -> PathGraph:
         for name, value in path.cases[case].values.items()
         if dimension_of(known[name].unit) != "angle" or known[name].optional
     }
-    return with_values(path, chosen.preset, None, {**kept, **chosen.values})
+    return bound_preset(path, chosen.preset, None, {**kept, **chosen.values})
 
 
 def _tables(report: Report) -> list[Table]:
-    once = _table("done once", ["ms"])
+    once = _table("done once", ["time"])
     for name, milliseconds in report.single.items():
-        once.add_row(name, f"{milliseconds:.3g}")
+        once.add_row(name, duration(1e-3 * milliseconds))
     once.caption = ", ".join(f"{name} {number}" for name, number in report.software.items())
     once.caption_justify = "left"
     sizes = dict.fromkeys(row["paths"] for row in report.batches)
-    batches = _table("ns a path, by the number of paths", [f"{size:,}" for size in sizes])
+    batches = _table("time a path, by the number of paths", [f"{size:,}" for size in sizes])
     times = defaultdict(list)
     for row in report.batches:
-        times[f"{row['engine']} {row['dtype']} {row['output']}"].append(_short(row["ns_least"]))
+        times[f"{row['engine']} {row['dtype']} {row['output']}"].append(
+            duration(1e-9 * row["ns_least"])
+        )
     for name, cells in times.items():
         batches.add_row(name, *cells)
     paths = report.methods[0]["paths"] if report.methods else 0
-    methods = _table(f"methods, {paths:,} paths", ["ns a path", "first call, s"])
+    methods = _table(f"methods, {paths:,} paths", ["time a path", "first call"])
     for row in report.methods:
         name = f"{row['engine']} {row['method']}"
-        methods.add_row(name, _short(row["ns_least"]), f"{row['first_s']:.2g}")
+        methods.add_row(name, duration(1e-9 * row["ns_least"]), duration(row["first_s"]))
     return [once, batches, methods]
 
 
@@ -100,10 +104,6 @@ def _table(title: str, measured: list[str]) -> Table:
     for name in measured:
         table.add_column(name, justify="right", no_wrap=True)
     return table
-
-
-def _short(number: float) -> str:
-    return f"{number:,.0f}" if number >= 100.0 else f"{number:.3g}"
 
 
 bench = PresetGroup("bench", _bench, (LARGEST, ENGINE, THREADS, JSON))

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import click
 
-from optipath.cli.console import say_json
-from optipath.cli.preset_command import JSON
+from optipath.cli.console import JSON, say_json
 from optipath.engines.code_cache import CODE
 
 CLEAR = click.Option(["--clear"], is_flag=True, help="Remove all that is kept.")

@@ -17,7 +17,7 @@ from optipath.paths.presets.loader import preset_names
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from optipath.cli.preset_command import Chosen
+    from optipath.cli.chosen import Chosen
 
     Tell: TypeAlias = Callable[[str, float], object]
     Chart: TypeAlias = Mapping[str, Any]

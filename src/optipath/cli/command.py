@@ -7,34 +7,94 @@ import io
 import os
 import sys
 import warnings
-from importlib.metadata import version
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import click
 from click.shell_completion import shell_complete
 
-from optipath.cli.accuracy_command import accuracy
-from optipath.cli.bench_command import bench
-from optipath.cli.cache_command import cache
-from optipath.cli.chart_command import chart
-from optipath.cli.explain_command import explain
 from optipath.cli.interrupts import interruptible
-from optipath.cli.polarization_command import polarization
-from optipath.cli.presets_command import presets
-from optipath.cli.run_command import run
-from optipath.cli.show_command import show
-from optipath.errors import INTERRUPTED, LoopWarning, OptipathError, printable
+from optipath.cli.misplaced import meant_by
+from optipath.cli.whole_help import WholeHelp
+from optipath.errors import INTERRUPTED, LoopWarning, OptipathError, did_you_mean, printable
+from optipath.values.cures import of_files
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+_COMMANDS = (
+    "accuracy",
+    "bench",
+    "cache",
+    "chart",
+    "explain",
+    "polarization",
+    "presets",
+    "run",
+    "show",
+)
+
+
+class _Commands(WholeHelp):
+    """The subcommands, each imported when it is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        del ctx
+        return list(_COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        del ctx
+        if cmd_name not in _COMMANDS:
+            return None
+        found: click.Command = getattr(import_module(f"optipath.cli.{cmd_name}_command"), cmd_name)
+        return found
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return a subcommand; refuse one that there is not.
+
+        Parameters
+        ----------
+        ctx, args
+            As `click.Group` takes them.
+
+        Returns
+        -------
+        tuple
+            The name, the command, and the arguments behind it.
+        """
+        name = args[0]
+        if not (ctx.resilient_parsing or name in _COMMANDS or name.startswith("-")):
+            raise click.UsageError(f"command '{name}' is unknown{did_you_mean(name, _COMMANDS)}")
+        return super().resolve_command(ctx, args)
+
+
+def _import(context: click.Context, _option: click.Parameter, modules: tuple[str, ...]) -> None:
+    if modules and not context.resilient_parsing:
+        from optipath.cli.own_modules import import_own  # noqa: PLC0415 - hardly ever needed
+
+        for name in modules:
+            import_own(name)
+
+
 @click.group(
+    cls=_Commands,
     invoke_without_command=True,
     context_settings={"help_option_names": ["-h", "--help"], "show_default": True},
-    commands=[presets, show, run, explain, polarization, bench, cache, chart, accuracy],
 )
-@click.version_option(version("optipath"), prog_name="optipath")
+@click.version_option(package_name="optipath", prog_name="optipath")
+@click.option(
+    "--import",
+    "modules",
+    multiple=True,
+    metavar="MODULE",
+    expose_value=False,
+    callback=_import,
+    help="Import elements of your own: a module's name, or a .py file. May be repeated.",
+)
 @click.pass_context
 def cli(context: click.Context) -> None:
     """Trace polarised light along optical paths; angles are in degrees."""
@@ -53,8 +113,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0, also where who read the output has seen enough; 2 with one line on standard error for
-        bad input; 130 where Ctrl-C ended it.
+        0, also where who read the output has seen enough; 2 for bad input, with one line on
+        standard error, or one for each of several faults; 130 where Ctrl-C ended it.
     """
     for stream in (sys.stdout, sys.stderr):
         # A terminal that lacks a letter shows a question mark in its place.
@@ -72,15 +132,17 @@ def _run(arguments: Sequence[str]) -> int:
     if sys.stdout is None:
         return _refuse("the output cannot be written: standard output is closed")
     try:
-        with warnings.catch_warnings():
+        with warnings.catch_warnings(), units_are_written(), of_files():
             warnings.simplefilter("always", LoopWarning)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
             _invoke(arguments)
         sys.stdout.flush()
+    except click.NoSuchOption as error:
+        return _refuse(f"option '{error.option_name}' is unknown{meant_by(error)}")
     except click.ClickException as error:
         return _refuse(error.format_message())
     except OptipathError as error:
-        return _refuse("; ".join(error.faults))
+        return _refuse(*error.faults, about=error.about)
     except BrokenPipeError:
         _forget_output()  # Whoever read it has seen enough.
     except OSError as error:
@@ -112,11 +174,17 @@ def _forget_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def _refuse(message: str) -> int:
-    _print_error(message)
+def _refuse(*faults: str, about: str = "") -> int:
+    """Tell what is wrong: one fault on the one line, several on a line each."""
+    if len(faults) == 1:
+        _print_error(f"{about}: {faults[0]}" if about else faults[0])
+        return 2
+    counted = f"{len(faults)} faults:"
+    _print_error(f"{about} has {counted}" if about else counted, *(f"- {one}" for one in faults))
     return 2
 
 
-def _print_error(message: str) -> None:
+def _print_error(first: str, *others: str) -> None:
+    lines = [" ".join(line.split()) for line in (f"optipath: {first}", *others)]
     with contextlib.suppress(OSError):  # There is nobody left to be told.
-        click.echo(f"optipath: {printable(' '.join(message.split()))}", err=True)
+        click.echo(printable("\n".join(lines)), err=True)

@@ -4,15 +4,29 @@ from __future__ import annotations
 
 import json
 import shutil
-from typing import Any
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any
 
 import click
 from rich.console import Console
+from rich.padding import Padding
 from rich.table import Column, Table
 from rich.text import Text
 
 from optipath.errors import printable
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
+DIGITS = click.Option(
+    ["--digits"],
+    type=click.IntRange(1, 17),
+    default=6,
+    help="How many digits printed numbers have; --json has all.",
+)
+
+_HANGING = " " * 4
 _NARROWEST, _WIDEST = 20, 1000
 _COLUMN = 30
 """How wide a column that needs it is on the narrowest terminal."""
@@ -21,6 +35,14 @@ _COLUMN = 30
 def say(text: str) -> None:
     """Print lines as they are, control characters by their codes."""
     click.echo(printable(text))
+
+
+def say_wrapped(text: str) -> None:
+    """Print lines, those longer than the terminal going on in the next, which is indented."""
+    width = _width()
+    for line in printable(text).splitlines():
+        parts = wrap(line, width, subsequent_indent=_HANGING, break_on_hyphens=False)
+        click.echo("\n".join(parts or [""]))
 
 
 def say_json(found: dict[str, Any]) -> None:
@@ -44,6 +66,22 @@ def cell(text: str, style: str = "") -> Text:
         What rich prints as it is.
     """
     return Text(printable(text), style=style)
+
+
+def title(name: str, description: str) -> Text:
+    """Return the line above what a command prints.
+
+    Parameters
+    ----------
+    name, description : str
+        What it is of; the latter may be empty.
+
+    Returns
+    -------
+    rich.text.Text
+    """
+    found = Text.assemble(cell(name, "bold"))
+    return found.append_text(cell(f": {description}")) if description else found
 
 
 def headed(*headers: str, **keywords: Any) -> Table:
@@ -83,11 +121,18 @@ class PlainConsole(Console):
         *objects, **keywords : Any
             As rich's `Console` takes them.
         """
-        for shown in (thing for thing in objects if isinstance(thing, Table)):
+        for shown in objects:
+            if not isinstance(shown, Table):
+                super().print(shown, **{"crop": False, **keywords})
+                continue
             for column in shown.columns:
                 column.overflow = "fold"
                 column.min_width = min(_COLUMN, self._widest(column))
-        super().print(*objects, **{"crop": False, **keywords})
+            wide = self.measure(shown, options=self.options.update(width=_WIDEST)).minimum
+            for part in [shown] if wide <= self.width else _stacked(shown):
+                super().print(part, **{"crop": False, **keywords})
+        if not objects:
+            super().print(**keywords)
 
     def on_broken_pipe(self) -> None:
         """Leave it to the command, which ends in silence."""
@@ -97,6 +142,30 @@ class PlainConsole(Console):
         options = self.options.update(width=_COLUMN)
         parts = (column.header, *column.cells)
         return max(self.measure(part, options=options).maximum for part in parts)
+
+
+def _stacked(table: Table) -> Iterator[Any]:
+    """Yield the rows of a table one under the other, each label above its values."""
+    others = table.columns[1:]
+    headers = [_text(column.header) for column in table.columns[: 2 if len(others) == 1 else 1]]
+    for heading in (_text(table.title or ""), Text(", ").join(filter(None, headers))):
+        if heading:
+            yield heading
+    for label, *values in zip(*(column.cells for column in table.columns), strict=True):
+        yield _text(label)
+        for column, value in zip(others, values, strict=True):
+            header = _text(column.header) if len(others) > 1 else Text()
+            if _text(value):
+                parts = (header, ": ", _text(value)) if header else (_text(value),)
+                yield Padding(Text.assemble(*parts, overflow="fold"), (0, 0, 0, 2), expand=False)
+    if table.caption:
+        yield _text(table.caption)
+
+
+def _text(shown: Any) -> Text:
+    found = shown if isinstance(shown, Text) else Text(str(shown))
+    found.overflow = "fold"
+    return found
 
 
 def _width() -> int:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.cli.console import say, say_json
+from optipath.cli.console import say_json, say_wrapped
 from optipath.cli.preset_command import PresetGroup
 from optipath.composer.composer import Composer
 
 if TYPE_CHECKING:
-    from optipath.cli.preset_command import Chosen
+    from optipath.cli.chosen import Chosen
 
 
 def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any) -> None:
@@ -18,7 +18,7 @@ def _explain(chosen: Chosen, *, reads: str | None, as_json: bool, **options: Any
     if as_json:
         say_json({"preset": chosen.preset, **found.as_dict()})
     else:
-        say(str(found))
+        say_wrapped(str(found))
 
 
 explain = PresetGroup("explain", _explain)

@@ -6,16 +6,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.cli.console import PlainConsole, cell, headed, say_json
+from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_json, title
 from optipath.cli.plain_json import plain
-from optipath.cli.preset_command import JSON, PresetGroup
+from optipath.cli.preset_command import PresetGroup
 from optipath.errors import listed
 from optipath.paths.polarization_matters import polarization as found_for
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from rich.table import Table
 
-    from optipath.cli.preset_command import Chosen
+    from optipath.cli.chosen import Chosen
+    from optipath.paths.path_graph import PathGraph
     from optipath.paths.polarization_matters import Polarization
 
 _PATHS = 5
@@ -24,33 +27,52 @@ _SMALL = 1e-12
 """Which share of the intensity is no more than rounding."""
 
 
-def _polarization(chosen: Chosen, *, as_json: bool) -> None:
+def _polarization(chosen: Chosen, *, as_json: bool, digits: int) -> None:
     """Show what polarisation does to the intensity, beside the scalar result."""
-    path, preset = chosen.path(), chosen.preset
-    ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
-    found = {name: found_for(path, name) for name in ends}
+    path = chosen.path()
+    found = _found(path)
     if as_json:
-        detectors = {name: _as_json(one) for name, one in found.items()}
-        say_json({"preset": preset, "detectors": detectors})
+        say_json({"preset": chosen.preset, **_as_json(found)})
         return
     console = PlainConsole()
-    console.print(cell(preset, style="bold"), cell(path.description))
+    console.print(title(chosen.title, path.description))
     for name, one in found.items():
-        console.print(_table(name, one))
+        console.print(_table(name, one, digits))
         console.print(cell(_verdict(one)))
 
 
-polarization = PresetGroup("polarization", _polarization, [JSON])
+def _polarization_of_several(several: Sequence[Chosen], *, as_json: bool, digits: int) -> None:
+    if as_json:
+        cases = {one.case or "": _as_json(_found(one.path())) for one in several}
+        say_json({"preset": several[0].preset, "cases": cases})
+        return
+    for chosen in several:
+        _polarization(chosen, as_json=False, digits=digits)
 
 
-def _as_json(found: Polarization) -> dict[str, Any]:
+polarization = PresetGroup(
+    "polarization", _polarization, (JSON, DIGITS), several=_polarization_of_several
+)
+
+
+def _found(path: PathGraph) -> dict[str, Polarization]:
+    """Return what polarisation does at every detector."""
+    ends = [name for name, end in path.graph.nodes(data="element") if end.kind == "detector"]
+    return {name: found_for(path, name) for name in ends}
+
+
+def _as_json(found: Mapping[str, Polarization]) -> dict[str, Any]:
+    return {"detectors": {name: _one_as_json(one) for name, one in found.items()}}
+
+
+def _one_as_json(found: Polarization) -> dict[str, Any]:
     numbers = {name: plain(getattr(found, name)) for name in ("exact", "scalar", "difference")}
     bounds = {name: plain(getattr(found.certificate, name)) for name in ("lower", "upper")}
     elements = {name: plain(share) for name, share in found.elements.items()}
     return {**numbers, **bounds, "elements": elements, "culprits": list(found.culprits)}
 
 
-def _table(name: str, found: Polarization) -> Table:
+def _table(name: str, found: Polarization, digits: int) -> Table:
     """Return the numbers of each path, a column each."""
     indices = list(np.ndindex(found.exact.shape))
     shown = indices[:_PATHS]
@@ -58,7 +80,7 @@ def _table(name: str, found: Polarization) -> Table:
     for index in shown:
         table.add_column(cell(str(list(index))) if index else "")
     for head, powers in (("exact", found.exact), ("scalar: without polarisation", found.scalar)):
-        table.add_row(head, *(f"{powers[index]:.6g}" for index in shown))
+        table.add_row(head, *(f"{powers[index]:.{digits}g}" for index in shown))
     shares = {
         "difference": found.difference,
         "at least": found.certificate.lower - 1.0,

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from optipath.cli.chosen import ALL, asks_for_several, cases_of, chosen_by, one_case
+from optipath.cli.console import JSON
+from optipath.cli.misplaced import StrictCommand
+from optipath.cli.whole_help import WholeHelp
 from optipath.composer.composer import CHOICES
-from optipath.errors import OptipathError, ParameterError, PresetError, printable
+from optipath.errors import PresetError, printable
 from optipath.kernels.catalogue import METHODS
-from optipath.paths.presets.loader import load_preset, preset_names, with_values
+from optipath.paths.presets.loader import load_preset, preset_names
 from optipath.values.domains.quantities import READINGS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from optipath.paths.path_graph import PathGraph
+    from optipath.paths.place_choice import PlaceChoice
     from optipath.values.parameters import Parameter
 
 METHOD = click.Option(
@@ -41,42 +45,12 @@ READS = click.Option(
     type=click.Choice(READINGS),
     help="What all detectors read, in place of what the preset says.",
 )
-JSON = click.Option(["--json", "as_json"], is_flag=True, help="Print one JSON object.")
+
+COMPOSING = (METHOD, MODEL, TOLERANCE, READS, JSON)
+"""What can be given to commands that compose and run."""
 
 
-@dataclass(frozen=True)
-class Chosen:
-    """What a command line is about.
-
-    Attributes
-    ----------
-    preset : str
-        The name of a preset, or a file.
-    opened : PathGraph
-        The path that it describes, which is read once.
-    case : str, optional
-        A named set of its values.
-    values : mapping of str to Any
-        Values that take precedence over the case.
-    """
-
-    preset: str
-    opened: PathGraph
-    case: str | None
-    values: Mapping[str, Any]
-
-    @property
-    def title(self) -> str:
-        """The preset and the case."""
-        return self.preset + (f", case {self.case}" if self.case else "")
-
-    def path(self, reads: str | None = None) -> PathGraph:
-        """Return the path, bound to what is given, and with other readings if they are."""
-        bound = with_values(self.opened, self.preset, self.case, self.values)
-        return bound if reads is None else bound.reading(reads)
-
-
-class PresetGroup(click.Group):
+class PresetGroup(WholeHelp):
     """A group whose subcommands are the presets, and files of the user's own.
 
     Parameters
@@ -87,6 +61,8 @@ class PresetGroup(click.Group):
         ``action(chosen, **options)``; its docstring is the help of the group.
     options : sequence of click.Option, optional
         What can be given besides the parameters and the case.
+    several : callable, optional
+        ``several([chosen, ...], **options)``, for several cases; a command without it takes one.
     **keywords : Any
         As `click.Group` takes them.
     """
@@ -95,7 +71,8 @@ class PresetGroup(click.Group):
         self,
         name: str,
         action: Callable[..., None],
-        options: Sequence[click.Option] = (METHOD, MODEL, TOLERANCE, READS, JSON),
+        options: Sequence[click.Option] = COMPOSING,
+        several: Callable[..., None] | None = None,
         **keywords: Any,
     ) -> None:
         usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
@@ -103,6 +80,7 @@ class PresetGroup(click.Group):
         super().__init__(name, invoke_without_command=True, **keywords)
         self.action = action
         self.options = tuple(options)
+        self.several = several
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the presets."""
@@ -129,20 +107,26 @@ class PresetGroup(click.Group):
         parameters = path.parameters
         names = {option.name or "" for option in self.options}
         flags = {flag.lstrip("-") for option in self.options for flag in option.opts}
-        if taken := sorted(parameters.keys() & {*names, *flags, "case", "help", "h"}):
+        if taken := sorted({*parameters, *path.choices} & {*names, *flags, "case", "help", "h"}):
             raise PresetError(
                 f"parameter '{taken[0]}' of '{cmd_name}' has the name of an option of the "
                 f"command line; rename it in the file"
             )
 
-        def callback(*, case: str | None, **given: Any) -> None:
+        def callback(*, cases: tuple[str, ...], **given: Any) -> None:
             options = {name: given.pop(name) for name in names}
-            self.action(_chosen(cmd_name, path, case, given), **options)
+            if self.several is None:
+                one_case(self.name or "", path, cases)
+            chosen = chosen_by(cmd_name, path, cases_of(cmd_name, path, cases), given)
+            if self.several is not None and asks_for_several(path, cases):
+                self.several(chosen, **options)
+            else:
+                self.action(chosen[0], **options)
 
-        cases = printable(", ".join(path.cases)) or "none in this preset"
-        case = click.Option(["--case"], metavar="NAME", help=f"Named set of values: {cases}.")
+        case = case_option(path, several=self.several is not None)
         options = [_option(parameter) for parameter in parameters.values() if not parameter.bound]
-        return click.Command(
+        options += [_place(name, choice, path) for name, choice in path.choices.items()]
+        return StrictCommand(
             cmd_name,
             callback=callback,
             params=[*options, case, *self.options],
@@ -168,34 +152,30 @@ class PresetGroup(click.Group):
         return printable(name or ""), command, rest
 
 
+def case_option(path: PathGraph, *, several: bool) -> click.Option:
+    """Return the option of the cases of a path.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What has them.
+    several : bool
+        Whether more than one can be given.
+
+    Returns
+    -------
+    click.Option
+    """
+    cases = printable(", ".join(path.cases))
+    more = f"; may be given several times, or {ALL}" if several and cases else ""
+    told = f"Named set of values: {cases or 'none in this preset'}{more}."
+    return click.Option(["--case", "cases"], metavar="NAME", multiple=True, help=told)
+
+
 def _refuse_none() -> None:
     if click.get_current_context().invoked_subcommand is None:
         names = ", ".join(preset_names())
         raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
-
-
-def _chosen(
-    preset: str, path: PathGraph, case: str | None, texts: Mapping[str, str | None]
-) -> Chosen:
-    """Return what the options give; all that is wrong with them at once."""
-    parameters = path.parameters
-    values: dict[str, Any] = {}
-    faults: list[str] = []
-    for name, text in texts.items():
-        if text is None:
-            continue
-        try:
-            values[name] = parameters[name].parse(text, parameters[name].unit)
-        except OptipathError as error:
-            faults += error.faults
-    chosen = Chosen(preset, path, case, values)
-    if faults:
-        try:
-            chosen.path()
-        except OptipathError as error:
-            faults += error.faults
-        raise ParameterError(*faults)
-    return chosen
 
 
 def _option(parameter: Parameter) -> click.Option:
@@ -204,6 +184,14 @@ def _option(parameter: Parameter) -> click.Option:
     flag = "--" + parameter.name.replace("_", "-")
     return click.Option(
         [flag, parameter.name],
+        multiple=True,
         metavar=(parameter.unit or "number").upper(),
         help=printable("; ".join(h for h in hints if h)),
     )
+
+
+def _place(name: str, choice: PlaceChoice, path: PathGraph) -> click.Option:
+    hints = [choice.help, f"words: {', '.join(choice.behind)}", f"[{choice.place(path.graph)}]"]
+    flag = "--" + name.replace("_", "-")
+    described = printable("; ".join(hint for hint in hints if hint))
+    return click.Option([flag, name], multiple=True, metavar="WORD", help=described)

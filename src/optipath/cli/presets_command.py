@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import click
 
-from optipath.cli.console import PlainConsole, cell, headed, say_json
-from optipath.cli.preset_command import JSON
-from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json
+from optipath.paths.presets.loader import preset_descriptions
 
 
 @click.command(params=[JSON])
 def presets(*, as_json: bool) -> None:
     """List the presets."""
-    descriptions = {name: load_preset(name).description for name in preset_names()}
+    descriptions = preset_descriptions()
     if as_json:
         say_json(descriptions)
         return

@@ -9,33 +9,38 @@ from typing import TYPE_CHECKING
 import click
 from rich.cells import cell_len
 
+from optipath.cli.chosen import one_case
 from optipath.cli.console import PlainConsole, cell, headed
+from optipath.cli.misplaced import StrictCommand
 from optipath.cli.text_files import NewFile, write
 from optipath.errors import printable
 from optipath.paths.drawing import draw
-from optipath.paths.presets.loader import load_preset
+from optipath.paths.presets.loader import bound_preset, load_preset
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from optipath.paths.path_graph import PathGraph
     from optipath.values.parameters import Parameter
-CASE = click.Option(["--case"], metavar="NAME", help="Named set of values.")
+CASE = click.Option(["--case", "cases"], metavar="NAME", multiple=True, help="Named set of values.")
 SVG = click.Option(["--svg"], type=NewFile(), help="Draw into this file as well.")
 
 # What rich would load from the net: a typeface, in place of which one that is there will do.
 _FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
 
 
-def _show(preset: str, case: str | None, svg: Path | None) -> None:
+def _show(preset: str, cases: tuple[str, ...], svg: Path | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
-    path = load_preset(preset, case=case)
+    path = load_preset(preset)
+    path = bound_preset(path, preset, one_case("show", path, cases), {})
     if svg is not None:
         write(svg, _picture(path, f"optipath show {preset}").encode())
     _print(PlainConsole(), path)
 
 
-show = click.command("show", params=[click.Argument(["preset"]), CASE, SVG])(_show)
+show = click.command("show", cls=StrictCommand, params=[click.Argument(["preset"]), CASE, SVG])(
+    _show
+)
 
 
 def _picture(path: PathGraph, title: str) -> str:
@@ -50,10 +55,13 @@ def _picture(path: PathGraph, title: str) -> str:
 
 def _print(console: PlainConsole, path: PathGraph) -> None:
     console.print(cell(path.description, style="bold"), end="\n\n")
-    if path.parameters:
+    if path.parameters or path.choices:
         table = headed("parameter", "default", "range", "what it is", box=None)
         for parameter in path.parameters.values():
             table.add_row(*map(cell, _row(parameter)))
+        for name, choice in path.choices.items():
+            described = "; ".join(filter(None, [choice.help, ", ".join(choice.behind)]))
+            table.add_row(*map(cell, (name, choice.place(path.graph), "", described)))
         console.print(table)
         console.print()
     console.print(cell(draw(path)), soft_wrap=True)

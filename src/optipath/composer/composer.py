@@ -9,18 +9,20 @@ from typing import TYPE_CHECKING, Any, Protocol
 import networkx as nx
 
 from optipath.composer.collection import put_off
+from optipath.composer.followed_values import with_followed
 from optipath.composer.lower import lower, refuse_depolarizers, refuse_loops
+from optipath.composer.media import Media
 from optipath.composer.path_values import Values
 from optipath.composer.reduce import by_name, reduced, tolerated
 from optipath.composer.validate import refuse_faults
-from optipath.composer.wiring import KEPT, LOOPS, Wiring
+from optipath.composer.wiring import KEPT, LOOPS, Wiring, link_text
 from optipath.engines.automatic import ENGINES, is_installed
 from optipath.engines.known_engines import REGISTRY
 from optipath.engines.program.reduction import MODELS
 from optipath.errors import ComposerError, shown, unknown
 from optipath.kernels.catalogue import METHODS
 from optipath.plan.plan import Plan
-from optipath.values.precision import precision
+from optipath.values.precision import precision_name
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
@@ -42,7 +44,7 @@ class Path(Protocol):
 
     @property
     def graph(self) -> nx.MultiDiGraph:
-        """The graph: nodes with ``element`` and ``frames``, links with ``azimuth``."""
+        """The graph: nodes with ``element`` and ``frames``, links with ``azimuth`` and ``tap``."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,8 @@ class Composer:
         compiling it pays; by name, Numba compiles at once.
     dtype : {"float64", "float32", "longdouble"}, optional
         The precision of the steps, to which all values are rounded (1e-60 is 0 in
-        float32); longdouble where the platform has it.
+        float32); longdouble where the platform has it. What NumPy takes for one of them
+        will do, such as ``"f4"`` and ``np.float32``.
     composing : {"stokes", "jones"}, optional
         How light is carried along a path: as a Stokes vector, or as two Jones columns,
         which no element may depolarise and whose light is never polarised by more than
@@ -101,7 +104,7 @@ class Composer:
     method: str = "stable"
     model: str = "auto"
     engine: str = "auto"
-    dtype: str = "float64"
+    dtype: Any = "float64"
     composing: str = "stokes"
     tolerance: float | None = None
     threads: int = 1
@@ -115,7 +118,7 @@ class Composer:
             if value is not None or option != "loops":
                 faults += unknown(option, value, choices)
         try:
-            precision(self.dtype)
+            object.__setattr__(self, "dtype", precision_name(self.dtype))
         except ComposerError as fault:
             faults += fault.faults
         engine, dtype, model, composing = (
@@ -179,8 +182,10 @@ class Composer:
             return self._plan(graph)
 
     def _plan(self, graph: nx.MultiDiGraph) -> Plan:
+        graph, unfollowed = with_followed(graph)
         values, wiring = Values(graph), Wiring(graph, self.loops, self.keep)
-        refuse_faults(values, wiring)
+        media = Media(wiring)
+        refuse_faults(values, wiring, media, unfollowed)
         whole = lower(wiring, self.method)
         if self.composing == "jones":
             refuse_depolarizers(whole)
@@ -191,9 +196,10 @@ class Composer:
             reduction=reduction,
             instead=instead,
             tolerance=self.tolerance,
-            inputs=values.inputs(),
+            inputs=values.inputs(media.open),
+            own_ways=tuple([w for w in wiring.own_ways(self.method) if not w.is_known]),
             outlets=wiring.outlets,
-            copied=wiring.copied,
+            taps=tuple(map(link_text, wiring.taps)),
             method=self.method,
             composing=self.composing,
             dtype=self.dtype,

@@ -11,6 +11,7 @@ from optipath.composer.entries import entries_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+    from collections.abc import Set as AbstractSet
 
     from optipath.composer.entries import Entries
     from optipath.engines.program.program import Program
@@ -23,6 +24,10 @@ class Live:
     ----------
     program : Program
         The steps.
+    doubtful : set of int, optional
+        Steps that may be left out: light may pass them as it is.
+    entries : list of Entries, optional
+        What is known of the matrix of each step, where that has been found before.
 
     Attributes
     ----------
@@ -32,19 +37,22 @@ class Live:
         For each light, the components on which something depends that is read.
     """
 
-    def __init__(self, program: Program) -> None:
+    def __init__(
+        self,
+        program: Program,
+        doubtful: AbstractSet[int] = frozenset(),
+        entries: list[Entries] | None = None,
+    ) -> None:
         self.program = program
-        known = entries_of(program)
-        # What adds lights up, and does nothing to them, is known as such.
-        places = [step.evaluation for step in program.steps]
-        self.entries = [_IDENTITY if place is None else known[place] for place in places]
-        self.sources = [_sources(entries) for entries in self.entries]
+        self.doubtful = doubtful
+        self.entries = _entries_of_steps(program) if entries is None else entries
+        self.sources = [_sources(each) for each in self.entries]
         self.reached: list[set[int]] = [set() for _ in program.steps]
         self.needed: list[set[int]] = [set() for _ in program.steps]
-        _until_settled(reversed(range(len(places))), self._forward)
+        _until_settled(reversed(range(len(program.steps))), self._forward)
         for reading in program.readings.values():
             self.needed[reading.light] |= set(range(reading.components))
-        _until_settled(range(len(places)), self._backward)
+        _until_settled(range(len(program.steps)), self._backward)
 
     @property
     def components(self) -> tuple[tuple[int, ...], ...]:
@@ -52,8 +60,11 @@ class Live:
         pairs = zip(self.reached, self.needed, strict=True)
         return tuple([tuple(sorted((reached & needed) | {0})) for reached, needed in pairs])
 
-    def does_nothing(self, light: int) -> bool:
-        """Tell whether a step leaves everything as it is that is alive."""
+    def idle(self) -> set[int]:
+        """Return the steps that each leave everything as it is that is alive."""
+        return {light for light in range(len(self.program.steps)) if self._does_nothing(light)}
+
+    def _does_nothing(self, light: int) -> bool:
         step, needed = self.program.steps[light], self.needed[light] | {0}
         if step.evaluation is None or not step.inputs:
             return False
@@ -65,6 +76,8 @@ class Live:
         inputs, sources = self.program.steps[light].inputs, self.sources[light]
         arriving = set().union(*[self.reached[before] for before in inputs]) if inputs else _ALL
         found = {row for row, columns in enumerate(sources) if columns & arriving}
+        if light in self.doubtful:
+            found |= arriving
         if found <= self.reached[light]:
             return ()
         self.reached[light] |= found
@@ -81,6 +94,13 @@ class Live:
 
 _ALL = frozenset(range(4))
 _IDENTITY: Entries = tuple(tuple(float(row == column) for column in range(4)) for row in range(4))
+
+
+def _entries_of_steps(program: Program) -> list[Entries]:
+    known = entries_of(program)
+    # What adds lights up, and does nothing to them, is known as such.
+    places = [step.evaluation for step in program.steps]
+    return [_IDENTITY if place is None else known[place] for place in places]
 
 
 @lru_cache(1024)
@@ -123,7 +143,9 @@ def left_out(program: Program) -> tuple[Program, list[str]]:
         Which steps were left out.
     """
     live = Live(program)
-    idle = {light for light in range(len(program.steps)) if live.does_nothing(light)}
+    # One may be idle since another takes away what would reach it: without both, it reaches on.
+    idle = live.idle()
+    idle = idle and idle & Live(program, idle, live.entries).idle()
     if not idle:
         return replace(program, live=live.components), []
     notes = []

@@ -3,42 +3,59 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.composer.wiring import link_text
+from optipath.elements.own_ways import couplings_of
 from optipath.errors import ValueFault
+from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.domains.quantities import ANGLE
-from optipath.values.inputs import Inputs, Use
+from optipath.values.inputs import Inputs
 from optipath.values.parameters import Parameter
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     import networkx as nx
 
+    from optipath.values.agreement import Agreement
+
 
 class Values:
-    """Every number of a path, gathered once: node by node, then link by link."""
+    """Every number of a path, gathered once: node by node, then link by link.
 
-    def __init__(self, graph: nx.MultiDiGraph) -> None:
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    doubtful : collection of str, optional
+        Parameters of which something else is wrong: their values say nothing, and are left out.
+    """
+
+    def __init__(self, graph: nx.MultiDiGraph, doubtful: Collection[str] = ()) -> None:
         self.graph = graph
+        self.doubtful = doubtful
 
     @cached_property
     def uses(self) -> tuple[Use, ...]:
         """Each number where it stands."""
-        found = [
-            Use(f"{name}.{part}", value, domain)
-            for name, element in self.graph.nodes(data="element")
-            for part, value, domain in element.quantities()
-        ]
+        found: list[Use] = []
+        for name, element in self.graph.nodes(data="element"):
+            found += element.uses(name)
         found += self._entered()
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
                 found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
+        if self.doubtful:
+            return tuple(use for use in found if not self._is_doubtful(use.value))
         return tuple(found)
+
+    def _is_doubtful(self, value: Any) -> bool:
+        return isinstance(value, Parameter) and value.name in self.doubtful
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
@@ -54,7 +71,7 @@ class Values:
         found: dict[str, Parameter] = {}
         for use in self.uses:
             if isinstance(use.value, Parameter) and use.value.name not in found:
-                found[use.value.name] = -use.value if use.value.negative else use.value
+                found[use.value.name] = use.value.alone()
         declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
         return {name: found[name] for name in dict.fromkeys([*declared, *found])}
 
@@ -63,20 +80,22 @@ class Values:
         """The batch shapes of arrays and frames that are known, by owner."""
         shapes = {}
         for use in self.uses:
-            if not use.is_open:
-                shapes[use.owner] = use.known_shape()
+            if not use.is_open and (shape := use.known_shape()):
+                shapes[_named(use)] = shape
         for name, frames in self.graph.nodes(data="frames"):
             shapes |= {f"frame of {name}.{port}": f.z.shape[:-1] for port, f in frames.items()}
         return {owner: shape for owner, shape in shapes.items() if shape}
 
-    def inputs(self) -> Inputs:
-        """Return what may be given when the path is run."""
+    def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
+        """Return what may be given when the path is run, and what of it must fit together."""
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
             uses=tuple(use for use in self.uses if use.is_open),
             shapes=self.known_shapes,
             known=tuple(use for use in self.uses if use.is_traced),
+            choices=tuple(self.graph.graph.get("choices", ())),
+            agreements=agreements,
         )
 
     def faults(self) -> list[str]:
@@ -94,7 +113,7 @@ class Values:
                 use.check()
             except ValueFault as fault:
                 found += fault.faults
-                faulty.add(use.owner)
+                faulty.add(_named(use))
         sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
         return [
             *found,
@@ -104,16 +123,16 @@ class Values:
         ]
 
     def _parameter_faults(self) -> Iterator[str]:
+        for name in self.graph.graph.get("choices", ()):
+            if name in self.parameters:
+                yield f"'{name}' is a parameter and a choice; use two names"
         for use in self.uses:
             if not isinstance(use.value, Parameter):
                 continue
             name = use.value.name
             known = self.parameters[name]
             if use.value is not known and not use.value.same_specification(known):
-                yield (
-                    f"parameter '{name}' at {use.owner} differs from the one of that name "
-                    f"elsewhere; use one Parameter, or two names"
-                )
+                yield self._difference(use, known)
             if use.domain.tail != self._tails[name]:
                 yield (
                     f"parameter '{name}' at {use.owner} has another shape than elsewhere; "
@@ -124,6 +143,25 @@ class Values:
                     f"parameter '{name}' is optional, but the element of {use.owner} cannot be "
                     f"left out; only one that light goes straight through can"
                 )
+
+    def _difference(self, use: Use, known: Parameter) -> str:
+        """Say in what a parameter differs from the one of its name that is met first."""
+        name, alike = known.name, changed(use.value, unit=known.unit)
+        if not alike.same_specification(known):
+            return (
+                f"parameter '{name}' at {use.owner} differs from the one of that name "
+                f"elsewhere; use one Parameter, or two names"
+            )
+        first = next(u for u in self.uses if getattr(u.value, "name", None) == name)
+        if use.domain.dimension == first.domain.dimension:
+            return (
+                f"parameter '{name}' is in {known.unit} at {first.owner}, and in {use.value.unit} "
+                f"at {use.owner}; give it one, unit='{known.unit}'"
+            )
+        return (
+            f"parameter '{name}' is {first.domain.described()} at {first.owner}, and "
+            f"{use.domain.described()} at {use.owner}; use two names"
+        )
 
     def _optional_faults(self) -> Iterator[str]:
         optional: dict[str, set[str]] = {}
@@ -147,8 +185,13 @@ class Values:
         if name not in self.graph or part == "azimuth":
             return False
         element = self.graph.nodes[name]["element"]
-        ways = [(coupling.enters, coupling.leaves) for coupling in element.couplings()]
+        ways = [(coupling.enters, coupling.leaves) for coupling in couplings_of(element)]
         return bool(element.straight) and ways == [("in", "out")]
+
+
+def _named(use: Use) -> str:
+    """Return what has a value that is known: the parameter that is bound to it, or the field."""
+    return use.value.name if isinstance(use.value, Parameter) else use.owner
 
 
 def parameters_of(graph: nx.MultiDiGraph) -> dict[str, Parameter]:

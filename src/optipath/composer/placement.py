@@ -10,6 +10,7 @@ from optipath.composer.wiring import link_text
 from optipath.elements.coupling import Operation
 from optipath.errors import OptipathError
 from optipath.kernels.catalogue import GIVEN_TURN, TURN
+from optipath.light.frames import Frame
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.operands import Operand
 
@@ -17,7 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from optipath.composer.wiring import Link, Wiring
-    from optipath.light.frames import Frame
+    from optipath.elements.element import Element
+
+_ANY = Frame()
 
 
 def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
@@ -37,6 +40,23 @@ def frame_at(wiring: Wiring, name: str, port: str) -> Frame | None:
     """
     frames = wiring.graph.nodes[name]["frames"]
     return wiring.elements[name].frame_of(port, frames) if frames else None
+
+
+def goes_straight(element: Element, enters: str, leaves: str) -> bool:
+    """Tell whether light goes straight on from port to port: whether one frame serves both.
+
+    Parameters
+    ----------
+    element : Element
+        The element.
+    enters, leaves : str
+        Two of its ports.
+
+    Returns
+    -------
+    bool
+    """
+    return element.frame_of(leaves, {enters: _ANY}) is _ANY
 
 
 def azimuth_of(wiring: Wiring, link: Link) -> Any:

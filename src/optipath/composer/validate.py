@@ -6,49 +6,70 @@ from typing import TYPE_CHECKING
 
 import networkx as nx
 
+from optipath.composer.followed_values import with_followed
+from optipath.composer.media import Media
 from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
+from optipath.composer.taps import sharing_faults, tap_faults
 from optipath.composer.travel import among, cycles
 from optipath.composer.wiring import Wiring, link_text
-from optipath.elements.source import Source
 from optipath.errors import PathError
+from optipath.values.cures import cure
+from optipath.values.made import remember_sound
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from optipath.composer.travel import Ways
 
 
-def validate(graph: nx.MultiDiGraph) -> None:
+def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:
     """Raise unless a graph of elements can be composed.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links.
+    values : Values, optional
+        Its values, where they have been gathered.
 
     Raises
     ------
     PathError
         With all faults found: values, frames, ends, links and loops.
     """
-    refuse_faults(Values(graph), Wiring(graph))
+    whole, unfollowed = with_followed(graph)
+    wiring = Wiring(whole)
+    if values is None or whole is not graph:
+        values = Values(whole)
+    refuse_faults(values, wiring, Media(wiring), unfollowed)
 
 
-def refuse_faults(values: Values, wiring: Wiring) -> None:
-    """Raise unless values and wiring can be composed.
+def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list[str]) -> None:
+    """Raise unless values, wiring and media can be composed.
 
     Parameters
     ----------
-    values, wiring
+    values, wiring, media
         What is known of a path.
+    unfollowed : list of str
+        What could not be taken over from a boundary before.
 
     Raises
     ------
     PathError
         With all faults found.
     """
-    faults = _faults(values, wiring, set(), whole=True)
+    faults = unfollowed + _faults(values, wiring, media, set(), whole=True)
     if faults:
         raise PathError(*faults)
+    for _, element in values.graph.nodes(data="element"):
+        remember_sound(element)
 
 
-def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -> list[str]:
+def partial_faults(
+    graph: nx.MultiDiGraph, suspects: set[str], doubtful: Collection[str], *, whole: bool
+) -> list[str]:
     """Return the faults of a graph of elements of which some may be missing.
 
     Parameters
@@ -58,6 +79,8 @@ def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -
     suspects : set of str
         The nodes whose links may not all be there; what hangs together with them is not
         called unreached.
+    doubtful : collection of str
+        The parameters of which something else is wrong.
     whole : bool
         Whether all nodes are there, so that a missing source or detector says something.
 
@@ -70,26 +93,43 @@ def partial_faults(graph: nx.MultiDiGraph, suspects: set[str], *, whole: bool) -
     for together in nx.weakly_connected_components(graph):
         if together & suspects:
             unsure |= together
-    return _faults(Values(graph), Wiring(graph), unsure, whole=whole)
+    graph, unfollowed = with_followed(graph, unsure)
+    wiring = Wiring(graph)
+    values = Values(graph, doubtful)
+    return unfollowed + _faults(values, wiring, Media(wiring), unsure, whole=whole)
 
 
-def _faults(values: Values, wiring: Wiring, unsure: set[str], *, whole: bool) -> list[str]:
-    found = [*values.faults(), *placement_faults(wiring)]
-    found += [*_feeding_faults(wiring), *_dark_link_faults(wiring)]
+def _faults(
+    values: Values, wiring: Wiring, media: Media, unsure: set[str], *, whole: bool
+) -> list[str]:
+    found = [*values.faults(), *placement_faults(wiring), *media.faults()]
+    found += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
+    found += _dark_link_faults(wiring)
     if wiring.loops != "sum":
-        found += _loop_faults(wiring.ports)
+        found += _loop_faults(wiring.untapped)
     if whole:
         found += _missing_end_faults(wiring)
+    found += [] if found else _own_faults(wiring)
     if wiring.starts and wiring.ends:
         found += _reach_faults(wiring, unsure)
     return found
 
 
+def _own_faults(wiring: Wiring) -> Iterator[str]:
+    for way in wiring.own_ways():
+        if way.is_known:
+            yield from (fault for _, fault in way.faults(lambda operand: operand.numbers()))
+
+
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
     if not wiring.starts:
-        yield f"the path has no source; add one, such as {Source()!r}"
+        yield f"the path has no source; add one, such as {cure('Source()', _table('source'))}"
     if not any(element.detects for element in wiring.elements.values()):
-        yield "the path has no detector; add one, such as Detector()"
+        yield f"the path has no detector; add one, such as {cure('Detector()', _table('detector'))}"
+
+
+def _table(kind: str) -> str:
+    return f'[elements.{kind}] with kind = "{kind}"'
 
 
 def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
@@ -114,16 +154,26 @@ def _feeding_faults(wiring: Wiring) -> Iterator[str]:
 
 
 def _reach_faults(wiring: Wiring, unsure: set[str]) -> Iterator[str]:
-    for name, element in wiring.elements.items():
-        ports = [(name, port) for port in (*element.inputs, *element.outputs)]
-        if name in unsure:
-            continue
-        if not any(port in wiring.lit for port in ports):
-            entries = ", ".join(f"'{name}.{port}'" for port in element.inputs)
-            yield f"node '{name}' is reached by no source; link one to {entries}"
-        elif not any(port in wiring.useful for port in ports):
-            exits = " or ".join(f"'{name}.{port}'" for port in element.outputs)
-            yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
+    """Yield where a link is missing, and not what is cut off in consequence."""
+    ports = {
+        name: [(name, port) for port in (*element.inputs, *element.outputs)]
+        for name, element in wiring.elements.items()
+        if name not in unsure
+    }
+    dark = [name for name, each in ports.items() if not wiring.lit.intersection(each)]
+    lost = [name for name, each in ports.items() if not wiring.useful.intersection(each)]
+    for name in _firsts(wiring.graph.subgraph(dark)):
+        entries = ", ".join(f"'{name}.{port}'" for port in wiring.elements[name].inputs)
+        yield f"node '{name}' is reached by no source; link one to {entries}"
+    for name in _firsts(wiring.graph.subgraph({*lost} - {*dark}).reverse()):
+        exits = " or ".join(f"'{name}.{port}'" for port in wiring.elements[name].outputs)
+        yield f"node '{name}' reaches no detector; link {exits} towards one, or to a Dump"
+
+
+def _firsts(graph: nx.MultiDiGraph) -> list[str]:
+    """Return the nodes that no other leads to; of nodes in a circle, one."""
+    parts = nx.condensation(graph)
+    return [min(parts.nodes[n]["members"]) for n, degree in parts.in_degree if not degree]
 
 
 def _loop_faults(ports: Ways) -> Iterator[str]:
@@ -134,7 +184,8 @@ def _loop_faults(ports: Ways) -> Iterator[str]:
         route = [name for name, _ in nx.shortest_path(inside, start, back)]
         names = [name for i, name in enumerate(route) if i == 0 or route[i - 1] != name]
         closed = names if len(names) > 1 and names[0] == names[-1] else [*names, names[0]]
+        summed = cure("loops='sum'", 'loops = "sum" above all tables')
         yield (
             f"light goes round in a cycle: {' -> '.join(closed)}; open it by removing a link, "
-            f"or sum over all rounds with loops='sum'"
+            f"or sum over all rounds with {summed}"
         )

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from optipath.composer.placement import azimuth_of, is_zero
-from optipath.light.frames import Frame
+from optipath.composer.placement import azimuth_of, goes_straight, is_zero
 from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
@@ -68,7 +67,7 @@ def _before(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
         couplings = wiring.couplings[name]
         ways = {c.enters for c in couplings if c.leaves == way}
         fed = [enters for enters in ways if enters and (name, enters) in wiring.links_to]
-        straight = len(fed) == 1 and _is_straight(wiring, name, fed[0], way)
+        straight = len(fed) == 1 and goes_straight(wiring.elements[name], fed[0], way)
         return ((name, fed[0]), []) if straight else None
     links = wiring.links_to.get(port, [])
     if len(links) != 1:
@@ -82,9 +81,9 @@ def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
     name, way = port
     if way in wiring.elements[name].inputs:
         ways = {c.leaves for c in wiring.couplings[name] if c.enters == way}
-        straight = [leaves for leaves in ways if _is_straight(wiring, name, way, leaves)]
+        straight = [leaves for leaves in ways if goes_straight(wiring.elements[name], way, leaves)]
         return ((name, straight[0]), []) if len(straight) == 1 else None
-    links = [link for link in wiring.graph.out_edges(name, keys=True) if link[2][0] == way]
+    links = wiring.links_from.get(port) or [t for t in wiring.taps if (t[0], t[2][0]) == port]
     if len(links) != 1:
         return None
     _, end, (_, enters) = links[0]
@@ -94,11 +93,3 @@ def _behind(wiring: Wiring, port: Port) -> tuple[Port, list[Operand]] | None:
 def _turns(wiring: Wiring, link: Link) -> list[Operand]:
     azimuth = azimuth_of(wiring, link)
     return [] if is_zero(azimuth) else [operand_of(azimuth)]
-
-
-def _is_straight(wiring: Wiring, name: str, enters: str, leaves: str) -> bool:
-    """Tell whether light goes straight on from port to port: whether one frame serves both."""
-    return wiring.elements[name].frame_of(leaves, {enters: _ANY}) is _ANY
-
-
-_ANY = Frame()

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 from optipath.composer.travel import Port, Ways, among, backwards, reached, stretches
+from optipath.elements.own_ways import OwnWay, couplings_of, is_looked_at
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -73,8 +73,17 @@ class Wiring:
         # One element may stand in many places.
         for element in self.elements.values():
             if id(element) not in known:
-                known[id(element)] = tuple(element.couplings())
+                known[id(element)] = couplings_of(element)
         return {name: known[id(element)] for name, element in self.elements.items()}
+
+    def own_ways(self, method: str = "stable") -> list[OwnWay]:
+        """Return the ways through elements of a user's own that are to be looked at."""
+        return [
+            OwnWay(name, self.elements[name], coupling, method)
+            for name, couplings in self.couplings.items()
+            if is_looked_at(self.elements[name])
+            for coupling in couplings
+        ]
 
     @cached_property
     def links_to(self) -> dict[Port, list[Link]]:
@@ -83,6 +92,21 @@ class Wiring:
         for link in sorted(self.graph.edges(keys=True)):
             found.setdefault((link[1], link[2][1]), []).append(link)
         return found
+
+    @cached_property
+    def links_from(self) -> dict[Port, list[Link]]:
+        """The links that take the light of each out-port, in order of their names; no taps."""
+        found: dict[Port, list[Link]] = {}
+        for start, end, key, tap in sorted(self.graph.edges(keys=True, data="tap")):
+            if not tap:
+                found.setdefault((start, key[0]), []).append((start, end, key))
+        return found
+
+    @cached_property
+    def taps(self) -> list[Link]:
+        """The links that read the light of their port, and take nothing, in order of names."""
+        links = self.graph.edges(keys=True, data="tap")
+        return sorted((start, end, key) for start, end, key, tap in links if tap)
 
     @cached_property
     def ports(self) -> Ways:
@@ -102,6 +126,14 @@ class Wiring:
         for start, _, (leaves, _) in self.dark_links:
             for enters in self.elements[start].inputs:
                 ways[start, enters].append((start, leaves))
+        return ways
+
+    @cached_property
+    def untapped(self) -> Ways:
+        """The ways from port to port, those of taps left out."""
+        ways = dict(self.ports)
+        for start, end, (leaves, enters) in self.taps:
+            ways[start, leaves] = [port for port in ways[start, leaves] if port != (end, enters)]
         return ways
 
     @cached_property
@@ -151,8 +183,8 @@ class Wiring:
 
     @cached_property
     def outlets(self) -> tuple[str, ...]:
-        """The out-ports that no link takes: their light leaves the path."""
-        taken = {(start, leaves) for start, _, (leaves, _) in self.graph.edges(keys=True)}
+        """The out-ports whose light no link takes: it leaves the path, read by taps or not."""
+        taken = self.links_from
         found = (
             f"{name}.{port}"
             for name, element in self.elements.items()
@@ -160,9 +192,3 @@ class Wiring:
             if (name, port) not in taken
         )
         return tuple(sorted(found))
-
-    @cached_property
-    def copied(self) -> tuple[str, ...]:
-        """The out-ports that several links take, each the whole light."""
-        counts = Counter(f"{start}.{ways[0]}" for start, _, ways in self.graph.edges(keys=True))
-        return tuple(sorted(port for port, count in counts.items() if count > 1))

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from optipath.elements.fields import faults_of
+from optipath.elements.media_of_boundary import MediaOfBoundary
+from optipath.elements.own_ways import OwnWay, couplings_of, is_looked_at
 from optipath.errors import PathError, shown
 from optipath.kernels.catalogue import REFLECTION
 from optipath.light.frames import Frame
 from optipath.light.mueller.matrix import Mueller
 from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
+from optipath.values.made import faults_of
+from optipath.values.operands import Operand
+
+if TYPE_CHECKING:
+    from optipath.elements.coupling import Coupling
 
 _TWO_MATRICES = 256
 """How many bytes a matrix and what it is made of have."""
@@ -40,7 +46,7 @@ def mueller_alone(
     Raises
     ------
     PathError
-        With all faults at once.
+        With all faults at once, among them what no light can do, of an element of one's own.
     """
     REFLECTION.by_method(method)
     owner, (frame_in, frame_out) = element.kind or type(element).__name__, placed
@@ -48,6 +54,12 @@ def mueller_alone(
         if not isinstance(port, str):
             raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
     leaves = leaves or element.natural
+    followed = element.followed() if isinstance(element, MediaOfBoundary) else ()
+    if followed:
+        raise PathError(
+            f"{owner} takes its {' and '.join(followed)} over from a boundary before it (FOLLOWS), "
+            f"and alone it has none; give numbers"
+        )
     uses = element.uses(owner) + element.uses_entered(owner, enters)
     open_ones = [
         f"parameter '{use.value.name}' of {owner} has no value yet" for use in uses if use.is_open
@@ -65,14 +77,37 @@ def mueller_alone(
     if faults:
         raise PathError(*faults)
     batch = joint_shape(*shapes.values())
-    for coupling in element.couplings():
+    couplings = couplings_of(element)
+    for coupling in couplings:
         if (coupling.enters, coupling.leaves) == (enters, leaves):
             with enough_for(batch, _TWO_MATRICES, error=PathError):
+                if is_looked_at(element):
+                    _refuse_unphysical(OwnWay(owner, element, coupling, method))
                 matrix = coupling.matrix(method)
             frame_in = frame_in or _own_frame(element, enters)
-            return Mueller(matrix, frame_in, frame_out or _own_frame(element, leaves))
-    ways = [f"{c.enters} -> {c.leaves}" for c in element.couplings() if c.enters]
-    raise PathError(f"{owner} has no way '{enters} -> {leaves}'; there are: {', '.join(ways)}")
+            return Mueller.of(matrix, frame_in, frame_out or _own_frame(element, leaves))
+    raise PathError(_no_way(owner, enters, leaves, couplings))
+
+
+def _no_way(owner: str, enters: str, leaves: str, couplings: tuple[Coupling, ...]) -> str:
+    """Say that there is no such way, and which there are."""
+    ways = [(c.enters, c.leaves) for c in couplings if c.enters]
+    if not ways:
+        where = "begins" if couplings else "ends"
+        return f"{owner} lets no light through, which {where} there; ask an element between"
+    known = ", ".join(f"{begin} -> {end}" for begin, end in ways)
+    begin, end = next((way for way in ways if way[0] == enters), ways[0])
+    return (
+        f"{owner} has no way '{enters} -> {leaves or '...'}'; say the ports, such as "
+        f'element.mueller("{begin}", "{end}") @ light; there are: {known}'
+    )
+
+
+def _refuse_unphysical(way: OwnWay) -> None:
+    """Refuse what no light can do, as paths do."""
+    faults = way.faults(Operand.numbers) if way.is_known else []
+    if faults:
+        raise PathError(*(sentence for _, sentence in faults))
 
 
 def _own_frame(element: Any, port: str) -> Frame:

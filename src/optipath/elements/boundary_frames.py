@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from optipath.elements.four_port import FourPort
 from optipath.elements.frame_checks import angle_between, incidence_between, share_x
 from optipath.elements.fresnel import refraction_angle
+from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.light.frames import Frame
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.domains.indices import LIT_BEHIND
+from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 
@@ -24,11 +26,20 @@ if TYPE_CHECKING:
 _TOLERANCE = 1e-7
 
 
-class BoundaryElement(FourPort):
+class BoundaryElement(MediaOfBoundary, FourPort):
     """An element between the media in front, ``outside``, and behind, ``index``.
 
     All its ports share x = s; directions obey the laws of reflection and of Snell.
     """
+
+    may_follow: ClassVar[tuple[str, ...]] = ("outside", "incidence")
+
+    @property
+    def measured(self) -> tuple[Any, Any]:
+        """The angle of incidence, and the index of the medium in which it is measured."""
+        face: Any = self
+        before = getattr(face, "incidence_in", None)
+        return face.incidence, face.outside if before is None else before
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
         """Return that the medium behind must not absorb where light comes from there."""
@@ -73,6 +84,8 @@ def _meeting_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> It
         return
     found = incidence_between(frames["in"], frames["reflected"])
     problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
+    if element.incidence is FOLLOWS:
+        return  # What it takes over is looked at.
     if not Operand(element.incidence).known:
         name = element.incidence.name
         yield f"{problem}; give that, not the parameter '{name}'"
@@ -108,6 +121,8 @@ def _angles(owner: str, element: Any) -> tuple[Any, Any] | None:
     """Return the angles in front and behind, if they are known and allowed."""
     before = getattr(element, "incidence_in", None)
     values = [element.incidence, element.index, element.outside, before]
+    if any(value is FOLLOWS for value in values):
+        return None
     parts: list[Any] = [
         p for v in values for p in ((v.n, v.k) if isinstance(v, Material) else (v,))
     ]

@@ -9,7 +9,7 @@ import numpy as np
 
 from optipath.kernels.catalogue import TURN, TURN_BACK
 from optipath.kernels.numbers.primitives import NUMPY
-from optipath.light.mueller.matrix import stacked
+from optipath.light.mueller.stacking import stacked
 from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.materials import Material
 from optipath.values.operands import Operand, operand_of

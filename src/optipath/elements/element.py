@@ -6,28 +6,31 @@ from dataclasses import MISSING, dataclass, fields
 from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
+from optipath.elements.acting import ActsOnLight
 from optipath.elements.alone import mueller_alone
-from optipath.elements.coupling import Coupling, Operation, numbers_of
-from optipath.elements.fields import domains_of, faults_of, same_value
+from optipath.elements.chaining import Chainable, NamedElement
+from optipath.elements.fields import domains_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
-from optipath.elements.rows import rows_kernel
+from optipath.elements.rows import coupling_by_rows, rows_kernel
 from optipath.errors import PathError
 from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
-from optipath.values.domains.domain import Domain, in_unit_of
-from optipath.values.inputs import Use
+from optipath.values.made import faults_of, is_known_sound, make_sound, remember_sound
 from optipath.values.parameters import Parameter
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from optipath.elements.coupling import Coupling, Operation
     from optipath.elements.vertices.frame import VertexFrame
     from optipath.light.frames import Frame
     from optipath.light.mueller.matrix import Mueller
+    from optipath.values.domains.domain import Domain
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
-class Element:
+class Element(Chainable, ActsOnLight):
     """An optical element: ports, values, and the way light goes through.
 
     A subclass is a frozen dataclass without further ado. Its fields are values
@@ -36,7 +39,7 @@ class Element:
 
     - ``mueller_rows(xp, *values)``, a static method that returns the rows of its Mueller
       matrix, elementwise and out of these values alone, since it is asked once for many
-      paths and runs: `xp` has ``sin``, ``cos``, ``exp``, ``sqrt``, ``where``, ...
+      paths and runs: `xp` has ``sin``, ``where``, ... (`Primitives`; `docs/own-elements.md`).
       Each field gives one value, but an `Index` gives two (n and k), an `Amplitude` two
       (its parts), a Stokes vector four and a matrix sixteen. A field ``azimuth`` gives
       none: it turns the frame of ``in`` against the one before it, for every element; or
@@ -65,6 +68,8 @@ class Element:
         Whether its ports have frames by its own values.
     detects : bool
         Whether light that ends here is what a path is asked for.
+    physical : bool
+        Whether it must polarise light by 100 % at most, and amplify none.
 
     Examples
     --------
@@ -88,6 +93,7 @@ class Element:
     straight: ClassVar[bool] = True
     self_placed: ClassVar[bool] = False
     detects: ClassVar[bool] = False
+    physical: ClassVar[bool] = True
     _kernel: ClassVar[Kernel | None] = None
 
     def __init_subclass__(cls, kind: str = "", **keywords: Any) -> None:
@@ -98,12 +104,24 @@ class Element:
         if kind:
             register(kind, cls)
         if "mueller_rows" in cls.__dict__:
-            cls._kernel = rows_kernel(kind or cls.__name__, cls.__dict__["mueller_rows"])
+            cls._kernel = rows_kernel(kind, cls.__name__, cls.__dict__["mueller_rows"])
 
     def __post_init__(self) -> None:
-        """Keep read-only copies of arrays, and give parameters the unit of their field."""
-        for name, domain in self.domains().items():
-            object.__setattr__(self, name, in_unit_of(domain.kept(getattr(self, name)), domain))
+        """Keep numbers for texts, read-only arrays, parameters in a unit; refuse all faults."""
+        of_fields = type(self).quantities is Element.quantities
+        if make_sound(self, self.domains(), self.quantities, of_fields=of_fields):
+            remember_sound(self)
+
+    def named(self, name: str) -> NamedElement:
+        """Return the element with the name of its node in a chain.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> op.Source() >> op.Polarizer(0.3).named("analyser") >> op.Detector()
+        <PathGraph: source >> analyser >> detector>
+        """
+        return NamedElement(name, self)
 
     @classmethod
     def domains(cls) -> Mapping[str, Domain]:
@@ -119,6 +137,8 @@ class Element:
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number: its name, the value, its domain."""
         domains = self.domains().items()
+        if self.physical is False:
+            domains = {name: domain.unphysical for name, domain in domains}.items()
         return chain(*[domain.parts(name, getattr(self, name)) for name, domain in domains])
 
     def domains_entered(self, port: str) -> Mapping[str, Domain]:
@@ -131,10 +151,8 @@ class Element:
 
         Parameters
         ----------
-        owner : str
-            What sentences call the element.
-        port : str
-            The in-port that the link leads to.
+        owner, port : str
+            What sentences call the element, and the in-port.
 
         Returns
         -------
@@ -157,7 +175,8 @@ class Element:
 
     def uses(self, owner: str) -> list[Use]:
         """Return the numbers that the values are made of, each with what it must be."""
-        return [Use(f"{owner}.{name}", value, domain) for name, value, domain in self.quantities()]
+        sound = is_known_sound(self)
+        return [Use(f"{owner}.{name}", value, of, sound) for name, value, of in self.quantities()]
 
     def frame_of(self, port: str, frames: Mapping[str, Frame]) -> Frame | None:
         """Return the world frame of a port: its own, or what follows from those of others.
@@ -244,13 +263,7 @@ class Element:
                 f"element class {type(self).__name__} does not say what it does to light; "
                 f"give it a static method mueller_rows(xp, ...) or a method couplings()"
             )
-        arguments = [
-            numbers_of(getattr(self, name), domain)
-            for name, domain in self.domains().items()
-            if name != "azimuth"
-        ]
-        operation = Operation(self._kernel, tuple(number for part in arguments for number in part))
-        return (Coupling("in", "out", (operation,)),)
+        return (coupling_by_rows(self, self._kernel),)
 
     def mueller(
         self,
@@ -281,8 +294,8 @@ class Element:
         Raises
         ------
         PathError
-            If there is no such way through, a value is out of its domain, or a
-            parameter is still open.
+            If there is no such way through, a value is out of its domain, a parameter is
+            still open, or no light can be changed so and the class does not say so.
 
         Examples
         --------

@@ -7,15 +7,13 @@ from functools import cache
 from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 
 from optipath.elements.coupling import numbers_of
-from optipath.errors import PathError, ValueFault
+from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import REAL
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-
-    from optipath.values.inputs import Use
 
 
 @cache
@@ -66,14 +64,3 @@ def same_value(first: Any, second: Any, domain: Domain) -> bool:
         return same(first, second)
     pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)
     return all(same(one, other) for one, other in pairs)
-
-
-def faults_of(uses: list[Use]) -> list[str]:
-    """Return what is wrong with the values that are known already, a sentence each."""
-    found: list[str] = []
-    for use in uses:
-        try:
-            use.check()
-        except ValueFault as fault:
-            found += fault.faults
-    return found

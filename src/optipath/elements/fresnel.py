@@ -14,6 +14,7 @@ from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.angles import is_angle, within_right_angle
 from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import check_known
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import INDEX, OUTSIDE
@@ -33,7 +34,7 @@ def fresnel_reflection(
     cos_incidence: npt.ArrayLike,
     sin_incidence: npt.ArrayLike,
     method: str = "stable",
-    dtype: str = "float64",
+    dtype: npt.DTypeLike = "float64",
 ) -> tuple[npt.NDArray[Any], ...]:
     """Return (A, B, C, S) of the Mueller matrix of a reflection.
 
@@ -50,7 +51,7 @@ def fresnel_reflection(
     method : {"stable", "compensated", "amplitude", "textbook"}, optional
         How Fresnel's equations are computed.
     dtype : {"float64", "float32", "longdouble"}, optional
-        The precision of the computation and of the result.
+        The precision of the computation and of the result, or what NumPy takes for it.
 
     Returns
     -------
@@ -80,7 +81,7 @@ def fresnel_transmission(
     cos_incidence: npt.ArrayLike,
     sin_incidence: npt.ArrayLike,
     method: str = "stable",
-    dtype: str = "float64",
+    dtype: npt.DTypeLike = "float64",
 ) -> tuple[npt.NDArray[Any], ...]:
     """Return (A, B, C, S) of the Mueller matrix of the power that a boundary lets through.
 
@@ -115,11 +116,11 @@ def fresnel_transmission(
 
 
 def _fresnel(
-    family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: str
+    family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: npt.DTypeLike
 ) -> tuple[npt.NDArray[Any], ...]:
     kernel, kind = family.by_method(method), precision(dtype)
     m = INDEX.check("index", index)
-    cos, sin = as_given("cos_incidence", cos), as_given("sin_incidence", sin)
+    cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
     c = _COSINE.check("cos_incidence", within_right_angle(cos, sin))
     s = _COSINE.check("sin_incidence", sin)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
@@ -133,6 +134,10 @@ def _fresnel(
         numbers = kernel.made_for(NUMPY)(*left)
         (A, B, _, _), _, (_, _, C, S), _ = BLOCK.rows(NUMPY, numbers)
     return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))
+
+
+def _given(name: str, value: Any) -> Any:
+    return as_given(name, _COSINE.read(name, value))
 
 
 def _vanishes(number: npt.NDArray[Any]) -> bool:
@@ -168,6 +173,8 @@ def refraction_angle(
         If a value is not allowed.
     ShapeError
         If the values do not broadcast.
+    ParameterError
+        If JAX traces one.
 
     Examples
     --------
@@ -178,6 +185,8 @@ def refraction_angle(
     angle = INCIDENCE.check("incidence", incidence)
     front = OUTSIDE.check("outside", outside)
     check_broadcast({"index": m.shape, "incidence": angle.shape, "outside": front.shape})
+    for value in (m, angle, front):
+        check_known("refraction_angle", value)
     cos, sin = (made(NUMPY)(angle) for made in (cosine, sine))
     given = (front, np.real(m), np.imag(m) + 0.0, cos, sin)
     with np.errstate(all="ignore"):

@@ -7,7 +7,14 @@ from typing import TYPE_CHECKING, Any
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
-from optipath.values.domains.quantities import Angle, Incidence, Index, OptionalIndex, OutsideIndex
+from optipath.values.domains.quantities import (
+    Angle,
+    FollowedIncidence,
+    Index,
+    OptionalIndex,
+    OutsideIndex,
+    YesOrNo,
+)
 from optipath.values.materials import Material
 from optipath.values.operands import Operand
 
@@ -28,10 +35,12 @@ class Interface(BoundaryElement, kind="interface"):
     ----------
     index : float, complex, array_like, Material or Parameter
         The index of refraction n + ik of the medium behind the boundary.
-    incidence : float, array_like or Parameter
-        The angle of incidence in radians, 0 to pi/2, of light from the front.
-    outside : float, array_like, Material or Parameter, optional
-        The index of the medium in front, without absorption.
+    incidence : float, array_like, Parameter or FOLLOWS
+        The angle of incidence in radians, 0 to pi/2, of light from the front; with `FOLLOWS`, that
+        of the boundary before, whose light has been refracted by Snell's law.
+    outside : float, array_like, Material, Parameter or FOLLOWS, optional
+        The index of the medium in front, without absorption; with `FOLLOWS`, the medium that the
+        light of the boundary before comes in.
     azimuth : float, array_like or Parameter, optional
         The angle by which the frame of ``in`` is turned about the direction of travel
         against the frame of the port before it. For ``back``, which light from the next
@@ -40,6 +49,11 @@ class Interface(BoundaryElement, kind="interface"):
         The index of the medium in which the incidence is measured; ``outside`` by default.
         With it, one angle serves all parallel interfaces of a stack, refracted from the medium
         in front of the stack by Snell's law.
+    parallel : bool, optional
+        Whether it is parallel to a boundary before whose refracted light enters it, so that
+        n sin(incidence) must be the same; False for a face that stands at an angle to that one,
+        such as the second of a prism, whose incidence is its own. It says nothing of the faces
+        behind, and none that sends light back to the one before can have it.
 
     Examples
     --------
@@ -51,10 +65,11 @@ class Interface(BoundaryElement, kind="interface"):
     """
 
     index: Index
-    incidence: Incidence
+    incidence: FollowedIncidence
     outside: OutsideIndex = 1.0
     azimuth: Angle = 0.0
     incidence_in: OptionalIndex | None = None
+    parallel: YesOrNo = True
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side.

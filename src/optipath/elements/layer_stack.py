@@ -2,22 +2,36 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.kernels.catalogue import (
     STACK_REFLECTION,
     STACK_REFLECTION_BACK,
+    STACK_REFLECTION_BELOW,
     STACK_TRANSMISSION,
     STACK_TRANSMISSION_BACK,
+    STACK_TRANSMISSION_BELOW,
 )
-from optipath.values.domains.indices import INDEX
-from optipath.values.domains.quantities import Angle, Incidence, Indices
+from optipath.values.arrays.read_only import changed
+from optipath.values.domains.indices import INDEX, OPTIONAL_OUTSIDE
+from optipath.values.domains.quantities import (
+    Angle,
+    FollowedIncidence,
+    Indices,
+    OptionalIndex,
+    YesOrNo,
+)
+from optipath.values.made import not_known_sound
 from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling
+
+_STACK = STACK_REFLECTION, STACK_TRANSMISSION
+_STACK_BACK = STACK_REFLECTION_BACK, STACK_TRANSMISSION_BACK
+_BELOW = STACK_REFLECTION_BELOW, STACK_TRANSMISSION_BELOW
 
 
 class LayerStack(BoundaryElement, kind="layer-stack"):
@@ -31,12 +45,15 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     ----------
     indices : sequence of float, complex, array_like, Material or Parameter
         The medium in front first, then the layers, and the substrate last; all but the
-        substrate without absorption. Two media are one `Interface`.
-    incidence : float, array_like or Parameter
+        substrate without absorption. Two media are one `Interface`. The first may be `FOLLOWS`,
+        as ``outside`` of an `Interface`.
+    incidence : float, array_like, Parameter or FOLLOWS
         The angle of incidence in radians, 0 to pi/2, in the medium in front.
     azimuth : float, array_like or Parameter, optional
         The turn of the frame of ``in``, x = s, against the frame of the port before it; for
         ``back``, a link may say it.
+    incidence_in, parallel : optional
+        As `Interface` takes them.
 
     Examples
     --------
@@ -45,20 +62,38 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     0.923076923077 0.9230769230769231
     """
 
+    media_fields: ClassVar[tuple[str, str]] = ("indices[0]", "indices[-1]")
+
     indices: Indices
-    incidence: Incidence
+    incidence: FollowedIncidence
     azimuth: Angle = 0.0
+    incidence_in: OptionalIndex | None = None
+    parallel: YesOrNo = True
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side."""
         pairs = [numbers_of(index, INDEX) for index in self._media]
         media = [n for n, _ in pairs]
-        angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
+        angle: tuple[Any, ...] = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
+        families = _STACK, _STACK_BACK
+        if self.incidence_in is not None:
+            angle, families = (
+                (numbers_of(self.incidence_in, OPTIONAL_OUTSIDE)[0], *angle),
+                (_BELOW, _BELOW),
+            )
         front, back = (*media, pairs[-1][1], *angle), (*media[::-1], 0.0, *angle)
-        return self._ways(
-            (Operation(STACK_REFLECTION, front), Operation(STACK_TRANSMISSION, front)),
-            (Operation(STACK_REFLECTION_BACK, back), Operation(STACK_TRANSMISSION_BACK, back)),
-        )
+        ways = zip(families, (front, back), strict=True)
+        from_front, from_behind = [
+            (Operation(reflection, given), Operation(transmission, given))
+            for (reflection, transmission), given in ways
+        ]
+        return self._ways(from_front, from_behind)
+
+    def taking_over(self, **values: Any) -> LayerStack:
+        """Return a stack like it with values of the boundary before in place of `FOLLOWS`."""
+        if "outside" in values:
+            values["indices"] = (values.pop("outside"), *self._media[1:])
+        return not_known_sound(changed(self, **values))
 
     @property
     def outside(self) -> Any:

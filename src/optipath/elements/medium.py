@@ -25,14 +25,17 @@ from optipath.kernels.catalogue import (
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
+from optipath.values.degrees import warn_of_turning
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import (
     Absorption,
     Angle,
     AnglePerLength,
+    Axis,
     Length,
     RotatoryPower,
 )
+from optipath.values.made import is_checked_later
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -43,7 +46,8 @@ if TYPE_CHECKING:
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 _WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
-_RATES = ("absorption", "rotation", "retardance", "dextrorotation")
+_TURNING = ("rotation", "retardance", "dextrorotation")
+_RATES = ("absorption", *_TURNING)
 _OTHERS = ("rotation", "retardance", "angle", "azimuth", "dextrorotation")
 _FAR = 50.0
 """From what absorption times length on it is done in three steps, each within any precision."""
@@ -98,9 +102,19 @@ class Medium(Element, kind="medium"):
     absorption: Absorption = 0.0
     rotation: AnglePerLength = 0.0
     retardance: AnglePerLength = 0.0
-    angle: Angle = 0.0
+    angle: Axis = 0.0
     azimuth: Angle = 0.0
     dextrorotation: RotatoryPower = 0.0
+
+    def __post_init__(self) -> None:
+        """Keep values as every element does; warn of turns that look typed in degrees."""
+        given = {name: getattr(self, name) for name in _TURNING}
+        super().__post_init__()
+        for name, rate in given.items():
+            if rate is not getattr(Medium, name) and not is_checked_later():
+                warn_of_turning(
+                    f"Medium {name}", rate, _largest(self.length), self.domains()[name].unit
+                )
 
     @classmethod
     def from_extinction(cls, length: Any, k: Any, wavelength: Any, **others: Any) -> Medium:
@@ -137,7 +151,8 @@ class Medium(Element, kind="medium"):
         >>> round(Medium.from_extinction(1e-6, k=0.05, wavelength=500e-9).absorption)
         1256637
         """
-        k, wavelength = read_only(k), read_only(wavelength)
+        k = read_only(_EXTINCTION.read("k", k))
+        wavelength = read_only(_WAVELENGTH.read("wavelength", wavelength))
         given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, _WAVELENGTH)}
         faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
         faults += [cls._option_fault(name) for name in others if name not in _OTHERS]
@@ -192,7 +207,7 @@ class Medium(Element, kind="medium"):
 def _vanishes(value: Any) -> bool:
     """Tell whether a value is known to be 0."""
     if isinstance(value, Parameter):
-        return value.bound and _vanishes(value.resolve(value.default).value)
+        return value.bound and _vanishes(value.placed(value.resolve(value.default).value))
     return isinstance(value, (int, float, np.ndarray)) and not np.any(value)
 
 
@@ -200,8 +215,8 @@ def _largest(value: Any) -> float:
     """Return the size of a known value, or the most of an open one; infinite without a range."""
     if isinstance(value, Parameter):
         if not value.bound:
-            return -value.minimum if value.negative else value.maximum
-        value = value.resolve(value.default).value
+            return value.span_of(value.minimum, value.maximum)[1]
+        value = value.placed(value.resolve(value.default).value)
     if type(value) is float:
         return abs(value)
     known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)

@@ -8,12 +8,15 @@ from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.frame_checks import share_x
 from optipath.kernels.catalogue import GIVEN_AMPLITUDES
+from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.quantities import AMPLITUDE, Amplitude, Angle
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.light.frames import Frame
+
+_IDEAL = {"r_s": -1.0, "r_p": 1.0}
 
 
 class Mirror(Element, kind="mirror"):
@@ -28,7 +31,8 @@ class Mirror(Element, kind="mirror"):
     Parameters
     ----------
     r_s, r_p : float, complex, array_like or Parameter, optional
-        What the field is multiplied by along s and along p; of a size of 1 or less.
+        What the field is multiplied by along s and along p; of a size of 1 or less. Where one
+        alone is given, r_p = -r_s, as at normal incidence; -1 and 1 where none is.
     azimuth : float, array_like or Parameter, optional
         The turn of the frame of ``in`` against the frame of the port before it, in radians.
 
@@ -37,15 +41,28 @@ class Mirror(Element, kind="mirror"):
     >>> aluminium = Mirror(r_s=-0.97 + 0.12j, r_p=0.92 - 0.26j)
     >>> (aluminium.mueller().matrix[0] * 2).round(4)
     array([1.8693, 0.0413, 0.    , 0.    ])
+    >>> Mirror(r_s=-0.9)
+    Mirror(r_s=-0.9, r_p=0.9, azimuth=0.0)
     """
 
     outputs: ClassVar[tuple[str, ...]] = ("reflected",)
     natural: ClassVar[str] = "reflected"
     straight: ClassVar[bool] = False
 
-    r_s: Amplitude = -1.0
-    r_p: Amplitude = 1.0
+    r_s: Amplitude | None = None
+    r_p: Amplitude | None = None
     azimuth: Angle = 0.0
+
+    def __post_init__(self) -> None:
+        """Let one amplitude follow from the other where that alone is given."""
+        missing = [name for name in _IDEAL if getattr(self, name) is None]
+        for name in missing:
+            object.__setattr__(self, name, _IDEAL[name])
+        super().__post_init__()
+        # What is wrong with the one that is given is told of that alone.
+        if len(missing) == 1 and not self.faults(""):
+            (given,) = _IDEAL.keys() - missing
+            object.__setattr__(self, missing[0], read_only(-getattr(self, given)))
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the reflection from ``in`` to ``reflected``."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
+from optipath.elements.matrix_domain import ElementMatrix
 from optipath.kernels.catalogue import MATRIX
-from optipath.values.domains.quantities import Angle, MuellerMatrix
+from optipath.values.domains.quantities import Angle, YesOrNo
 
 
 class MuellerElement(Element, kind="mueller"):
@@ -17,6 +18,11 @@ class MuellerElement(Element, kind="mueller"):
         Acts on Stokes vectors in the element's frame.
     azimuth : float, array_like or Parameter, optional
         The turn of its frame against the frame of the port before it.
+    physical : bool, optional
+        Whether a matrix is refused that no passive element can have, beyond the rounding of its
+        numbers: one that could polarise light by more than 100 % (Cloude's criterion), or let
+        out more than comes in. False for what has been measured with noise, which
+        `Mueller.nearest_physical` mends, and for amplifiers.
 
     Examples
     --------
@@ -24,8 +30,9 @@ class MuellerElement(Element, kind="mueller"):
     0.0
     """
 
-    matrix: MuellerMatrix
+    matrix: ElementMatrix
     azimuth: Angle = 0.0
+    physical: YesOrNo = True  # type: ignore[misc] # each element says it for itself
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the matrix as it is given."""

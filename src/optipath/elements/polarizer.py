@@ -5,7 +5,7 @@ from __future__ import annotations
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import POLARIZER
-from optipath.values.domains.quantities import Angle, Fraction
+from optipath.values.domains.quantities import Angle, Axis, Fraction
 
 
 class Polarizer(Element, kind="polarizer"):
@@ -26,7 +26,7 @@ class Polarizer(Element, kind="polarizer"):
     0.0
     """
 
-    angle: Angle = 0.0
+    angle: Axis = 0.0
     azimuth: Angle = 0.0
     transmittance: Fraction = 1.0
     leakage: Fraction = 0.0

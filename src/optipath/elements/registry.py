@@ -1,12 +1,13 @@
-"""The registry: which class stands behind each kind of element."""
+"""The registry: where classes of elements enter their kinds."""
 
 from __future__ import annotations
 
 from typing import Any
 
-from optipath.errors import PathError, did_you_mean
+from optipath.errors import PathError
 
-_KINDS: dict[str, type[Any]] = {}
+KINDS: dict[str, type[Any]] = {}
+"""The class of each kind that has been imported so far."""
 
 
 def register(kind: str, element_class: type[Any]) -> None:
@@ -24,30 +25,12 @@ def register(kind: str, element_class: type[Any]) -> None:
     PathError
         If another class has the kind already.
     """
-    known = _KINDS.get(kind)
+    known = KINDS.get(kind)
     if known is not None and _identity(known) != _identity(element_class):
         raise PathError(
             f"element kind '{kind}' is taken by {'.'.join(_identity(known))}; choose another"
         )
-    _KINDS[kind] = element_class
-
-
-def element_class(kind: str) -> type[Any]:
-    """Return the class of a kind.
-
-    Raises
-    ------
-    PathError
-        If the kind is unknown.
-
-    Examples
-    --------
-    >>> element_class("rotator").__name__
-    'Rotator'
-    """
-    if kind not in _KINDS:
-        raise PathError(f"element kind '{kind}' is unknown{did_you_mean(kind, sorted(_KINDS))}")
-    return _KINDS[kind]
+    KINDS[kind] = element_class
 
 
 def _identity(element_class: type[Any]) -> tuple[str, str]:

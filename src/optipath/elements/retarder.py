@@ -5,7 +5,7 @@ from __future__ import annotations
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import RETARDER
-from optipath.values.domains.quantities import Angle
+from optipath.values.domains.quantities import Angle, Axis
 
 
 class Retarder(Element, kind="retarder"):
@@ -28,7 +28,7 @@ class Retarder(Element, kind="retarder"):
     """
 
     retardance: Angle
-    angle: Angle = 0.0
+    angle: Axis = 0.0
     azimuth: Angle = 0.0
 
     def couplings(self) -> tuple[Coupling, ...]:

@@ -2,17 +2,47 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import cmath
+import math
+from dataclasses import dataclass, replace
+from decimal import Decimal
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import PathError
+import numpy as np
+
+from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.errors import PathError, shown
 from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.own_code import guarded
 from optipath.kernels.carriers.structures import FULL
+from optipath.kernels.numbers.primitives import FLOAT
+from optipath.values.arrays.jax_values import is_traced
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
+
+_TURN = "azimuth"
+"""The field that turns the frame, and is no value of a matrix."""
+
+_ROUNDINGS = 256.0
+"""How many roundings of the largest entry an imaginary part may be that is taken for 0."""
+
+
+def _either(real: Callable[[Any], Any], of_complex: Callable[[Any], Any]) -> Callable[[Any], Any]:
+    return lambda z: of_complex(z) if isinstance(z, (complex, np.complexfloating)) else real(z)
+
+
+OWN_FLOAT = replace(
+    FLOAT,
+    sqrt=_either(math.sqrt, cmath.sqrt),
+    sin=_either(math.sin, cmath.sin),
+    cos=_either(math.cos, cmath.cos),
+    exp=_either(math.exp, cmath.exp),
+)
+"""The primitives of plain floats, which take complex numbers as arrays do."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +52,7 @@ class RowsFactory:
     Parameters
     ----------
     name : str
-        Of the element.
+        Of the class of the element.
     rows_of : callable
         ``rows_of(xp, *values)``, the rows of its Mueller matrix.
     """
@@ -32,25 +62,106 @@ class RowsFactory:
 
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function that gives the sixteen numbers of the matrix."""
+        what = f"mueller_rows of element class {self.name}"
+        own = OWN_FLOAT if xp is FLOAT else xp
 
         def numbers(*values: Any) -> tuple[Any, ...]:
-            rows = self.rows_of(xp, *values)
-            if rows is None or len(rows) != 4 or any(len(row) != 4 for row in rows):
+            entries = _entries(what, self.rows_of(own, *map(_unchanging, values)))
+            _check_shapes(what, entries, values)
+            return entries
+
+        return guarded(what, xp, numbers)
+
+
+def _unchanging(value: Any) -> Any:
+    """Return a value that code of a user's own cannot write into; one number as a number."""
+    if type(value) is not np.ndarray:
+        return value
+    if not value.ndim:
+        return value[()]
+    view = value.view()
+    view.flags.writeable = False
+    return view
+
+
+def _check_shapes(what: str, entries: tuple[Any, ...], values: tuple[Any, ...]) -> None:
+    """Refuse arrays that are not over the paths that the values are given for."""
+    shapes = {entry.shape for entry in entries if getattr(entry, "shape", ())}
+    if not shapes:
+        return
+    paths = np.broadcast_shapes(*(getattr(value, "shape", ()) for value in values))
+    wrong = [shape for shape in shapes if not _is_within(shape, paths)]
+    if wrong:
+        of_paths = f"for paths of shape {paths}" if paths else "for one path"
+        raise PathError(
+            f"{what} gives an entry of shape {wrong[0]} {of_paths}; compute each entry of its "
+            f"arguments alone, elementwise"
+        )
+
+
+def _is_within(shape: tuple[int, ...], paths: tuple[int, ...]) -> bool:
+    try:
+        return np.broadcast_shapes(shape, paths) == paths
+    except ValueError:
+        return False
+
+
+def _entries(what: str, rows: Any) -> tuple[Any, ...]:
+    """Return the sixteen numbers of four rows."""
+    if isinstance(rows, np.ndarray):
+        if rows.shape != (4, 4):
+            raise PathError(
+                f"{what} gives an array of shape {rows.shape}; return four rows, tuples of four "
+                f"entries each, which may be arrays over paths"
+            )
+        rows = np.asarray(rows)
+    try:
+        found = [tuple(row) for row in rows]
+    except TypeError:
+        found = []
+    if len(found) != 4 or any(len(row) != 4 for row in found):
+        raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
+    entries = tuple(entry for row in found for entry in row)
+    if any(map(_is_complex, entries)):
+        return _real(what, entries)
+    for entry in entries:
+        if entry is None or isinstance(entry, (str, bytes, list, tuple, dict, Decimal, Fraction)):
+            raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
+    return entries
+
+
+def _is_complex(entry: Any) -> bool:
+    if type(entry) is float:
+        return False
+    kind = getattr(entry, "dtype", None)
+    return isinstance(entry, complex) or (kind is not None and kind.kind == "c")
+
+
+def _real(what: str, entries: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the real parts of entries whose imaginary parts are 0 to rounding."""
+    if not any(map(is_traced, entries)):
+        sizes = np.broadcast_arrays(*[np.abs(entry) for entry in entries])
+        largest = np.max(sizes, axis=0)
+        for place, entry in enumerate(entries):
+            rounding = np.finfo(np.result_type(entry, np.complex64)).eps * _ROUNDINGS
+            if np.any(abs(np.imag(entry)) > rounding * largest):
+                row, column = divmod(place, 4)
                 raise PathError(
-                    f"the Mueller matrix of '{self.name}' must be four rows of four entries"
+                    f"{what} gives the complex entry [{row}][{column}] = {shown(entry)}; a Mueller "
+                    f"matrix is real: return .real, or abs(z)**2, where that is what is meant"
                 )
-            return tuple(entry for row in rows for entry in row)
-
-        return numbers
+    return tuple(entry.real if _is_complex(entry) else entry for entry in entries)
 
 
-def rows_kernel(name: str, rows_of: Any) -> Kernel:
+def rows_kernel(name: str, class_name: str, rows_of: Any) -> Kernel:
     """Return the kernel of an element that gives the rows of its Mueller matrix.
 
     Parameters
     ----------
     name : str
-        Of the element.
+        Of the kernel, or empty.
+    class_name : str
+        Of the class of the element.
     rows_of : callable or staticmethod
         ``rows_of(xp, *values)``, the rows.
 
@@ -61,7 +172,33 @@ def rows_kernel(name: str, rows_of: Any) -> Kernel:
     Raises
     ------
     PathError
-        When it is called and gives no four rows of four entries.
+        If it takes ``self``; and when it is called and raises anything, or gives no four rows of
+        four entries.
     """
     function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
-    return Kernel(name, FULL, RowsFactory(name, function))
+    first = getattr(getattr(function, "__code__", None), "co_varnames", ())[:1]
+    if first == ("self",):
+        raise PathError(
+            f"mueller_rows of element class {class_name} takes self; put @staticmethod before it, "
+            f"and let it take xp and the number of each field: mueller_rows(xp, ...)"
+        )
+    return Kernel(name or class_name, FULL, RowsFactory(class_name, function))
+
+
+def coupling_by_rows(element: Any, kernel: Kernel) -> Coupling:
+    """Return the way from ``in`` to ``out`` of an element that gives its rows.
+
+    Parameters
+    ----------
+    element : Element
+        Its fields but for ``azimuth`` are what the kernel is given.
+    kernel : Kernel
+        That of its class.
+
+    Returns
+    -------
+    Coupling
+    """
+    fields = [(getattr(element, name), d) for name, d in element.domains().items() if name != _TURN]
+    numbers = tuple(number for value, domain in fields for number in numbers_of(value, domain))
+    return Coupling("in", "out", (Operation(kernel, numbers),))

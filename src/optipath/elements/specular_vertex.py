@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
+from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.vertices.frame import VertexFrame
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
 from optipath.values.arrays.read_only import same
-from optipath.values.domains.quantities import Index, OutsideIndex
+from optipath.values.domains.quantities import Index, OutsideIndex, Whole
+from optipath.values.made import refuse
 from optipath.values.materials import Material
 from optipath.values.whole_numbers import is_whole
 
@@ -23,7 +25,7 @@ if TYPE_CHECKING:
     from optipath.values.domains.domain import Domain
 
 
-class SpecularVertex(Element, kind="specular-vertex"):
+class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
     """A smooth opaque surface at one vertex of a chain, perpendicular to the bisector there.
 
     Its frames come from the points: z along the legs, x = k_out cross k_in across the plane
@@ -38,7 +40,7 @@ class SpecularVertex(Element, kind="specular-vertex"):
         The points from the light, over m reflections, to the eye; in the unit of any length.
     place : int
         Which of the m reflections this is, 1 being the first that light meets.
-    outside : float, array_like, Material or Parameter, optional
+    outside : float, array_like, Material, Parameter or FOLLOWS, optional
         The index of the medium that light comes from, without absorption.
     reflections : int, optional
         How many there are, m; needed only where `vertices` is a parameter without default.
@@ -57,17 +59,14 @@ class SpecularVertex(Element, kind="specular-vertex"):
 
     index: Index
     vertices: Vertices
-    place: int
+    place: Whole
     outside: OutsideIndex = 1.0
-    reflections: int | None = None
+    reflections: Whole | None = None
 
     def __post_init__(self) -> None:
-        """Take whole numbers as such; preset files write them as floats."""
+        """Check besides that there is such a place in the chain."""
         super().__post_init__()
-        for name in ("place", "reflections"):
-            value = getattr(self, name)
-            if isinstance(value, float) and value.is_integer():
-                object.__setattr__(self, name, int(value))
+        refuse(self.in_chain.faults(type(self).__name__))
 
     @property
     def in_chain(self) -> PlaceInChain:

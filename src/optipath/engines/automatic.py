@@ -260,7 +260,7 @@ def batches(engine: str, operations: int | None, dtype: str) -> str:
     paths = price / (FORESIGHT * _BY_NUMPY * operations)
     return (
         f"{runs}, and all by {COMPILER} where it has compiled the path before, or after some "
-        f"{paths:.2g} paths, when compiling takes less time than it saves"
+        f"{float(f'{paths:.2g}'):,.0f} paths, when compiling takes less time than it saves"
     )
 
 

@@ -93,7 +93,8 @@ class CodeCache:
     def function(self, text: str, compiled: Callable[[str], bytes]) -> MachineCode:
         """Return the function of a text, compiled where it is not kept.
 
-        That something is compiled is told to the log, so that nobody wonders what he waits for.
+        That something is compiled is told to the log, once, so that nobody wonders what he waits
+        for.
 
         Parameters
         ----------
@@ -129,7 +130,7 @@ class CodeCache:
                 return MachineCode(code)
             except (RuntimeError, ValueError):
                 self.tell("a file of compiled code cannot be run; it is compiled anew")
-        _LOGGER.warning("compiling a path for Numba")
+        self.tell("compiling for Numba, which takes some seconds a path; what is compiled is kept")
         code = compiled(text)
         self.keep(text, code)
         return MachineCode(code)

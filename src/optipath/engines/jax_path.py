@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.values.operands import Operand
-    from optipath.values.parameters import Resolved
+    from optipath.values.resolved import Resolved
 
 
 _with_slopes: Any = jax.custom_jvp(lambda value, of: value)  # noqa: ARG005 - its slopes
@@ -209,8 +209,13 @@ class JaxPath:
             return values.get(f"{value.name} present", value.name not in absent)
         if operand.known and not operand.traced:
             return self._number(operand.numbers())
-        raw = getattr(value, "default", value) if operand.known else values[value.name]
-        raw = part_of(jnp.asarray(raw), operand.input_part, operand.tail)
+        if operand.known:
+            raw = operand.placed(jnp.asarray(getattr(value, "default", value)))
+        elif (placed := str(operand.input_key)) in values:
+            raw = jnp.asarray(values[placed])
+        else:
+            raw = operand.placed(jnp.asarray(values[value.name]))
+        raw = part_of(raw, operand.input_part, operand.tail)
         # A cosine is 0 at a right angle, but with its slope.
         return operand.evaluated(JAX, self._number(raw))
 
@@ -233,11 +238,16 @@ class JaxPath:
                 absent.add(name)
         kind = wide(self.dtype)
         for place, operand in enumerate(self.program.operands):
-            if operand.part not in ("cos", "sin") or operand.known:
+            if operand.known or operand.part == "present":
                 continue
-            name = operand.value.name
+            name, key = operand.value.name, operand.input_key
             pair, angle = given.get(name), values[name]
-            if isinstance(pair, CosSin):
+            if key.is_affine and not is_jax(angle):
+                # What it is a multiple of, JAX would round before.
+                angle = values[str(key)] = operand.placed(angle)
+            if operand.part not in ("cos", "sin"):
+                continue
+            if isinstance(pair, CosSin) and not key.is_affine:
                 values[_place(place)] = operand.evaluated(JAX, (pair.cos, pair.sin))
             elif kind != self.dtype and not is_jax(angle):
                 values[_place(place)] = operand.evaluated(NUMPY, np.asarray(angle).astype(kind))

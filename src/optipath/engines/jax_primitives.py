@@ -98,6 +98,8 @@ def sloped(dtype: np.dtype[Any]) -> Primitives:
     within = 2.0**-60 if dtype == np.float64 else 2.0**-20
 
     def root(number: Any) -> Any:
+        if jnp.iscomplexobj(number):
+            return jnp.sqrt(number)
         # At 0 as well with the slope that it has there within: at 0 itself it has none.
         raised = jnp.where(number > 0.0, 0.0, within**2 - JAX.fixed(number))
         return jnp.sqrt(number + raised)

@@ -75,21 +75,23 @@ TRANSMISSION = _fresnel(
 METHODS = tuple(REFLECTION.methods)
 
 
-def _stack_family(*, through: bool, from_behind: bool) -> KernelFamily:
+def _stack_family(*, through: bool, measured: str) -> KernelFamily:
     """Return the kernels of what a stack of layers lets through, or sends back."""
     what = "stack transmission" if through else "stack reflection"
     methods = {}
     for method in METHODS:
         pair = REFLECTION.methods[method], TRANSMISSION.methods[method]
-        stack = Stack(*pair, through, from_behind)
+        stack = Stack(*pair, through, measured)
         methods[method] = Kernel(f"{what} ({method})", DEPOLARIZING_BLOCK, stack)
     return KernelFamily(what, methods)
 
 
-STACK_REFLECTION = _stack_family(through=False, from_behind=False)
-STACK_TRANSMISSION = _stack_family(through=True, from_behind=False)
-STACK_REFLECTION_BACK = _stack_family(through=False, from_behind=True)
-STACK_TRANSMISSION_BACK = _stack_family(through=True, from_behind=True)
+STACK_REFLECTION = _stack_family(through=False, measured="in front")
+STACK_TRANSMISSION = _stack_family(through=True, measured="in front")
+STACK_REFLECTION_BACK = _stack_family(through=False, measured="behind")
+STACK_TRANSMISSION_BACK = _stack_family(through=True, measured="behind")
+STACK_REFLECTION_BELOW = _stack_family(through=False, measured="before")
+STACK_TRANSMISSION_BELOW = _stack_family(through=True, measured="before")
 
 TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)

@@ -12,6 +12,8 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.read_only import Unchanging, read_only
 from optipath.values.arrays.shapes import check_broadcast
+from optipath.values.degrees import warn_of_degrees
+from optipath.values.domains.quantities import ANGLE
 from optipath.values.roundings import Array, as_doubles, rounding_of
 
 if TYPE_CHECKING:
@@ -132,10 +134,11 @@ class Frame(Unchanging):
 
         Examples
         --------
-        >>> Frame().turned([0.0, np.pi]).x.shape
+        >>> Frame().turned([0.0, "180 deg"]).x.shape
         (2, 3)
         """
-        a = _floats("the angle of a turn", angle)
+        warn_of_degrees("the angle of a turn", angle)
+        a = _floats("the angle of a turn", ANGLE.read("the angle of a turn", angle))
         check_broadcast({"frame": self.z.shape[:-1], "angle": a.shape})
         a = a[..., np.newaxis]
         c, s = np.cos(a), np.sin(a)

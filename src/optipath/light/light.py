@@ -8,12 +8,16 @@ import numpy as np
 
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels.carriers.structures import turn_linear
+from optipath.light.arithmetic import Arithmetic
+from optipath.light.array_of_light import handed_out, indexed_frame
+from optipath.light.exchange import LightExchange
 from optipath.light.frames import Frame
-from optipath.light.polarization_state import PolarizationState
+from optipath.light.inherited_noise import noise_in
+from optipath.light.physical_light import check_physical, nearest_light
 from optipath.light.underflow import times_two_to
 from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
-from optipath.values.arrays.read_only import Unchanging, same
+from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
+from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
@@ -23,8 +27,11 @@ if TYPE_CHECKING:
 
 _LARGEST = 2.0**40
 
+_SHOWN = 6
+"""How many lights of a batch are shown."""
 
-class Light(PolarizationState, Unchanging):
+
+class Light(Arithmetic, LightExchange, Unchanging):
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
 
     Parameters
@@ -39,9 +46,15 @@ class Light(PolarizationState, Unchanging):
         Light too faint for a float is given as ``stokes`` times two to this power. The
         attribute `stokes` is 0 then, but `normalized`, `dop` and `log10_intensity`
         are right all the same, and `mantissa` keeps what was given.
+    physical : bool, optional
+        Whether what no light can be is refused; False takes measured noise as it is. What is
+        computed, by a path or from other light, is never refused, nor is what JAX traces.
 
     Raises
     ------
+    ValueFault
+        If it is of negative intensity, polarised by more than 100 % beyond the rounding of
+        its precision, or not finite.
     ShapeError
         If the last axis has not four elements, or the exponent is no integer.
     ParameterError
@@ -62,7 +75,14 @@ class Light(PolarizationState, Unchanging):
     exponent: npt.NDArray[np.int64]
     mantissa: npt.NDArray[Any]
 
-    def __init__(self, stokes: Any, frame: Frame | None = None, exponent: Any = 0) -> None:
+    def __init__(
+        self,
+        stokes: Any,
+        frame: Frame | None = None,
+        exponent: Any = 0,
+        *,
+        physical: bool = True,
+    ) -> None:
         frame = Frame() if frame is None else frame
         if not isinstance(frame, Frame):
             raise FrameError(f"the frame of a light must be a Frame, not {shown(frame)}")
@@ -74,18 +94,32 @@ class Light(PolarizationState, Unchanging):
                 f"the exponent of a light must be an integer within -2^40 .. 2^40, "
                 f"not {shown(given)}"
             )
-        batch = check_broadcast({"stokes": mantissa.shape[:-1], "exponent": exponent.shape})
+        batch = check_broadcast(
+            {
+                "stokes": mantissa.shape[:-1],
+                "exponent": exponent.shape,
+                "frame": frame.z.shape[:-1],
+            }
+        )
         exponent = np.broadcast_to(exponent.astype(np.int64), batch)
         if mantissa.shape[:-1] != batch:
             xp = namespace(mantissa)
-            mantissa = xp.broadcast_to(mantissa, (*batch, 4)).copy()
+            mantissa = xp.broadcast_to(mantissa, (*batch, 4))
+        # Whoever has given an array may change it.
+        mantissa = mantissa if is_jax(mantissa) else read_only(mantissa, widened=False)
         if exponent.any():
             check_known("light with an exponent", mantissa)
+        if physical and not is_traced(mantissa):
+            check_physical(known(mantissa))
         plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
-        self.__dict__.update(stokes=plain, frame=frame, exponent=exponent, mantissa=mantissa)
+        self.__dict__.update(
+            stokes=locked(plain), frame=frame, exponent=exponent, mantissa=mantissa
+        )
 
     @classmethod
-    def of(cls, stokes: Any, frame: Frame | Callable[[], Frame], exponent: Any = 0) -> Light:
+    def of(
+        cls, stokes: Any, frame: Frame | Callable[[], Frame], exponent: Any = 0, noise: Any = None
+    ) -> Light:
         """Return light out of what a plan has computed, which needs no check.
 
         Parameters
@@ -96,49 +130,106 @@ class Light(PolarizationState, Unchanging):
             The frame, or what returns it when somebody asks for it.
         exponent : int or array_like, optional
             Of the power of two times the Stokes vectors.
+        noise : ndarray of shape (...), or tuple, optional
+            What of the vectors is noise, as `noise_in` takes it.
 
         Returns
         -------
         Light
             A tuple becomes one array when somebody asks for it.
         """
+        light = cls.__new__(cls)
+        own = light.__dict__
         if not isinstance(exponent, int) or exponent:
-            light = cls(_stacked(stokes) if type(stokes) is tuple else stokes, None, exponent)
-            own = light.__dict__
-            del own["frame"]
+            mantissa = _stacked(stokes) if type(stokes) is tuple else stokes
+            exponent = np.broadcast_to(np.asarray(exponent), mantissa.shape[:-1])
+            plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
+            own.update(stokes=locked(plain), mantissa=locked(mantissa), exponent=exponent)
         else:
-            light = cls.__new__(cls)
-            own = light.__dict__
             own["_stokes"] = stokes
         own["frame" if type(frame) is Frame else "_frame"] = frame
+        if noise is not None:
+            own["_noise"] = noise
         return light
 
-    def __getattr__(self, name: str) -> Any:
-        own = self.__dict__
-        if name == "frame" and "_frame" in own:
-            own["frame"] = own["_frame"]()
-            return own["frame"]
-        if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
-            raise AttributeError(f"a Light has no attribute '{name}'")
-        if name == "exponent":
-            own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
-        else:
-            stokes = own["_stokes"]
-            own["stokes"] = own["mantissa"] = _stacked(stokes) if type(stokes) is tuple else stokes
-        return own[name]
+    if not TYPE_CHECKING:  # Else any name would do for who checks types.
+
+        def __getattr__(self, name: str) -> Any:
+            own = self.__dict__
+            if name == "frame" and "_frame" in own:
+                own["frame"] = own["_frame"]()
+                return own["frame"]
+            if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
+                raise AttributeError(f"a Light has no attribute '{name}'", name=name, obj=self)
+            if name == "exponent":
+                own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
+            else:
+                stokes = own["_stokes"]
+                stokes = _stacked(stokes) if type(stokes) is tuple else stokes
+                own["stokes"] = own["mantissa"] = locked(stokes)
+            return own[name]
 
     def __repr__(self) -> str:
-        faint = f", exponent={self.exponent!r}" if self.exponent.any() else ""
-        return f"Light(stokes={self.mantissa!r}, frame={self.frame!r}{faint})"
+        told = [_text(self._numbers)]
+        if self.frame != Frame():
+            told.append(f"frame={self.frame!r}")
+        if self.exponent.any():
+            told.append(f"exponent={_text(self.exponent)}")
+        if self.size > _SHOWN:
+            told.append(f"shape={self.shape}")
+        return f"Light({', '.join(told)})"
+
+    def __str__(self) -> str:
+        """Return what `repr` does, with 0 for what is no more than rounding."""
+        numbers, floor = self._numbers, self.noise_floor
+        if is_traced(floor):
+            return repr(self)
+        quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
+        return repr(Light.of(quiet, self.frame, self.exponent))
+
+    @property
+    def noise(self) -> npt.NDArray[Any]:
+        """Which numbers of `stokes` are no more than rounding: those below it, shape (...).
+
+        Of light that a path gives, what is left of the roundings of all that was emitted, by
+        running error analysis along the path: behind crossed polarisers it is larger than S0.
+        Found when it is asked for; where all components are 0 or far above it, it is the rounding
+        of S0 alone, as it is for light of any other origin. Elements that are unphysical and values
+        that are not exact have more.
+
+        Examples
+        --------
+        >>> print(Light([1.0, 0.0, 0.0, 0.0]).noise)
+        2.220446049250313e-16
+        """
+        floor = self.noise_floor
+        if is_traced(floor):
+            return floor  # type: ignore[no-any-return]
+        with np.errstate(under="ignore"):
+            return np.asarray(np.ldexp(floor, self.exponent))
+
+    @property
+    def noise_floor(self) -> Any:
+        """The noise in the mantissa, of shape (...)."""
+        own = self.__dict__
+        if "_floor" not in own:
+            own["_floor"] = locked(noise_in(self._numbers, own.get("_noise"), self.exponent))
+        return own["_floor"]
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What computes the noise stays here.
+        own = dict(self.__dict__)
+        if "_noise" in own:
+            own["_noise"] = self.noise_floor
+        return own
 
     @property
     def intensity(self) -> npt.NDArray[Any]:
         """S0, of shape (...)."""
         parts = self.__dict__.get("_stokes")
         if type(parts) is tuple and "stokes" not in self.__dict__:
-            return np.asarray(parts[0])
-        stokes = known(self.stokes)
-        return namespace(stokes).asarray(stokes[..., 0])  # type: ignore[no-any-return]
+            return handed_out(parts[0])  # type: ignore[no-any-return]
+        return self.S0
 
     @property
     def log10_intensity(self) -> npt.NDArray[Any]:
@@ -147,6 +238,20 @@ class Light(PolarizationState, Unchanging):
         xp = namespace(s0)
         with np.errstate(divide="ignore", invalid="ignore"):
             return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
+
+    def nearest_physical(self) -> Light:
+        """Return the light that is nearest: S0 is kept, and the polarised part scaled to it.
+
+        So the angles of the ellipse stay, and light polarised by more than 100 % is polarised by
+        100 %. Negative intensities are dark. What is light already is the same.
+
+        Examples
+        --------
+        >>> noisy = Light([1.0, 0.9, 0.0, 0.6], physical=False)
+        >>> print(noisy.dop.round(4), noisy.nearest_physical().stokes.round(4))
+        1.0817 [1.     0.8321 0.     0.5547]
+        """
+        return self._like(nearest_light(self._numbers), self.exponent, self._inherited())
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.
@@ -163,29 +268,24 @@ class Light(PolarizationState, Unchanging):
         turn = self.frame.turn_to(frame)
         with np.errstate(over="ignore", invalid="ignore"):
             parts = (s0, *turn_linear(turn, s1, s2), s3)
-        return Light(xp.stack(xp.broadcast_arrays(*parts), axis=-1), frame, self.exponent)
+        turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
+        return Light.of(turned, frame, self.exponent, self._inherited())
 
-    def __add__(self, other: object) -> Light:
-        if not isinstance(other, Light):
-            return NotImplemented
-        shapes = {"light": self.stokes.shape[:-1], "other light": other.stokes.shape[:-1]}
-        check_broadcast(shapes)
-        aligned = other.in_frame(self.frame)
-        if is_traced(self.mantissa) or is_traced(aligned.mantissa):
-            return Light(self.stokes + aligned.stokes, self.frame)
-        one, two = self._numbers, aligned._numbers
-        # Dark light has no exponent of its own.
-        mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
-        theirs = np.where(two[..., 0] == 0.0, self.exponent, aligned.exponent)
-        power = np.maximum(mine, theirs)
-        with np.errstate(over="ignore", invalid="ignore"):
-            total = times_two_to(one, self.exponent - power)
-            total = total + times_two_to(two, aligned.exponent - power)
-        return Light(total, self.frame, power)
+    def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Light:
+        return Light.of(mantissa, self.frame, exponent, noise)
+
+    def _each(self, change: Callable[[Any], Any]) -> Light:
+        numbers = self._numbers
+        stokes = namespace(numbers).stack([change(numbers[..., i]) for i in range(4)], axis=-1)
+        exponent = change(self.exponent) if self.exponent.any() else 0
+        frame = indexed_frame(self.frame, self.shape, change)
+        return Light.of(stokes, frame, exponent, self._inherited(part=change))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):
             return NotImplemented
+        for light in (self, other):
+            check_known("light == light", light.mantissa)
         # What a detector does not read is equal to itself.
         return (
             np.array_equal(self.mantissa, other.mantissa, equal_nan=True)
@@ -205,3 +305,11 @@ def _stacked(components: tuple[Any, Any, Any, Any]) -> npt.NDArray[Any]:
     for row, component in enumerate(components):
         stokes[row] = component
     return np.moveaxis(stokes, 0, -1)
+
+
+def _text(numbers: Any) -> str:
+    """Return numbers as they are shown, a few of very many."""
+    if is_traced(numbers):
+        return repr(numbers)
+    most = _SHOWN * (4 if numbers.dtype.kind == "f" else 1)
+    return np.array2string(numbers, separator=", ", threshold=most, edgeitems=2, prefix="Light(")

@@ -38,10 +38,12 @@ def draw(path: PathGraph) -> str:
         element = path.element(name)
         described = f"{name.ljust(name_width)}  {element.kind.ljust(kind_width)}  "
         lines.append((described + _values(element)).rstrip())
-        links = sorted(graph.out_edges(name, keys=True, data="azimuth"))
-        for _, end, (leaves, enters), azimuth in links:
+        links = sorted(graph.out_edges(name, keys=True))
+        for link in links:
+            _, end, (leaves, enters) = link
+            azimuth, tap = graph.edges[link]["azimuth"], graph.edges[link].get("tap")
             turn = "" if azimuth is None else f"  turned by {_text(azimuth, 'deg')}"
-            lines.append(f"  | {leaves} --> {end}.{enters}{turn}")
+            lines.append(f"  | {leaves} --> {end}.{enters}{turn}{'  (a tap)' * bool(tap)}")
         leaving = [port for port in element.outputs if f"{name}.{port}" in wiring.outlets]
         lines += [f"  | {port} --> leaves the path" for port in leaving]
     return "\n".join(lines)
@@ -60,7 +62,7 @@ def _values(element: Element) -> str:
 
 def _text(value: Any, unit: str) -> str:
     if isinstance(value, Parameter):
-        return f"{'-' * value.negative}${value.name}"
+        return value.formula_of(f"${value.name}")
     if isinstance(value, Material):
         return f"{_text(value.n, '')} + {_text(value.k, '')} i"
     if isinstance(value, VerticesByAngles):

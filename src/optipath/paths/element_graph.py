@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,24 +10,28 @@ import networkx as nx
 from optipath.composer.path_values import parameters_of
 from optipath.composer.validate import validate
 from optipath.composer.wiring import LOOPS
-from optipath.elements.element import Element
+from optipath.elements.chaining import Chainable, begun
 from optipath.errors import PathError, shown, unknown
-from optipath.light.frames import Frame
+from optipath.paths.editing import add, connect, disconnect, edit
+from optipath.paths.joining import as_chain, join
 from optipath.paths.port_names import check_port, element_at, find_port
+from optipath.paths.splicing import insert, remove, replace
 from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import read_only, same
-from optipath.values.domains.domain import in_unit_of
-from optipath.values.domains.quantities import ANGLE
+from optipath.values.arrays.read_only import same
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
+    from optipath.elements.element import Element
+    from optipath.light.frames import Frame
     from optipath.values.parameters import Parameter
 
 
 @dataclass(frozen=True)
-class Node:
+class Node(Chainable):
     """A named element in its path; ``a >> b`` links the natural way out of a to b.
+
+    What stands in no path yet, an element or a chain of them, is added to the path of a first.
 
     Parameters
     ----------
@@ -36,36 +39,32 @@ class Node:
         Where it stands.
     name : str
         What it is called there.
+    port : str, optional
+        Where a chain leaves it, or leads to; by default its natural port.
     """
 
     path: ElementGraph
     name: str
+    port: str = ""
 
-    def __rshift__(self, other: object) -> Node:
-        if not isinstance(other, Node):
-            return NotImplemented
-        if other.path is not self.path:
-            raise PathError(f"'{self.name}' and '{other.name}' stand in different paths; use one")
-        start, end = self.path.element(self.name), self.path.element(other.name)
-        if not start.natural:
-            ports = ", ".join(f"'{self.name}.{port}'" for port in start.outputs) or "none"
-            raise PathError(
-                f"'{self.name}' has no one natural way out; connect one of its out-ports: {ports}"
-            )
-        entry = end.inputs[0] if len(end.inputs) == 1 else end.entry
-        if not entry:
-            ports = ", ".join(f"'{other.name}.{port}'" for port in end.inputs) or "none"
-            raise PathError(
-                f"'{other.name}' has no one way in; connect one of its in-ports: {ports}"
-            )
-        self.path.connect(f"{self.name}.{start.natural}", f"{other.name}.{entry}")
-        return other
+    def __rshift__(self, behind: Any) -> Node:
+        if not isinstance(behind, Node):
+            last = self.path._append(self._text, begun(behind))
+            return Node(self.path, last)
+        if behind.path is not self.path:
+            raise PathError(f"'{self.name}' and '{behind.name}' stand in different paths; use one")
+        self.path.connect(self._text, behind._text)
+        return Node(behind.path, behind.name)
+
+    @property
+    def _text(self) -> str:
+        return f"{self.name}.{self.port}" if self.port else self.name
 
     def __repr__(self) -> str:
-        return f"Node '{self.name}'"
+        return f"Node '{self._text}'"
 
 
-class ElementGraph:
+class ElementGraph(Chainable):
     """Elements by name, linked from out-port to in-port.
 
     Parameters
@@ -91,7 +90,7 @@ class ElementGraph:
         """The networkx graph, to query and not to change.
 
         Nodes carry ``element`` and ``frames``; links are keyed by (out-port, in-port)
-        and carry ``azimuth``.
+        and carry ``azimuth`` and ``tap``.
         """
         return self._graph.copy(as_view=True)
 
@@ -130,39 +129,24 @@ class ElementGraph:
             If the name is taken or not allowed, the element is no Element, or a port
             does not exist.
         """
-        if not isinstance(name, str) or not name or "." in name:
-            raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
-        if name in self._graph:
-            raise PathError(f"node '{name}' is there already; choose another name")
-        if not isinstance(element, Element):
-            raise PathError(
-                f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"
-            )
-        frames = {} if frames is None else frames
-        if not isinstance(frames, Mapping) or not all(
-            isinstance(frame, Frame) for frame in frames.values()
-        ):
-            raise PathError(
-                f"frames of '{name}' must be a Frame for each port, such as "
-                f"{{'in': Frame()}}, not {shown(frames)}"
-            )
-        frames = dict(frames)
-        for port in frames:
-            check_port(element, name, port, (*element.inputs, *element.outputs))
-        self._graph.add_node(name, element=element, frames=frames)
+        add(self._graph, name, element, frames)
         self._plans.clear()
         return Node(self, name)
 
-    def connect(self, leaves: str, enters: str, azimuth: Any = None) -> None:
+    def connect(self, leaves: str, enters: str, azimuth: Any = None, *, tap: bool = False) -> None:
         """Link an out-port to an in-port.
 
         Parameters
         ----------
         leaves, enters : str
-            The ports, as ``"node.port"``.
+            The ports, as ``"node.port"``, or ``"node"`` for its natural one, as ``>>`` has it.
         azimuth : float, array_like or Parameter, optional
             The turn of the in-port's frame against the out-port's about the direction
             of travel, in radians; by default the azimuth of the element.
+        tap : bool, optional
+            Whether the link reads all the light of the out-port and takes nothing of it. An
+            out-port feeds one link, and any number of taps, each of which leads to ends of
+            its own.
 
         Raises
         ------
@@ -170,22 +154,117 @@ class ElementGraph:
             If a node or port does not exist, runs the other way, or the link is there
             already.
         """
-        faults: list[str] = []
-        ends = []
-        for text, out in ((leaves, True), (enters, False)):
-            try:
-                ends.append(find_port(self._graph, text, out=out))
-            except PathError as fault:
-                faults += fault.faults
-        if faults:
-            raise PathError(*faults)
-        (start, out_port), (end, in_port) = ends
-        if self._graph.has_edge(start, end, key=(out_port, in_port)):
-            raise PathError(f"link '{leaves} -> {enters}' is there already; remove the second one")
-        self._graph.add_edge(
-            start, end, key=(out_port, in_port), azimuth=in_unit_of(read_only(azimuth), ANGLE)
-        )
+        connect(self._graph, leaves, enters, azimuth, tap)
         self._plans.clear()
+
+    def disconnect(self, leaves: str, enters: str) -> None:
+        """Take a link out.
+
+        Parameters
+        ----------
+        leaves, enters : str
+            The ports that it links, as `connect` takes them.
+
+        Raises
+        ------
+        PathError
+            If there is no such link.
+        """
+        disconnect(self._graph, leaves, enters)
+        self._plans.clear()
+
+    def insert(self, name: str, element: Element, behind: str) -> Node:
+        """Put an element into the link that leads from a port.
+
+        It stands in the frame of that port, turned by its own azimuth. What stands behind
+        keeps its azimuth, and is not turned by that of an element that light goes straight
+        through. Taps of the port stay, and read the light in front of the element.
+
+        Parameters
+        ----------
+        name, element
+            As `add` takes them. The element has one natural way through.
+        behind : str
+            The port, as ``"node.port"``, or ``"node"`` for its natural one.
+
+        Returns
+        -------
+        Node
+            For ``>>``.
+
+        Raises
+        ------
+        PathError
+            If the port feeds no link, the element has no natural way through, or frames
+            would not fit; the path is as it was then.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.load_preset("npgr026", case=7)
+        >>> path.insert("P2", op.Polarizer(0.3), behind="X1.reflected")
+        Node 'P2'
+        >>> path
+        <PathGraph: L >> P >> X2 >> X1 >> P2 >> E>
+        """
+        self._edit(insert, name, element, behind)
+        return Node(self, name)
+
+    def remove(self, name: str) -> None:
+        """Take a node out, and close the gap.
+
+        What stood before it is linked with what stood behind it, where one link came to it,
+        one left it, and light goes straight through. A node that no link comes to, or none
+        leaves, goes with its links.
+
+        Raises
+        ------
+        PathError
+            If there is no such node, or the links in the way do not tell how to close the gap;
+            the path is as it was then.
+        """
+        self._edit(remove, name)
+
+    def replace(self, name: str, element: Element) -> Node:
+        """Put another element in the place of one; its links and world frames stay.
+
+        Its own azimuth turns it, as that of the old one did.
+
+        Parameters
+        ----------
+        name : str
+            The node.
+        element : Element
+            With all ports that links and frames of the node use.
+
+        Returns
+        -------
+        Node
+            For ``>>``.
+
+        Raises
+        ------
+        PathError
+            If a port is missing, frames would not fit, or the old element has an azimuth and
+            the new one none; the path is as it was then.
+        """
+        self._edit(replace, name, element)
+        return Node(self, name)
+
+    def _edit(self, change: Callable[..., None], *arguments: Any) -> None:
+        edit(self._graph, lambda graph: change(graph, *arguments))
+        self._plans.clear()
+
+    def _append(self, port: str, others: ElementGraph) -> str:
+        """Add other elements behind a port, and return the name of the last of them."""
+        if others is self:
+            raise PathError(
+                f"what is put behind '{port}' is the path that it stands in; use a copy"
+            )
+        leaves = find_port(self._graph, port, out=True)
+        names = join(self._graph, others._graph, leaves)
+        self._plans.clear()
+        return list(names.values())[-1]
 
     def element(self, name: str) -> Element:
         """Return the element of a node.
@@ -198,8 +277,11 @@ class ElementGraph:
         return element_at(self._graph, name)
 
     def __getitem__(self, name: str) -> Node:
-        self.element(name)
-        return Node(self, name)
+        name, dot, port = name.partition(".") if isinstance(name, str) else (name, "", "")
+        element = self.element(name)
+        if dot:
+            check_port(element, name, port, (*element.inputs, *element.outputs))
+        return Node(self, name, port)
 
     def check(self) -> None:
         """Raise with every fault of the path, if it has any.
@@ -214,22 +296,22 @@ class ElementGraph:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ElementGraph):
             return NotImplemented
-        mine, theirs = _links(self._graph), _links(other._graph)
+        mine, theirs = dict(self._graph.edges.items()), dict(other._graph.edges.items())
         return (
             self.loops == other.loops
             and dict(self._graph.nodes(data=True)) == dict(other._graph.nodes(data=True))
             and mine.keys() == theirs.keys()
-            and all(same(turn, theirs[link]) for link, turn in mine.items())
+            and all(
+                same(about["azimuth"], theirs[link]["azimuth"])
+                and about["tap"] == theirs[link]["tap"]
+                for link, about in mine.items()
+            )
         )
 
     __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
+        if chain := as_chain(self._graph):
+            return f"<{type(self).__name__}: {' >> '.join(chain)}>"
         nodes, links = self._graph.number_of_nodes(), self._graph.number_of_edges()
         return f"<{type(self).__name__} with {nodes} nodes and {links} links>"
-
-
-def _links(graph: nx.MultiDiGraph) -> dict[Any, Any]:
-    return {
-        (start, end, key): turn for start, end, key, turn in graph.edges(keys=True, data="azimuth")
-    }

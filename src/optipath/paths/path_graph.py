@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, Never, overload
 
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEPT
-from optipath.elements.terminal import Detector
+from optipath.elements.chaining import NamedElement, chains_begin_with
+from optipath.elements.element import Element
 from optipath.errors import ParameterError, PathError, shown, unknown
-from optipath.paths.binding import bind
-from optipath.paths.element_graph import ElementGraph
-from optipath.values.cases import Case
+from optipath.paths.described_graph import DescribedGraph
+from optipath.paths.joining import name_by_kind
+from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    import networkx as nx
-
     from optipath.light.light import Light
     from optipath.light.mueller.matrix import Mueller
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
 
 
-class PathGraph(ElementGraph):
+class PathGraph(DescribedGraph):
     """An optical path: named elements, linked from out-port to in-port.
 
     Parameters
@@ -50,33 +45,14 @@ class PathGraph(ElementGraph):
     Node 'eye'
     >>> print(path.trace(theta=0.0).intensity.round(12))
     4.0
+
+    The same in one line, with names by kind, or those that elements are given:
+
+    >>> op.Source(100.0) >> op.Interface(1.5, 0.0).named("glass") >> op.Detector()
+    <PathGraph: source >> glass >> detector>
     """
 
     _plans: dict[str, Plan]
-
-    def __init__(
-        self,
-        description: str = "",
-        cases: Mapping[str, Case] | None = None,
-        declared: Sequence[str] = (),
-        loops: str = "refuse",
-    ) -> None:
-        if not isinstance(description, str):
-            raise PathError(f"the description of a path must be a text, not {shown(description)}")
-        cases = {} if cases is None else cases
-        if not isinstance(cases, Mapping) or not all(isinstance(c, Case) for c in cases.values()):
-            raise PathError(f"cases of a path must be a Case for each name, not {shown(cases)}")
-        self.description = description
-        self.cases = dict(cases)
-        super().__init__(declared, loops)
-
-    def __copy__(self) -> PathGraph:
-        return self._with(self._graph.copy())
-
-    def _with(self, graph: nx.MultiDiGraph) -> PathGraph:
-        path = PathGraph(self.description, self.cases)
-        path._graph = graph
-        return path
 
     def compose(self) -> Plan:
         """Return the plan of a default `Composer`, composed once and kept."""
@@ -85,14 +61,18 @@ class PathGraph(ElementGraph):
         return self._plans["ends"]
 
     @overload
-    def trace(self, /, keep: Literal["ends"] = ..., **parameters: Any) -> Light: ...
+    def trace(self, /, *, keep: Literal["ends"] = ..., **parameters: Any) -> Light: ...
     @overload
-    def trace(self, /, keep: Literal["all"], **parameters: Any) -> dict[str, Light]: ...
-    def trace(self, /, keep: str = "ends", **parameters: Any) -> Light | dict[str, Light]:
+    def trace(self, /, *, keep: Literal["all"], **parameters: Any) -> dict[str, Light]: ...
+    def trace(
+        self, /, *unnamed: Never, keep: str = "ends", **parameters: Any
+    ) -> Light | dict[str, Light]:
         """Return the light at the only detector; see `Plan.run`.
 
         Parameters
         ----------
+        *unnamed
+            None: values are given by name.
         keep : {"ends", "all"}, optional
             With ``"all"``, the light at every end, on every link, such as
             ``"lamp.out -> eye.in"``, and at every outlet, such as ``"glass.transmitted"``, by
@@ -110,21 +90,38 @@ class PathGraph(ElementGraph):
         Raises
         ------
         ParameterError
-            With every unknown, missing or unsuitable parameter.
+            With every unknown, missing or unsuitable parameter, or if there are several
+            detectors.
         """
         plan = self.compose()
-        if isinstance(keep, str) and keep == KEPT[0]:
+        if unnamed:
+            _check_named(unnamed, plan)
+        ends = isinstance(keep, str) and keep == KEPT[0]
+        if not ends and "keep" not in plan.inputs.open:
+            return self._keeping(keep).run_all(**parameters)
+        if not ends:
+            parameters["keep"] = keep
+        try:
             return plan.run(**parameters)
-        if "keep" in plan.inputs.open:
-            return plan.run(keep=keep, **parameters)
+        except ParameterError:
+            plan.only_detector("trace_all()")
+            raise
+
+    def _keeping(self, keep: str) -> Plan:
+        """Return the plan that keeps so much light."""
         if faults := unknown("keep", keep, KEPT):
             raise ParameterError(*faults)
         if keep not in self._plans:
             self._plans[keep] = Composer(keep=keep).compose(self._graph)
-        return self._plans[keep].run_all(**parameters)
+        return self._plans[keep]
 
     def paths(
-        self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
+        self,
+        /,
+        limit: int | None = None,
+        bounces: int | None = None,
+        *unnamed: Never,
+        **parameters: Any,
     ) -> list[LightPath]:
         """Return the ways of light one by one, the brightest first; see `Plan.paths`.
 
@@ -132,6 +129,8 @@ class PathGraph(ElementGraph):
         ----------
         limit, bounces : int, optional
             How many ways at most, and how often light may be reflected on each.
+        *unnamed
+            None: values are given by name.
         **parameters : float or array_like
             As in `trace`.
 
@@ -139,14 +138,33 @@ class PathGraph(ElementGraph):
         -------
         list of LightPath
         """
-        return self.compose().paths(limit, bounces, **parameters)
+        return self.compose().paths(limit, bounces, *unnamed, **parameters)
 
-    def trace_all(self, /, **parameters: Any) -> dict[str, Light]:
-        """Return the light at every detector and dump by name; see `Plan.run_all`."""
-        return self.compose().run_all(**parameters)
+    def trace_all(self, /, *unnamed: Never, **parameters: Any) -> dict[str, Light]:
+        """Return the light at every detector and dump by name; see `Plan.run_all`.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        **parameters : float or array_like
+            As in `trace`.
+
+        Returns
+        -------
+        dict of str to Light
+        """
+        plan = self.compose()
+        check_named("trace_all", unnamed, plan.inputs.open)
+        return plan.run_all(**parameters)
 
     def mueller(
-        self, source: str | None = None, detector: str | None = None, /, **parameters: Any
+        self,
+        source: str | None = None,
+        detector: str | None = None,
+        /,
+        *unnamed: Never,
+        **parameters: Any,
     ) -> Mueller:
         """Return the Mueller matrix from a source to a detector; see `Plan.mueller`.
 
@@ -154,6 +172,8 @@ class PathGraph(ElementGraph):
         ----------
         source, detector : str, optional
             Their names; needed only where there are several.
+        *unnamed
+            None: values are given by name.
         **parameters : float or array_like
             As in `trace`.
 
@@ -161,61 +181,30 @@ class PathGraph(ElementGraph):
         -------
         Mueller
         """
-        return self.compose().mueller(source, detector, **parameters)
+        return self.compose().mueller(source, detector, *unnamed, **parameters)
 
-    def bind(self, /, **values: Any) -> PathGraph:
-        """Return a copy of the path in which parameters have these values for good.
 
-        Raises
-        ------
-        ParameterError
-            With every unknown parameter and every value that is not allowed.
-        """
-        return self._with(bind(self._graph, values))
+def _beginning(first: Any) -> PathGraph:
+    if isinstance(first, PathGraph):
+        return first
+    path = PathGraph()
+    if isinstance(first, NamedElement):
+        path.add(first.name, first.element)
+    elif isinstance(first, Element):
+        path.add(name_by_kind(first), first)
+    else:
+        raise PathError(
+            f"{first} stands in a path already; add there what light passes before, and write "
+            f"path.add(name, element) >> path['{first.name}']"
+        )
+    return path
 
-    def reading(self, reads: str) -> PathGraph:
-        """Return a copy of the path whose detectors and dumps all read this, and no more.
 
-        Parameters
-        ----------
-        reads : {"stokes", "linear", "intensity"}
-            As `Detector` takes it.
+chains_begin_with(_beginning)
 
-        Raises
-        ------
-        PathError
-            If there is no such reading.
 
-        Examples
-        --------
-        >>> import optipath as op
-        >>> op.load_preset("malus").reading("intensity").trace().stokes
-        array([0.375,   nan,   nan,   nan])
-        """
-        if faults := Detector(reads).faults("path.reading(...)"):
-            raise PathError(*faults)
-        graph = self._graph.copy()
-        for node in graph.nodes.values():
-            if hasattr(node["element"], "reads"):
-                node["element"] = replace(node["element"], reads=reads)
-        return self._with(graph)
-
-    def to_toml(self) -> str:
-        """Return the path as the text of a preset file; loading it gives the path back.
-
-        Raises
-        ------
-        PathError
-            If an element has no kind, or a value has no form in TOML.
-        """
-        from optipath.paths.format.writer import to_toml  # noqa: PLC0415 - not for every import
-
-        return to_toml(self._graph, self.description, self.cases)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, PathGraph):
-            return NotImplemented
-        told = self.description == other.description and self.cases == other.cases
-        return told and super().__eq__(other)
-
-    __hash__ = None
+def _check_named(unnamed: tuple[Any, ...], plan: Plan) -> None:
+    """Refuse values that `PathGraph.trace` is given without a name, and what is to be kept."""
+    if isinstance(unnamed[0], str) and unnamed[0] in KEPT:
+        raise ParameterError(f"what is kept is given by name: trace(keep={shown(unnamed[0])})")
+    check_named("trace", unnamed, plan.inputs.open)

@@ -53,6 +53,73 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
     raise PathError(f"port '{owner}.{port}' does not exist{cure}")
 
 
+def natural_of(element: Element, *, out: bool) -> str:
+    """Return the port by which ``>>`` leaves an element, or enters it; empty for none.
+
+    Parameters
+    ----------
+    element : Element
+        The element.
+    out : bool
+        Whether the out-port is asked for.
+
+    Returns
+    -------
+    str
+    """
+    ports, said, unsaid = (
+        (element.outputs, element.natural, "out") if out else (element.inputs, element.entry, "")
+    )
+    if said in ports:
+        return said
+    return ports[0] if len(ports) == 1 and said == unsaid else ""
+
+
+def natural_port(element: Element, owner: str, *, out: bool) -> str:
+    """Return the natural port of a node.
+
+    Parameters
+    ----------
+    element : Element
+        That of the node.
+    owner : str
+        The name of the node.
+    out : bool
+        Whether the out-port is asked for.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    PathError
+        If it has none, with those that it has.
+
+    Examples
+    --------
+    >>> from optipath.elements.beam_splitter import BeamSplitter
+    >>> natural_port(BeamSplitter(), "bs", out=False)
+    'in'
+    >>> try:
+    ...     natural_port(BeamSplitter(), "bs", out=True)
+    ... except PathError as error:
+    ...     print(error)
+    'bs' has no one natural way out; connect one of its out-ports: 'bs.reflected', 'bs.transmitted'
+    """
+    found = natural_of(element, out=out)
+    if found:
+        return found
+    way, ports = ("out", element.outputs) if out else ("in", element.inputs)
+    if not ports:
+        reason = "ends there; let it stand last" if out else "begins there; let it stand first"
+        raise PathError(f"'{owner}' has no way {way}, since light {reason}")
+    names = ", ".join(f"'{owner}.{port}'" for port in ports)
+    raise PathError(
+        f"'{owner}' has no one natural way {way}; connect one of its {way}-ports: {names}"
+    )
+
+
 def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str]:
     """Return the node and the port that a text names in a graph of elements.
 
@@ -61,7 +128,7 @@ def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str
     graph : networkx.MultiDiGraph
         The elements and links.
     text : str
-        Such as ``"node.port"``.
+        Such as ``"node.port"``, or ``"node"`` for its natural port.
     out : bool
         Whether it must be an out-port, and else an in-port.
 
@@ -74,11 +141,13 @@ def find_port(graph: nx.MultiDiGraph, text: Any, *, out: bool) -> tuple[str, str
     PathError
         If it is no such text, there is no such node, or it has no such port.
     """
-    if not isinstance(text, str) or text.count(".") != 1:
+    if not isinstance(text, str) or text.count(".") > 1:
         way = "out" if out else "in"
         raise PathError(f"{shown(text)} is no {way}-port; write it as 'node.{way}'")
-    name, _, port = text.partition(".")
+    name, dot, port = text.partition(".")
     element = element_at(graph, name)
+    if not dot:
+        return name, natural_port(element, name, out=out)
     check_port(element, name, port, element.outputs if out else element.inputs)
     return name, port
 

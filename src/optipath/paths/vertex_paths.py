@@ -17,6 +17,7 @@ from optipath.errors import PathError, ValueFault, shown
 from optipath.paths.path_graph import PathGraph
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.made import checked_later
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -77,7 +78,8 @@ def path_from_vertices(
     if not several:
         raise PathError(*faults, *not_several)
     # With others in place of faulty vertices, so that the rest is checked too.
-    path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
+    with checked_later():  # Composing names the vertices, and looks at their array once.
+        path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
     is_sound = not faults
     try:
         path.compose()

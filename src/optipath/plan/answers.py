@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.light.frames import Frame
 from optipath.light.light import Light
+from optipath.plan.light_noise import noise_at
 from optipath.plan.running.options import RunOptions
 from optipath.plan.running.outlet_frames import LaterFrame
 from optipath.plan.running.questions import (
@@ -16,6 +17,7 @@ from optipath.plan.running.questions import (
     MatrixQuestion,
 )
 from optipath.plan.running.shared import runner_for
+from optipath.values.large_angles import LargeAngles
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from optipath.engines.program.program import Program, Reading
     from optipath.plan.approximation import Approximation
     from optipath.plan.certificate import Certificate
+    from optipath.plan.running.noise_interpreter import NoiseInterpreter
     from optipath.plan.running.runner import Runner
 
 
@@ -43,6 +46,7 @@ class Answers:
 
     def __init__(self, plan: Any) -> None:
         self.plan = plan
+        self.large_angles = LargeAngles(plan.inputs)
         self.question = LightQuestion(plan.program)
         self.light = self._run_by(plan.program, unreduced=plan.reduction.unreduced)
 
@@ -50,6 +54,13 @@ class Answers:
     def whole(self) -> Runner:
         """What gives matrices, and bounds of intensities."""
         return self._run_by(self.plan.whole)
+
+    @cached_property
+    def noise(self) -> NoiseInterpreter:
+        """What finds the noise of light."""
+        from optipath.plan.running.noise_interpreter import NoiseInterpreter  # noqa: PLC0415 - hardly ever needed
+
+        return NoiseInterpreter(self.plan.whole, self.light.dtype)
 
     @cached_property
     def approximation(self) -> Approximation | None:
@@ -64,8 +75,15 @@ class Answers:
         errors = ErrorsQuestion(self.plan.whole, instead.model)
         return Approximation(self.whole, errors, self.light, cheap, instead.most)
 
+    @property
+    def ran_by(self) -> tuple[str, ...]:
+        """The engines that have given the last light; none before the first."""
+        return (self.approximation or self.light).ran_by
+
     def lights(self, parameters: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
         """Return the light at every end, as Stokes vectors and exponents."""
+        if self.large_angles.names:
+            self.large_angles.look(parameters)
         return dict((self.approximation or self.light).answer(self.question, parameters))
 
     def stream(self, size: int, parameters: Mapping[str, Any]) -> Iterator[tuple[Any, Any]]:
@@ -85,6 +103,7 @@ class Answers:
         lights : dict of str to (Stokes vectors, exponents)
             As `lights` gives it.
         """
+        self.large_angles.look(parameters)
         return (self.approximation or self.light).stream(self.question, size, parameters)
 
     def matrix(self, source: str, reading: Reading, parameters: Mapping[str, Any]) -> Any:
@@ -104,11 +123,13 @@ class Answers:
         ndarray, shape (..., 4, 4)
             In the frames of the source and of the end.
         """
+        self.large_angles.look(parameters)
         question = MatrixQuestion(self.plan.whole, source, reading)
         return self.whole.answer(question, parameters)
 
     def certificates(self, parameters: Mapping[str, Any]) -> dict[str, Certificate]:
         """Return the certificate of every end."""
+        self.large_angles.look(parameters)
         given = self.whole.read_for_bounds(parameters)
         return dict(self.whole.answer_for(BoundsQuestion(self.plan.whole), given, parameters))
 
@@ -132,7 +153,8 @@ class Answers:
         for name, reading in self.plan.program.readings.items():
             stokes, exponent = lights[name]
             frame = self.framed(reading.frame, parameters, where)
-            found[name] = Light.of(stokes, frame, exponent)
+            noise = (noise_at, self, name, parameters, where)
+            found[name] = Light.of(stokes, frame, exponent, noise)
         return found
 
     def framed(
@@ -161,4 +183,4 @@ class Answers:
     def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
         plan = self.plan
         options = RunOptions(plan.method, plan.composing, plan.dtype, plan.chosen, plan.threads)
-        return runner_for(program, plan.inputs, options, unreduced=unreduced)
+        return runner_for(program, plan.inputs, options, plan.own_ways, unreduced=unreduced)

@@ -54,9 +54,15 @@ class Approximation(Answering):
         self.exact = exact
         self.cheap = cheap
         self.tolerance = tolerance
+        self._ran: tuple[Runner, ...] = ()
+
+    @property
+    def ran_by(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(engine for one in self._ran for engine in one.ran_by))
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         if self.exact.for_jax.is_asked(parameters):
+            self._ran = (self.exact,)
             return self.exact.answer(question, parameters)
         return self._of(question, self.whole.read_for_bounds(parameters), parameters)
 
@@ -85,15 +91,18 @@ class Approximation(Answering):
         ahead: int = 0,
     ) -> dict[str, Any]:
         def run(runner: Runner, numbers: ResolvedInputs) -> dict[str, Any]:
+            self._ran = (*self._ran, runner)
             answer = runner.answer_for(question, numbers, parameters, ahead=ahead)
             return dict(answer)
 
+        self._ran = ()
         scalar, error = self.whole.answer_for(self.errors, given, parameters, ahead=ahead)
         beyond = ~(error <= self.tolerance)
         share = np.count_nonzero(beyond) / max(beyond.size, 1)
         if share == 1.0:
             return run(self.exact, given)
         if self.cheap is None:
+            self._ran = (self.whole,)
             cheap = {n: ((total, np.nan, np.nan, np.nan), 0) for n, total in scalar.items()}
         else:
             cheap = run(self.cheap, given)

@@ -125,11 +125,14 @@ def _notes(plan: Any) -> Iterator[str]:
     if plan.engine_for(LARGE) != plan.engine:
         yield (
             f"all batches are run step by step: paths of at most {LONGEST} "
-            f"steps are compiled, in float64 and float32, if all elements compute with xp alone"
+            f"steps are compiled, in float64 and float32, if all elements compute with xp alone, "
+            f"in real numbers"
         )
     elif engine != "jax":
         yield batches(engine, runner.formulas.length, runner.dtype.name)
-    yield from _each(plan.copied, "feeds several links: each takes all its light")
+    yield from _each(
+        plan.taps, "is a tap, which takes nothing: leave its light out of sums of energy"
+    )
 
 
 def _each(ports: Sequence[str], what: str) -> Iterator[str]:

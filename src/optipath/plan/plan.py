@@ -3,25 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any, Never
 
-from optipath.errors import ParameterError, did_you_mean, shown
+from optipath.errors import ParameterError
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.light.mueller.matrix import Mueller
+from optipath.plan.choosing import by_place, only
+from optipath.plan.light_noise import matrix_noise_at, noise_at
 from optipath.plan.part import Part
-from optipath.plan.plan_texts import PlanTexts
+from optipath.plan.plan_details import PlanDetails
+from optipath.values.by_name import check_named
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from optipath.elements.own_ways import OwnWay
     from optipath.engines.program.program import Program
     from optipath.engines.program.reduction import Reduction, Tolerance
     from optipath.plan.answers import Answers
-    from optipath.plan.certificate import Certificate
-    from optipath.plan.light_paths.light_path import LightPath
     from optipath.values.inputs import Inputs
 
 
@@ -29,7 +31,7 @@ _MADE = ("_detector", "answers")
 
 
 @dataclass(frozen=True)
-class Plan(PlanTexts):
+class Plan(PlanDetails):
     """What a composer makes of a path: steps in order, and nothing of the graph.
 
     Attributes
@@ -40,10 +42,12 @@ class Plan(PlanTexts):
         What is left of it for what the detectors read.
     inputs : Inputs
         The parameters that are open, and what may be given for them.
+    own_ways : tuple of OwnWay
+        Ways through elements of a user's own that are looked at with the first values of a run.
     outlets : tuple of str
         Ports whose light leaves the path unread.
-    copied : tuple of str
-        Ports whose light goes to several links, whole to each.
+    taps : tuple of str
+        Links that read light and take none, such as ``"S.reflected -> state.in"``.
     instead : Tolerance or None
         What is taken in its place where a certificate allows it.
     tolerance : float or None
@@ -61,7 +65,7 @@ class Plan(PlanTexts):
     reduction: Reduction
     inputs: Inputs
     outlets: tuple[str, ...]
-    copied: tuple[str, ...]
+    taps: tuple[str, ...]
     method: str
     composing: str
     dtype: str
@@ -69,6 +73,7 @@ class Plan(PlanTexts):
     threads: int = 1
     instead: Tolerance | None = None
     tolerance: float | None = None
+    own_ways: tuple[OwnWay, ...] = ()
 
     @property
     def program(self) -> Program:
@@ -83,11 +88,13 @@ class Plan(PlanTexts):
         """
         return self.instead.model if self.instead else self.reduction.model
 
-    def run(self, /, **parameters: Any) -> Light:
+    def run(self, /, *unnamed: Never, **parameters: Any) -> Light:
         """Return the light at the only detector.
 
         Parameters
         ----------
+        *unnamed
+            None: values are given by name.
         **parameters : float or array_like
             In radians and metres; arrays broadcast together.
 
@@ -103,6 +110,8 @@ class Plan(PlanTexts):
             With every unknown, missing or unsuitable parameter, or if there are
             several detectors.
         """
+        if unnamed:
+            check_named("run", unnamed, self.inputs.open)
         name, place, frame = self._detector
         if self.instead is not None:
             return self.run_all(**parameters)[name]
@@ -110,31 +119,48 @@ class Plan(PlanTexts):
         fast_path = answers.light.single.fast_path(parameters)
         if type(frame) is not Frame:
             frame = answers.framed(frame, parameters)
+        noise = (noise_at, answers, name, parameters, ())
         if fast_path is not None:
-            return Light.of(fast_path[place][:4], frame, fast_path[place][4])
+            if answers.large_angles.names:
+                answers.large_angles.look(parameters)
+            return Light.of(fast_path[place][:4], frame, fast_path[place][4], noise)
         stokes, exponent = answers.lights(parameters)[name]
-        return Light.of(stokes, frame, exponent)
+        return Light.of(stokes, frame, exponent, noise)
 
-    def run_all(self, /, **parameters: Any) -> dict[str, Light]:
+    def run_all(self, /, *unnamed: Never, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.
 
         Of a plan that keeps all, also that on every link, such as ``"lamp.out -> eye.in"``,
         and that which leaves the path by an outlet, such as ``"glass.transmitted"``.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        **parameters : float or array_like
+            As in `run`.
+
+        Returns
+        -------
+        dict of str to Light
 
         Raises
         ------
         ParameterError
             With every unknown, missing or unsuitable parameter.
         """
+        check_named("run_all", unnamed, self.inputs.open)
         return self.answers.in_frames(self.answers.lights(parameters), parameters)
 
-    def stream(self, size: int = 1 << 20, /, **parameters: Any) -> Iterator[Part]:
+    def stream(self, size: int = 1 << 20, /, *unnamed: Never, **parameters: Any) -> Iterator[Part]:
         """Yield the light of a batch part by part, in memory that the parts need.
 
         Parameters
         ----------
         size : int, optional
             How many paths a part has at most.
+        *unnamed
+            None: values are given by name.
         **parameters : float or array_like
             As in `run`. A grid is given by axes that broadcast, such as shapes (m, 1) and
             (n,), and is never laid out as a whole.
@@ -156,6 +182,7 @@ class Plan(PlanTexts):
         >>> [part.where for part in plan.stream(2, angle=[0.0, 0.1, 0.2])]
         [(slice(0, 2, None),), (slice(2, 3, None),)]
         """
+        check_named("stream", unnamed, self.inputs.open)
         name, _, _ = self._detector
         if faults := whole_number("the size of a part", size):
             raise ParameterError(*faults)
@@ -163,7 +190,12 @@ class Plan(PlanTexts):
             yield Part(where, self.answers.in_frames(lights, parameters, where)[name])
 
     def mueller(
-        self, source: str | None = None, detector: str | None = None, /, **parameters: Any
+        self,
+        source: str | None = None,
+        detector: str | None = None,
+        /,
+        *unnamed: Never,
+        **parameters: Any,
     ) -> Mueller:
         """Return the Mueller matrix from one source to one detector.
 
@@ -173,6 +205,8 @@ class Plan(PlanTexts):
         ----------
         source, detector : str, optional
             Their names; needed only where there are several.
+        *unnamed
+            None: values are given by name.
         **parameters : float or array_like
             As in `run`.
 
@@ -186,98 +220,54 @@ class Plan(PlanTexts):
         ParameterError
             As in `run`, or if a source or detector is not named or not known.
         """
+        check_named("mueller", by_place((source, detector), unnamed), self.inputs.open)
+        if misplaced := {"source", "detector"} & parameters.keys() - self.inputs.open.keys():
+            raise ParameterError(
+                f"{min(misplaced)} is given by its place: mueller(source, detector), such as "
+                f"mueller({', '.join(map(repr, self._example_of_ends))})"
+            )
         program = self.whole
-        begin = self._only("source", tuple(program.sources), "mueller(source, detector)", source)
+        begin = only("source", tuple(program.sources), "mueller(source, detector)", source)
         ends = tuple(program.readings if detector is not None else program.detectors)
-        end = self._only("detector", ends, "mueller(source, detector)", detector)
+        end = only("detector", ends, "mueller(source, detector)", detector)
         reading = program.readings[end]
         matrix = self.answers.matrix(begin, reading, parameters)
         frames = (
             self.answers.framed(f, parameters) for f in (program.sources[begin][1], reading.frame)
         )
-        return Mueller(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
+        found = Mueller.of(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
+        return found.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
 
-    def certificate(self, detector: str | None = None, /, **parameters: Any) -> Certificate:
-        """Return how far the intensity at a detector can be from that without polarisation.
-
-        Parameters
-        ----------
-        detector : str, optional
-            Its name; needed only where there are several.
-        **parameters : float or array_like
-            As in `run`.
-
-        Returns
-        -------
-        Certificate
-            Its arrays have the broadcast shape of all values.
-
-        Raises
-        ------
-        ParameterError
-            As in `run`, or if a detector is not named or not known, if light goes round, or
-            if a Mueller matrix is unphysical.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> import optipath as op
-        >>> gold = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
-        >>> found = op.load_preset("npgr026").compose().certificate(**gold, phi=[0.2, 1.2])
-        >>> print(found.error.round(5))
-        [3.00e-05 1.27e-03]
-        """
-        ends = tuple(self.whole.readings if detector is not None else self.whole.detectors)
-        end = self._only("detector", ends, "certificate(detector)", detector)
-        return self.answers.certificates(parameters)[end]
-
-    def paths(
-        self, /, limit: int | None = None, bounces: int | None = None, **parameters: Any
-    ) -> list[LightPath]:
-        """Return the ways of light from sources to detectors and dumps, the brightest first.
-
-        The light of all of them together is what `run_all` gives; where light goes round, there
-        is no end of them, and with more bounces their sum comes as near as one likes.
-
-        Parameters
-        ----------
-        limit : int, optional
-            How many at most.
-        bounces : int, optional
-            How often light may be reflected at most on its way.
-        **parameters : float or array_like
-            As in `run`; of a batch, the brightest member counts.
-
-        Returns
-        -------
-        list of LightPath
-
-        Raises
-        ------
-        ParameterError
-            As in `run`, or if light goes round and nothing says when to stop.
-
-        Examples
-        --------
-        >>> import optipath as op
-        >>> for path in op.load_preset("coated-metal").compose().paths(limit=2):
-        ...     print(path)
-        0.539067  lamp.out -> surface.transmitted -> metal.reflected -> surface.reflected -> eye
-        0.388729  lamp.out -> surface.transmitted -> metal.transmitted -> heat
-        """
-        from optipath.plan.light_paths.listing import light_paths  # noqa: PLC0415 - not for every import
-
-        answers = self.answers
-        return light_paths(
-            answers.whole, limit, bounces, parameters, lambda f: answers.framed(f, parameters)
-        )
+    @property
+    def _example_of_ends(self) -> tuple[str, str]:
+        """A source and a detector that matrices may be asked for."""
+        return next(iter(self.whole.sources)), next(iter(self.whole.readings))
 
     @cached_property
     def _detector(self) -> tuple[str, int, Any]:
         """The name of the only detector, its place among the ends, and its frame."""
-        name = self._only("detector", tuple(self.program.detectors), "run_all()")
+        name = self.only_detector("run_all()")
         place = list(self.program.readings).index(name)
         return name, place, self.program.detectors[name].frame
+
+    def only_detector(self, cure: str) -> str:
+        """Return the name of the detector, if there is one alone.
+
+        Parameters
+        ----------
+        cure : str
+            What is to be called where there are several.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        ParameterError
+            If there are several.
+        """
+        return only("detector", tuple(self.program.detectors), cure)
 
     @cached_property
     def answers(self) -> Answers:
@@ -290,15 +280,3 @@ class Plan(PlanTexts):
     def __getstate__(self) -> dict[str, Any]:
         # What has been compiled stays here.
         return {name: value for name, value in self.__dict__.items() if name not in _MADE}
-
-    @staticmethod
-    def _only(what: str, names: tuple[str, ...], cure: str, name: str | None = None) -> str:
-        if name is not None:
-            if isinstance(name, str) and name in names:
-                return name
-            raise ParameterError(f"{what} {shown(name)} does not exist{did_you_mean(name, names)}")
-        if len(names) != 1:
-            raise ParameterError(
-                f"the path has {len(names)} {what}s ({', '.join(names)}); use {cure}"
-            )
-        return names[0]

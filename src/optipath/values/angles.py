@@ -6,13 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError, UnitError, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_jax, is_traced, namespace
 from optipath.values.arrays.memory import refuse_too_large
 from optipath.values.arrays.read_only import Unchanging, same
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.roundings import doubles, rounding_of
+from optipath.values.texts import numbers_for
+from optipath.values.units import parse_quantity, unit_of
 
 _APART = 1e-6
 _ANGLE = 8
@@ -51,7 +53,7 @@ class CosSin(Unchanging):
 
     def __init__(self, cos: Any, sin: Any) -> None:
         cos, sin = _numbers("cos", cos), _numbers("sin", sin)
-        if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}):
+        if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}, paired=True):
             raise ParameterError(*faults)
         refuse_too_large(joint_shape(np.shape(cos), np.shape(sin)), _ANGLE, error=ParameterError)
         object.__setattr__(self, "cos", within_right_angle(cos, sin))
@@ -157,7 +159,18 @@ def is_angle(cos: Any, sin: Any) -> bool:
 def _numbers(name: str, value: Any) -> Any:
     if is_jax(value):
         return value
+    value = numbers_for(name, value, _pure, ParameterError)
     array = as_given(name, value, ParameterError)
     if array.dtype.kind not in "iuf":
         raise ParameterError(f"{name} must be real numbers, not {shown(value)}")
     return array.astype(np.float64) if array.dtype.kind in "iu" else array
+
+
+def _pure(text: str) -> Any:
+    """Return the number that a text stands for, which is a cosine or a sine, and no angle."""
+    if unit_of(text):
+        raise UnitError(
+            f"'{text}' has a unit, but a cosine and a sine are pure numbers; give the angle itself "
+            f"in place of a CosSin"
+        )
+    return parse_quantity(text, "")

@@ -7,118 +7,22 @@ from functools import cached_property, reduce
 from operator import and_
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from optipath.errors import OptipathError, ParameterError, ValueFault, did_you_mean
-from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import is_traced
+from optipath.errors import OptipathError, ParameterError
+from optipath.values.agreement import first_faults
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
-from optipath.values.parameters import Parameter, Resolved
-from optipath.values.units import dimension_of
+from optipath.values.domains.axis import axes_for
+from optipath.values.domains.pair import pair_faults
+from optipath.values.fit_hints import with_bounds_hint
+from optipath.values.other_part import of_complex
+from optipath.values.resolved import THERE, Resolved
+from optipath.values.unknown_parameter import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Hashable, Mapping, Sequence
 
-    from optipath.values.domains.domain import Domain
-
-_THERE = np.ones((), dtype=bool)
-
-
-@dataclass(frozen=True, slots=True)
-class Use:
-    """A value where it stands.
-
-    Attributes
-    ----------
-    owner : str
-        The node and the field, such as ``X1.incidence``.
-    value : Any
-        A number, an array, or a `Parameter`.
-    domain : Domain
-        Which values are allowed there.
-    """
-
-    owner: str
-    value: Any
-    domain: Domain
-
-    @property
-    def is_open(self) -> bool:
-        """Whether the value is a parameter that is given when the plan runs."""
-        return isinstance(self.value, Parameter) and not self.value.bound
-
-    @property
-    def is_traced(self) -> bool:
-        """Whether the value is known, but to JAX alone, which traces it."""
-        value = self.value
-        known = value.default if isinstance(value, Parameter) and value.bound else value
-        return is_traced(known)
-
-    def batch_shape(self, numbers: Any) -> tuple[int, ...]:
-        """Return the shape of numbers for this place, the axes of one value left out."""
-        if type(numbers) is float:
-            return ()
-        if is_traced(numbers):
-            shape: tuple[int, ...] = numbers.shape
-        else:
-            try:
-                shape = as_given("", numbers).shape
-            except OptipathError:
-                return ()  # What is no array is a fault of its own.
-        return shape[: len(shape) - len(self.domain.tail)]
-
-    def known_shape(self) -> tuple[int, ...]:
-        """Return the batch shape of a value that is known."""
-        value = self.value
-        return self.batch_shape(value.default if isinstance(value, Parameter) else value)
-
-    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
-        """Return for which paths a value that JAX traces is allowed; True for any other."""
-        value: Any = self.value
-        parameter = isinstance(value, Parameter)
-        numbers: Any = resolved[value.name].value if self.is_open else value
-        numbers = numbers.default if parameter and value.bound else numbers
-        if not is_traced(numbers):
-            return True
-        signed = -numbers if parameter and value.negative else numbers
-        found = [self.domain.allows(signed), *([value.allows(numbers)] if parameter else [])]
-        batch = len(self.batch_shape(numbers))
-        return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
-
-    def check(self) -> None:
-        """Check what is known of the value: all of it, or a parameter's unit and default.
-
-        Raises
-        ------
-        ValueFault
-            Naming the owner, the value and what is asked for.
-        """
-        if not isinstance(self.value, Parameter):
-            self.domain.check(self.owner, self.value)
-            return
-        self.domain.check_parameter(self.owner, self.value)
-        unit, name = self.value.unit, self.value.name
-        if unit and dimension_of(unit) != self.domain.dimension:
-            raise ValueFault(
-                f"parameter '{name}' is in {unit}, but {self.owner} takes "
-                f"{self.domain.described()}; change its unit or where it is used"
-            )
-        default = self.value.default
-        if default is not None:
-            # Whether a number is in the range was asked when the parameter was made.
-            number = type(default) is float
-            self.check_given(default if number else self.value.resolve(default).value)
-
-    def check_given(self, numbers: float | np.ndarray[Any, Any]) -> None:
-        """Check numbers given for the parameter that stands here.
-
-        Raises
-        ------
-        ValueFault
-            Naming the parameter, the place and the value.
-        """
-        signed = -numbers if self.value.negative else numbers
-        self.domain.check(f"parameter '{self.value.name}' (at {self.owner})", signed)
+    from optipath.values.agreement import Agreement
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,6 +41,10 @@ class Inputs:
         The batch shapes of arrays that are known, by owner.
     known : tuple of Use
         Where values stand that are known, but to JAX alone.
+    choices : tuple of str
+        What is chosen before a path is composed, and not given when it runs.
+    agreements : tuple of Agreement
+        What must fit together, and is not known to.
     """
 
     open: Mapping[str, Parameter]
@@ -144,6 +52,8 @@ class Inputs:
     uses: tuple[Use, ...]
     shapes: Mapping[str, tuple[int, ...]]
     known: tuple[Use, ...] = ()
+    choices: tuple[str, ...] = ()
+    agreements: tuple[Agreement, ...] = ()
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
@@ -177,28 +87,35 @@ class Inputs:
             if value is None:
                 faults.append(f"parameter '{name}' has no value; give one, {name}=...")
             elif plain is not None and plain(name, value):
-                resolved[name] = Resolved(value, _THERE)
+                resolved[name] = Resolved(value, THERE)
                 unchecked.add(name)
             else:
+                value = axes_for(name, value, self.uses)
+                faults += pair_faults(name, value, self.uses)
                 try:
                     resolved[name] = parameter.resolve(value, self.limits[name])
                 except OptipathError as fault:
-                    faults += fault.faults
-        shapes = dict(self.shapes)
+                    faults += self._of_a_fit(fault.faults, name, value)
+        found: dict[str, tuple[int, ...]] = {}
         for use in self.distinct_uses:
             name = use.value.name
             if name not in resolved:
                 continue
-            numbers = resolved[name].value
+            numbers, present = resolved[name]
             try:
                 if name not in unchecked:
-                    use.check_given(numbers)
+                    use.check_given(numbers, present)
             except OptipathError as fault:
-                faults += fault.faults
+                value = given.get(name, self.open[name].default)
+                faults += self._of_a_fit(fault.faults, name, value)
             else:
                 shape = getattr(numbers, "shape", ())
-                shapes[name] = shape[: len(shape) - len(use.domain.tail)]
-        faults += broadcast_fault(shapes)
+                found[name] = shape[: len(shape) - len(use.domain.tail)]
+        # As they are given, so that a sentence names them in the order of whoever reads it.
+        shapes = {name: found[name] for name in (*given, *found) if name in found}
+        shapes = {**self.shapes, **shapes}
+        faults += broadcast_fault(shapes, self.shapes)
+        faults = faults or first_faults(self.agreements, resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.
         if faults:
@@ -215,18 +132,29 @@ class Inputs:
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths all values that JAX traces are allowed; True where it has none."""
-        return reduce(and_, (use.inside(resolved) for use in (*self.uses, *self.known)), True)  # noqa: FBT003
+        asked: tuple[Use | Agreement, ...] = (*self.uses, *self.known, *self.agreements)
+        return reduce(and_, (each.inside(resolved) for each in asked), True)  # noqa: FBT003
 
     @cached_property
-    def limits(self) -> dict[str, tuple[float, float]]:
-        """The range of each open parameter, wherever it stands; its own range included."""
-        found = {name: (p.minimum, p.maximum) for name, p in self.open.items()}
+    def limits(self) -> dict[Hashable, tuple[float, float]]:
+        """The range of each open parameter, wherever it stands; its own range included.
+
+        That of a multiple with an offset stands beside it, by what `InputKey.quantity` says.
+        """
+        found: dict[Hashable, tuple[float, float]] = {
+            name: (p.minimum, p.maximum) for name, p in self.open.items()
+        }
         for use in self.uses:
             name = use.value.name
-            low, high = use.domain.interval
-            if use.value.negative:
-                low, high = -high, -low
+            low, high = use.value.span_for(*use.domain.interval)
             found[name] = max(found[name][0], low), min(found[name][1], high)
+        for use in self.uses:
+            if not use.value.is_signed:
+                value, (low, high) = use.value, use.domain.interval
+                least, most = value.span_of(*found[value.name])
+                low, high = max(least, low), min(most, high)
+                # A turn back is by the negative.
+                found |= {value.quantity: (low, high), (-value).quantity: (-high, -low)}
         return found
 
     @cached_property
@@ -246,6 +174,11 @@ class Inputs:
 
     __hash__ = None  # type: ignore[assignment]
 
+    def _of_a_fit(self, faults: Sequence[str], name: str, value: Any) -> list[str]:
+        domains = [use.domain for use in self.uses if use.value.name == name]
+        faults = with_bounds_hint(faults, value, self.limits[name], domains)
+        return of_complex(faults, self.uses, name, value)
+
     def _batch(self) -> tuple[int, ...]:
         return joint_shape(*self.shapes.values())
 
@@ -253,7 +186,13 @@ class Inputs:
         if name in self.bound:
             value = self.bound[name]
             return (
-                f"parameter '{name}' is bound to {value.text(value.default)}; "
-                f"leave it open when loading or building the path to vary it"
+                f"parameter '{name}' is bound to {value.text(value.default)}; to vary it, leave "
+                f"it out of load_preset(...) or path.bind(...), where a case or a default "
+                f"leaves it open"
             )
-        return f"parameter '{name}' is unknown{did_you_mean(name, self.open)}"
+        if name in self.choices:
+            return (
+                f"'{name}' is chosen before a path runs, not while it does; write "
+                f"path.bind({name}=...) or load_preset(..., {name}=...)"
+            )
+        return unknown_parameter(name, self.open)

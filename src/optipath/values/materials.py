@@ -5,7 +5,63 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from optipath.values.arrays.read_only import read_only, same_fields
+from optipath.errors import UnitError, ValueFault
+from optipath.values.arrays.read_only import same_fields
+from optipath.values.cures import cure
+from optipath.values.domains.domain import Domain
+from optipath.values.made import make_sound
+from optipath.values.units import parse_quantity
+
+
+class _Part(Domain):
+    """One of the two numbers of an index."""
+
+    def parse(self, text: str) -> Any:
+        return index_of(text)
+
+    def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
+        if array.dtype.kind == "c":
+            raise ValueFault(f"{owner} is complex; give n and k apart, such as {_gold()}")
+        super()._check_numbers(owner, array, rounding)
+
+
+def index_of(text: str, asked: str = "") -> complex:
+    """Return the number that a text stands for, which is no name of a material.
+
+    Parameters
+    ----------
+    text : str
+        What is given.
+    asked : str, optional
+        What to give in place of a name; n and k by default.
+
+    Returns
+    -------
+    complex
+
+    Raises
+    ------
+    UnitError
+        If it stands for none.
+
+    Examples
+    --------
+    >>> index_of("0.2+3.4j")
+    (0.2+3.4j)
+    """
+    if text.strip()[:1].isalpha():
+        asked = asked or f"n and k as numbers, such as {_gold()}"
+        raise UnitError(f"'{text}' is no number; give {asked}")
+    return parse_quantity(text, "")
+
+
+def _gold() -> str:
+    return cure("Material(0.18, 3.4)", "{ n = 0.18, k = 3.4 }")
+
+
+N = _Part("index of refraction", minimum=0.0)
+K = _Part("extinction coefficient", minimum=0.0)
+_PARTS = {"n": N, "k": K}
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,6 +75,11 @@ class Material:
     k : float, array_like or Parameter, optional
         The extinction coefficient, not negative; k > 0 absorbs.
 
+    Raises
+    ------
+    ValueFault
+        If either is no such number.
+
     Examples
     --------
     >>> Material(0.608, 2.12)
@@ -29,8 +90,9 @@ class Material:
     k: Any = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "n", read_only(self.n))
-        object.__setattr__(self, "k", read_only(self.k))
+        make_sound(
+            self, _PARTS, lambda: [(name, getattr(self, name), of) for name, of in _PARTS.items()]
+        )
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]

@@ -11,15 +11,17 @@ import numpy as np
 
 from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY, made
-from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.jax_values import check_known, is_traced
 from optipath.values.arrays.read_only import same
-from optipath.values.parameters import Parameter, Resolved
+from optipath.values.multiples import affine
+from optipath.values.parameters import Parameter
 from optipath.values.roundings import doubles
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
 
     from optipath.kernels.numbers.primitives import Primitives
+    from optipath.values.resolved import Resolved
 
 
 _DOUBLE = np.dtype(np.float64)
@@ -44,13 +46,45 @@ class InputKey(NamedTuple):
         The parameter.
     part : str or int
         As in `Operand`; cosines and sines are made of ``"value"``.
+    scale, offset : float
+        What the parameter is multiplied by, and what is added, where the number is not what is
+        given as it stands.
     """
 
     name: str
     part: str | int = "value"
+    scale: float = 1.0
+    offset: float = 0.0
 
     def __str__(self) -> str:
-        return f"{self.name} {self.part}"
+        plain = f"{self.name} {self.part}"
+        return f"{self.scale} * {plain} + {self.offset}" if self.is_affine else plain
+
+    @property
+    def is_affine(self) -> bool:
+        """Whether it is a multiple of what is given, or has an offset."""
+        return self.scale != 1.0 or self.offset != 0.0
+
+    @property
+    def quantity(self) -> Hashable:
+        """What it is a part of: the parameter by its name, or a multiple of it with an offset."""
+        return (self.name, self.scale, self.offset) if self.is_affine else self.name
+
+    def placed(self, numbers: Any, limits: tuple[float, float]) -> Any:
+        """Return numbers for it.
+
+        Parameters
+        ----------
+        numbers : float or ndarray
+            Those that are given.
+        limits : tuple of float
+            What it must be within, as for `affine`.
+
+        Returns
+        -------
+        float or ndarray
+        """
+        return affine(self.scale, self.offset, numbers, limits) if self.is_affine else numbers
 
 
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:
@@ -116,7 +150,10 @@ class Operand:
     @property
     def input_key(self) -> InputKey:
         """What must be given for it, where it is not known."""
-        return InputKey(self.value.name, self.input_part)
+        value, part = self.value, self.input_part
+        if part == "present" or value.is_signed:
+            return InputKey(value.name, part)
+        return InputKey(value.name, part, value.scale, value.offset)
 
     @property
     def input_part(self) -> str | int:
@@ -140,7 +177,7 @@ class Operand:
         """
         if self.part == "present":
             return raw
-        negative = isinstance(self.value, Parameter) and self.value.negative
+        negative = isinstance(self.value, Parameter) and self.value.is_negative
         if isinstance(raw, tuple):
             cos, sin = raw
             if self.part == "cos":
@@ -177,8 +214,15 @@ class Operand:
             resolved = value.resolve(value.default) if value.bound else given[value.name]
             if self.part == "present":
                 return resolved.present
-            value = resolved.value
+            value = self.placed(resolved.value)
         return part_of(_doubles(value), self.input_part, self.tail)
+
+    def placed(self, numbers: Any) -> Any:
+        """Return numbers for its value, for those of a parameter, but for the sign of that."""
+        value = self.value
+        if not isinstance(value, Parameter) or value.is_signed:
+            return numbers
+        return value.placed(numbers)
 
     def numbers(
         self, given: Mapping[str, Resolved] = NOTHING, kind: np.dtype[Any] = _DOUBLE
@@ -195,8 +239,14 @@ class Operand:
         Returns
         -------
         ndarray
+
+        Raises
+        ------
+        ParameterError
+            If it is a value that JAX traces, which a path takes where it has a parameter.
         """
         raw = self.raw(given)
+        check_known(_BY_ITSELF, raw)
         if self.part in ("cos", "sin"):
             raw = np.asarray(raw).astype(kind)
         return np.asarray(self.evaluated(NUMPY, raw))
@@ -220,8 +270,8 @@ class Operand:
             return (float(numbers.min()), float(numbers.max())) if numbers.size else (0.0, 0.0)
         if self.part not in ("value", "real") or self.tail:
             return -np.inf, np.inf
-        low, high = self.value.minimum, self.value.maximum
-        return (-high, -low) if self.value.negative else (low, high)
+        value: Parameter = self.value
+        return value.span_of(value.minimum, value.maximum)
 
     def negated(self) -> Operand:
         """Return the same part of the value with the other sign."""
@@ -232,7 +282,7 @@ class Operand:
         if type(self.value) is float and self.value:
             return self.value, self.part
         if isinstance(self.value, Parameter):
-            return self.value.name, self.value.negative, self.part
+            return self.value.name, self.value.scale, self.value.offset, self.part
         if isinstance(self.value, (int, float, complex)):
             return repr(complex(self.value)), self.part
         if isinstance(self.value, np.ndarray) and self.value.nbytes <= _COMPARED:
@@ -250,6 +300,10 @@ class Operand:
         return self.part == other.part and same(self.value, other.value)
 
     __hash__ = None  # type: ignore[assignment]
+
+
+_BY_ITSELF = "an element by itself (in a path, give the value to trace())"
+"""What numbers are taken for outside of a run."""
 
 
 def _doubles(numbers: Any) -> Any:

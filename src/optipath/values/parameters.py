@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.errors import ParameterError, UnitError, did_you_mean, shown
+from optipath.values.affine_arithmetic import AffineArithmetic
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.read_only import changed, read_only, same
+from optipath.values.arrays.read_only import read_only, same
+from optipath.values.degrees import called
+from optipath.values.resolved import THERE, Resolved
 from optipath.values.roundings import doubles, traced_within, within
+from optipath.values.specification import checked_name, read_specification
 from optipath.values.units import dimension_of, format_quantity, format_range, parse_quantity
 
 if TYPE_CHECKING:
@@ -26,27 +30,17 @@ ABSENT = "none"
 _KINDS: dict[str, tuple[type, str]] = {
     "help": (str, "a text"),
     "words": (dict, "a dict from word to number"),
-    **dict.fromkeys(("optional", "bound", "negative"), (bool, "True or False")),
+    **dict.fromkeys(("optional", "bound"), (bool, "True or False")),
 }
-
-
-class Resolved(NamedTuple):
-    """Numbers for a parameter, and where an optional one is there at all.
-
-    Attributes
-    ----------
-    value, present : ndarray of one shape
-    """
-
-    value: npt.NDArray[Any]
-    present: npt.NDArray[np.bool_]
+_SHAPE = {"scale", "offset", "offset_dimension"}
 
 
 @dataclass(frozen=True, eq=False)
-class Parameter:
+class Parameter(AffineArithmetic):
     """A named value of a path that is given when it is traced.
 
-    Used in place of a value of any element; ``-parameter`` stands for its negative.
+    Used in place of a value of any element; ``2 * parameter + 0.1`` stands for a multiple of it
+    with an offset. The default, the range, the words and the unit are those of the value itself.
 
     Parameters
     ----------
@@ -55,8 +49,8 @@ class Parameter:
     default : float or array_like, optional
         Used when none is given; without one, the parameter must be given.
     unit : str, optional
-        The unit in which files and the command line give it. In Python every
-        value is in radians or metres, the default and the limits here too.
+        The unit in which files and the command line give it; by default that of the first text.
+        Plain numbers are in radians or metres, of the default and the limits too.
     minimum, maximum : float, optional
         The range, both ends included.
     help : str, optional
@@ -67,21 +61,25 @@ class Parameter:
         Whether the word ``"none"`` takes the element out of the path.
     bound : bool, optional
         Whether the default is the value for good.
-    negative : bool, optional
-        Whether it stands for its negative; ``-parameter`` says so.
+    scale, offset : float, optional
+        It stands for ``scale * value + offset``; arithmetic says so.
+    offset_dimension : str, optional
+        That of the unit, where the offset was given as a text with one.
 
     Raises
     ------
     ParameterError
         If the name is no identifier, a bound parameter has no value, or the
-        default lies outside the range.
+        default lies outside the range; or of arithmetic that gives no multiple with an offset.
     UnitError
-        If the unit is unknown.
+        If the unit is unknown, or the offset has that of another dimension.
 
     Examples
     --------
     >>> Parameter("filter", words={"diagonal": 0.785}).resolve("diagonal").value
     array(0.785)
+    >>> (90 - 2 * Parameter("d")).formula
+    '-2 * d + 90'
     """
 
     name: str
@@ -93,20 +91,21 @@ class Parameter:
     words: Mapping[str, float] = field(default_factory=dict)
     optional: bool = False
     bound: bool = False
-    negative: bool = False
+    scale: float = 1.0
+    offset: float = 0.0
+    offset_dimension: str = ""
 
     def __post_init__(self) -> None:
-        if not isinstance(self.name, str) or not self.name.isidentifier():
-            raise ParameterError(
-                f"parameter name {shown(self.name)} must be letters, digits and underscores, "
-                f"not starting with a digit"
-            )
-        dimension_of(self.unit)
+        checked_name(self.name)
+        vars(self).update(read_specification(self))
         self._check_types()
+        scale, offset, dimension = self.checked_shape()
+        vars(self).update(scale=scale, offset=offset, offset_dimension=dimension)
         low, high = self._limit(self.minimum), self._limit(self.maximum)
         if not low <= high:
             raise ParameterError(
-                f"parameter '{self.name}' has the range {low} .. {high}; begin with the lower end"
+                f"parameter '{self.name}' has the range {self.text(low)} .. "
+                f"{self.text(high)}; begin with the lower end"
             )
         vars(self).update(minimum=low, maximum=high)
         vars(self).update(words={w: self._word(w, v) for w, v in self.words.items()})
@@ -162,25 +161,22 @@ class Parameter:
         read = [self._as_number(entry) for entry in array.ravel().tolist()]
         return np.array(read, object).reshape(array.shape).tolist()
 
-    def __neg__(self) -> Parameter:
-        return changed(self, negative=not self.negative)
-
     def same_specification(self, other: Parameter) -> bool:
-        """Tell whether another parameter says the same, its sign aside."""
-        others = vars(other)
-        rest = (same(one, others[name]) for name, one in vars(self).items() if name != "negative")
-        return self is other or all(rest)
+        """Tell whether another parameter says the same of the value, scale and offset aside."""
+        mine, others = vars(self), vars(other)
+        return self is other or all(same(mine[n], others[n]) for n in mine.keys() - _SHAPE)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
             return NotImplemented
-        return self.negative == other.negative and self.same_specification(other)
+        shape = other.scale, other.offset
+        return (self.scale, self.offset) == shape and self.same_specification(other)
 
     def __hash__(self) -> int:
         return hash(self.name)
 
     def resolve(self, raw: Any, limits: tuple[float, float] | None = None) -> Resolved:
-        """Return the numbers that a given value stands for, sign aside.
+        """Return the numbers that a given value is, scale and offset aside.
 
         Parameters
         ----------
@@ -201,12 +197,12 @@ class Parameter:
             If it is no number or word, not finite, or outside the range.
         """
         if type(raw) is float and self.minimum <= raw <= self.maximum and abs(raw) < np.inf:
-            return Resolved(np.array(raw), np.ones((), dtype=bool))
+            return Resolved(np.array(raw), THERE)
         if isinstance(raw, CosSin):
             raw = self._angle(raw)
         limits = limits or (self.minimum, self.maximum)
         if is_traced(raw):
-            return Resolved(traced_within(raw, limits), np.ones((), dtype=bool))
+            return Resolved(traced_within(raw, limits), THERE)
         # Arrays stay in the precision in which they are given, by which some are judged.
         array = within(as_given(f"parameter '{self.name}'", raw, ParameterError), limits)
         present = np.ones(array.shape, dtype=bool)
@@ -313,7 +309,7 @@ class Parameter:
             place = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
             where = f" at {place if len(place) > 1 else place[0]}" if place else ""
             raise ParameterError(f"parameter '{self.name}' is {value}{where}; give a finite number")
-        given = self.text(float(value))
-        raise ParameterError(
-            f"parameter '{self.name}' is {given}, outside its range; give {self.range_text()}"
-        )
+        number, limits = float(value), (self.minimum, self.maximum)
+        given, meant = called(number, self.text(number), dimension_of(self.unit), limits)
+        wrong = f"parameter '{self.name}' is {given}, outside its range; give {self.range_text()}"
+        raise ParameterError(wrong + meant)

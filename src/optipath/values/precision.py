@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
 
-from optipath.errors import ComposerError, unknown
+from optipath.errors import ComposerError, shown
 
 DTYPES = ("float64", "float32", "longdouble")
+_BY_CHARACTER = {"d": "float64", "f": "float32", "g": "longdouble"}
 
 
-def precision(name: str) -> np.dtype[Any]:
-    """Return the dtype of a name.
+def precision(given: Any) -> np.dtype[Any]:
+    """Return the dtype of a name, or of what NumPy takes for one.
 
     Raises
     ------
@@ -21,14 +23,47 @@ def precision(name: str) -> np.dtype[Any]:
 
     Examples
     --------
-    >>> precision("float32")
-    dtype('float32')
+    >>> precision("float32"), precision("f4"), precision(float)
+    (dtype('float32'), dtype('float32'), dtype('float64'))
     """
-    if faults := unknown("dtype", name, DTYPES):
-        raise ComposerError(*faults)
+    return np.dtype(precision_name(given))
+
+
+def precision_name(given: Any) -> str:
+    """Return which of the `DTYPES` a name, a dtype or a type of NumPy or Python is.
+
+    Raises
+    ------
+    ComposerError
+        As `precision` does.
+
+    Examples
+    --------
+    >>> precision_name(np.float32), precision_name("double")
+    ('float32', 'float64')
+    """
+    known = type(given) is str and given in DTYPES
+    name = given if known else _BY_CHARACTER.get(_character(given))
+    if name is None:
+        first, second, last = DTYPES
+        cure = f"give '{first}', '{second}' or '{last}'"
+        raise ComposerError(f"dtype {shown(given)} is unknown; {cure}")
     if name == "longdouble" and np.finfo(np.longdouble).eps == np.finfo(np.float64).eps:
         raise ComposerError("dtype 'longdouble' is no more than float64 here; use 'float64'")
-    return np.dtype(name)
+    return name
+
+
+def _character(given: Any) -> str:
+    """Return NumPy's character for a dtype in the order of bytes of the machine, or nothing."""
+    if given is None:  # NumPy takes it for float64.
+        return ""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # Some aliases go, as that of np.floating.
+            found = np.dtype(given)
+    except Exception:  # noqa: BLE001 - it may have a dtype of its own, which may do anything
+        return ""
+    return found.char if found.isnative else ""
 
 
 def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:

@@ -11,7 +11,8 @@ import re
 from decimal import Decimal
 from typing import NamedTuple
 
-from optipath.errors import UnitError, did_you_mean, shown
+from optipath.errors import UnitError, shown
+from optipath.values.unit_names import unit_meant
 
 
 class Unit(NamedTuple):
@@ -68,6 +69,8 @@ _BASE_UNITS = {"angle": "rad", "length": "m", "inverse length": "1/m", "angle pe
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
 _QUANTITY = re.compile(rf"([-+]?{_NUMBER})\s*(.*)", re.ASCII)
 _COMPLEX = re.compile(rf"(?:[-+]?{_NUMBER}(?=[-+]))?[-+]?{_NUMBER}j", re.ASCII)
+_LIKE_A_UNIT = re.compile(r"(?:1/)?[^\W\d_][^:,;]*|[°%'\"]")
+_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[^\d,][^,]*)?", re.ASCII)
 _SIGN_BETWEEN = re.compile(r"(?<!\s)\s*([-+])\s*")
 _LONGEST = 2000
 """How many characters a quantity may have; no float needs more than 1100, all zeros written."""
@@ -95,8 +98,21 @@ def dimension_of(unit: str) -> str:
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
         word = unit if isinstance(unit, str) else shown(unit)
-        raise UnitError(f"unit '{word}' is unknown{did_you_mean(word, UNITS)}")
+        examples = [usual for usual in USUAL_UNITS.values() if usual]
+        raise UnitError(f"unit '{word}' is unknown{unit_meant(word, UNITS, examples)}")
     return UNITS[unit].dimension
+
+
+def unit_of(text: str) -> str:
+    """Return the unit that a text has, known or not; ``""`` for none, and for what is no quantity.
+
+    Examples
+    --------
+    >>> unit_of("30 deg"), unit_of("0.5"), unit_of("horizontal")
+    ('deg', '', '')
+    """
+    match = _QUANTITY.fullmatch(text.strip()[:_LONGEST])
+    return match[2] if match and _LIKE_A_UNIT.fullmatch(match[2]) else ""
 
 
 def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float | complex:
@@ -137,14 +153,16 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
     if not dimension and (number := _complex(text)) is not None:
         return number
     match = _QUANTITY.fullmatch(text)
-    if match is None:
-        example = f"30 {USUAL_UNITS[dimension]}".strip()
-        raise UnitError(f"'{text}' is not a quantity; write a number such as '{example}'")
+    if match is None or (match[2] and not _LIKE_A_UNIT.fullmatch(match[2])):
+        if meant := _respelt(text, dimension):
+            raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?")
+        example = f"'30 {USUAL_UNITS[dimension]}'" if dimension else "'1.5' or '0.3+0.4j'"
+        raise UnitError(f"'{text}' is not a quantity; write a number such as {example}")
     unit = match[2] or default_unit
-    found = dimension_of(unit)
-    if found != dimension:
+    known = UNITS.get(unit) if unit else _NOTHING
+    if known is None or known.dimension != dimension:
         raise UnitError(_mismatch(text, unit, dimension))
-    return _in_base_units(match[1], UNITS[unit] if unit else _NOTHING)
+    return _in_base_units(match[1], known)
 
 
 def in_unit(value: float, unit: str) -> float:
@@ -273,11 +291,22 @@ def _complex(text: str) -> complex | None:
     return complex(number) if _COMPLEX.fullmatch(number) else None
 
 
+def _respelt(text: str, dimension: str) -> str:
+    """Return a text with a point for a decimal comma, or j for i, if that was meant."""
+    if _DECIMAL_COMMA.fullmatch(text):
+        return text.replace(",", ".")
+    root = f"{text[:-1]}j"
+    return root if text.endswith("i") and not dimension and _complex(root) is not None else ""
+
+
 def _mismatch(text: str, unit: str, dimension: str) -> str:
-    units = ", ".join(name for name, known in UNITS.items() if known.dimension == dimension)
+    """Return the sentence for a unit that is missing, unknown, or of another dimension."""
     if not dimension:
         return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
+    units = [name for name, known in UNITS.items() if known.dimension == dimension]
     if not unit:
         asked = with_article(dimension)
-        return f"'{text}' has no unit, but {asked} is asked for; add one of {units}"
-    return f"'{text}' is no {dimension}; use one of {units}"
+        return f"'{text}' has no unit, but {asked} is asked for; add one of {', '.join(units)}"
+    if unit not in UNITS:
+        return f"unit '{unit}' of '{text}' is unknown{unit_meant(unit, units, units)}"
+    return f"'{text}' is no {dimension}; use one of {', '.join(units)}"

@@ -85,7 +85,7 @@ def test_angles_that_make_no_chain_are_refused(arguments, message):
 
 
 def test_an_incidence_out_of_its_range_is_refused():
-    with pytest.raises(op.ValueFault, match=r"vertices.incidences\[0\] is 114"):
+    with pytest.raises(op.ValueFault, match=r"vertices.incidences\[0\] is 2 rad, which is 114"):
         op.vertices_from_angles([2.0])
 
 

@@ -27,7 +27,11 @@ def watched(reads="stokes", *, loops=False):
     """A path of many sorts of element, all of whose numbers are given."""
     path = op.PathGraph(loops="sum")
     elements = {
-        "metal": op.Interface(op.Material(op.Parameter("n"), op.Parameter("k")), op.Parameter("a")),
+        "metal": op.Interface(
+            op.Material(op.Parameter("m"), op.Parameter("k")),
+            op.Parameter("a"),
+            outside=op.Parameter("n"),
+        ),
         "watch": Watching(op.Parameter("b")),
         "plate": op.Retarder(op.Parameter("c"), op.Parameter("a"), azimuth=op.Parameter("b")),
         "cell": op.Medium(op.Parameter("l"), op.Parameter("d"), rotation=op.Parameter("w")),
@@ -52,7 +56,7 @@ def watched(reads="stokes", *, loops=False):
 
 def given(rng, shape):
     """Ordinary values; along two axes where there are two."""
-    spans = {"n": (1.1, 1.4), "a": (0.2, 0.6), "b": (-1.0, 1.0)}
+    spans = {"n": (1.1, 1.4), "m": (1.1, 1.4), "a": (0.2, 0.6), "b": (-1.0, 1.0)}
     spans |= dict.fromkeys("kcldwt", (0.1, 0.9))
     shapes = dict.fromkeys(spans, shape)
     if len(shape) == 2:
@@ -113,6 +117,8 @@ def test_faint_light_alone_is_left_to_the_steps(rng, engine):
         pytest.skip("not installed")
     plan = op.Composer(engine=engine).compose(behind_a_lamp())
     for intensity, is_left in ((1.0, False), (1e-300, True)):
+        values = {"i": np.full(3000, intensity), "b": rng.uniform(-1.0, 1.0, 3000)}
+        plan.run(**values)  # An element's first values are looked at whether they are physical.
         Watching.seen.clear()
-        plan.run(i=np.full(3000, intensity), b=rng.uniform(-1.0, 1.0, 3000))
+        plan.run(**values)
         assert bool(Watching.seen) == is_left

@@ -50,9 +50,13 @@ def test_an_angle_and_its_pair_turn_light_alike(rotator, sign, angle):
 @pytest.mark.parametrize("least", [0.0, -1.0])
 def test_angles_up_to_any_limit_are_right(least, most):
     angles = np.linspace(least, most, 3001)
-    polarizer = op.Polarizer(op.Parameter("a", minimum=least, maximum=most))
+    limits = {"minimum": f"{least} rad", "maximum": f"{most} rad"}
+    polarizer = op.Polarizer(op.Parameter("a", **limits))
     plan = op.Composer(engine="numpy").compose(chain([polarizer], SEEN))
     expected = np.cos(angles) ** 2
+    if most > 2 * np.pi:  # Told once, since it may have been meant in degrees.
+        with pytest.warns(op.AngleWarning, match="did you mean '1000 deg'"):
+            plan.run(a=angles)
     np.testing.assert_allclose(plan.run(a=angles).intensity, expected, rtol=0, atol=1e-15)
     for place in (0, 7, 1000, 1500, 2000, 2900, 3000):
         found = plan.run(a=float(angles[place])).intensity

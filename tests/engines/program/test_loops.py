@@ -184,7 +184,7 @@ def test_loops_are_refused_unless_asked_for():
 def test_a_gain_of_one_or_more_is_an_error(gain):
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(1.0)) >> path.add("join", op.Combiner())
-    path.add("amplifier", op.MuellerElement(np.eye(4) * gain * 2))
+    path.add("amplifier", op.MuellerElement(np.eye(4) * gain * 2, physical=False))
     path.add("split", op.BeamSplitter(0.5))
     path["join"] >> path["amplifier"]
     path.connect("amplifier.out", "split.in")
@@ -305,7 +305,10 @@ def test_what_is_closed_is_dark_where_no_light_gets_in():
 
 
 def test_light_from_behind_needs_a_medium_that_does_not_absorb():
-    path = slab(1.5 + 0.1j, 0.5)
+    with pytest.raises(op.ValueFault, match="outside is complex; give a real index"):
+        slab(1.5 + 0.1j, 0.5)
+    path = slab(1.5, 0.5)
+    path.replace("front", op.Interface(1.5 + 0.1j, 0.5))
     with pytest.raises(op.PathError, match=r"front\.index is complex.* let a Medium absorb"):
         path.trace_all()
     path = slab(op.Material(1.5, op.Parameter("k")), 0.5)

@@ -91,7 +91,7 @@ def test_crossed_polarizers_at_any_angle_let_no_negative_light_through():
 
 
 def test_angles_so_huge_that_their_rounding_is_a_turn_keep_their_length():
-    light = op.Rotator(1e16).mueller() @ op.Light([1.0, 1.0, 0.0, 0.0])
+    light = op.Rotator("1e16 rad").mueller() @ op.Light([1.0, 1.0, 0.0, 0.0])
     assert light.dop == pytest.approx(1.0, abs=1e-15)
 
 

@@ -206,7 +206,7 @@ def test_crossed_polarizers_leave_nothing():
 def test_an_angle_whose_rounding_is_a_turn_is_taken_as_it_is():
     path = op.PathGraph()
     lamp = path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
-    lamp >> path.add("a", op.Polarizer(1e17)) >> path.add("eye", op.Detector())
+    lamp >> path.add("a", op.Polarizer("1e17 rad")) >> path.add("eye", op.Detector())
     exact = float(exact_lights(path)["eye"].stokes[0])
     assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
 

@@ -92,8 +92,16 @@ def test_a_sample_and_the_diagonal_light_it_met_agree():
 
 @pytest.mark.parametrize("name", SCALARS)
 def test_no_matrix_has_none_of_it(name):
-    assert getattr(op.Mueller(np.zeros((4, 4))), name) == 0.0
-    assert getattr(op.Mueller(np.ones((4, 4)) - np.diag([1.0, 0, 0, 0])), name) == 0.0
+    none = np.nan if name in ("psi", "delta") else 0.0
+    for matrix in (np.zeros((4, 4)), np.ones((4, 4)) - np.diag([1.0, 0, 0, 0])):
+        np.testing.assert_equal(getattr(op.Mueller(matrix), name), none)
+
+
+def test_a_depolariser_and_a_polariser_have_no_delta():
+    assert np.isnan(op.Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).psi)
+    assert np.isnan(op.Mueller(np.diag([1.0, 0.0, 0.0, 0.0])).delta)
+    assert np.isnan(op.Polarizer(0.0).mueller().delta)
+    assert op.Polarizer(0.0).mueller().psi == 0.0
 
 
 @pytest.mark.parametrize("name", SCALARS + VECTORS)

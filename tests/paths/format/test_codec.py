@@ -10,6 +10,9 @@ ELEMENTS = [
     op.Mirror(-0.97 + 0.12j, 0.92 - 0.26j, azimuth=0.3),
     op.Mirror(np.array([-0.9 + 0.1j, 0.3j]), -op.Parameter("r", 0.5 - 0.5j)),
     op.Mirror(np.array([-0.9, 0.3]), op.Parameter("r", np.array([0.5, 0.5j]))),
+    op.Mirror(np.array([-0.9, 0.3]), op.Parameter("r", np.array([0.5, 0.25]))),
+    op.Interface(np.array([0.17, 3.15]), 0.3),
+    op.LayerStack([1.0, np.array([1.5, 1.6]), np.array([0.17, 3.15])], 0.3),
     op.Diattenuator(0.9, op.Parameter("least"), angle=0.2, azimuth=0.1),
     op.Depolarizer(0.3),
     op.Medium(0.2, 0.7, rotation=-np.radians(66.5)),
@@ -35,6 +38,26 @@ def test_an_element_can_be_drawn(element):
     assert element.kind in draw(chain([element]))
 
 
+@pytest.mark.parametrize("place", ["field", "default", "case"])
+def test_a_pair_of_numbers_for_an_index_is_asked_about(place, tmp_path):
+    index = op.Parameter("gold", 1.5) if place != "field" else 1.5
+    text = chain([op.Interface(index, 0.3)]).to_toml()
+    told = r"\{ n = 0\.17, k = 3\.15 \} for the one, \{ n = \[0\.17, 3\.15\] \} for the other"
+    given = {
+        "field": text.replace("index = 1.5", "index = PAIR"),
+        "default": text.replace("default = 1.5", "default = PAIR"),
+        "case": text + "[cases.a]\nvalues = { gold = PAIR }\n",
+    }[place]
+    with pytest.raises(op.PathError, match=told):
+        loaded(given.replace("PAIR", "[0.17, 3.15]"), tmp_path)
+    case = "a" if place == "case" else None
+    (tmp_path / "path.toml").write_text(given.replace("PAIR", "{ n = 0.17, k = 3.15 }"))
+    gold = chain([op.Interface(op.Material(0.17, 3.15), 0.3)])
+    assert op.load_preset(tmp_path / "path.toml", case=case).trace() == gold.trace()
+    (tmp_path / "path.toml").write_text(given.replace("PAIR", "{ n = [0.17, 3.15] }"))
+    assert op.load_preset(tmp_path / "path.toml", case=case).trace().shape == (2,)
+
+
 def test_amplitudes_are_written_by_their_real_and_imaginary_parts():
     text = chain([op.Mirror(-0.5 + 0.25j, op.Parameter("r", 0.5j))]).to_toml()
     assert "r_s = { re = -0.5, im = 0.25 }" in text
@@ -42,8 +65,9 @@ def test_amplitudes_are_written_by_their_real_and_imaginary_parts():
 
 
 def test_an_amplitude_without_an_imaginary_part_is_real(tmp_path):
-    text = chain([op.Mirror(-0.5 + 0.25j)]).to_toml().replace("re = -0.5, im = 0.25", "re = -0.5")
-    assert loaded(text, tmp_path) == chain([op.Mirror(-0.5)])
+    text = chain([op.Mirror(-0.5 + 0.25j, 1.0)]).to_toml()
+    text = text.replace("re = -0.5, im = 0.25", "re = -0.5")
+    assert loaded(text, tmp_path) == chain([op.Mirror(-0.5, 1.0)])
 
 
 def test_numbers_of_a_parameter_are_written_in_its_unit():

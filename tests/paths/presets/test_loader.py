@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,64 @@ def test_values_given_take_precedence_over_the_case_and_others_stay_open():
     expected = op.load_preset("npgr026", case="8").trace().stokes
     np.testing.assert_array_equal(path.trace().stokes, expected)
     np.testing.assert_allclose(path.trace(intensity=200.0).stokes, 2 * expected)
+
+
+def test_the_values_of_a_case_can_be_varied():
+    path, values = op.load_preset("npgr026"), op.load_preset("npgr026").cases["8"].values
+    of_case = op.load_preset("npgr026", case=8)
+    angles = np.radians([10.0, 48.0, 80.0])
+    found = of_case.trace(delta=angles).stokes
+    np.testing.assert_array_equal(found, path.trace(**{**values, "delta": angles}).stokes)
+    np.testing.assert_array_equal(of_case.trace().stokes, path.trace(**values).stokes)
+    assert (
+        of_case.trace(filter="none").intensity
+        == path.trace(**{**values, "filter": "none"}).intensity
+    )
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+def test_a_case_leaves_every_parameter_open_with_its_range_words_and_unit(name):
+    plain = op.load_preset(name)
+    for case, said in plain.cases.items():
+        for parameter in op.load_preset(name, case=case).parameters.values():
+            known = plain.parameters[parameter.name]
+            assert not parameter.bound
+            default = said.values.get(parameter.name, known.default)
+            assert np.all(
+                parameter.default == known.parse(default)
+                if isinstance(default, str)
+                else parameter.default == default
+            )
+            assert replace(parameter, default=known.default) == known
+
+
+def test_what_is_given_beside_a_case_is_bound():
+    path = op.load_preset("npgr026", case=8, delta=0.5)
+    assert [name for name, p in path.parameters.items() if p.bound] == ["delta"]
+    with pytest.raises(op.ParameterError, match=r"'delta' is bound.*leave it out of load_preset"):
+        path.trace(delta=0.1)
+    with pytest.raises(op.ParameterError, match=r"'delta' is bound.*leave it open there"):
+        path.bind(delta=0.1)
+
+
+def test_a_case_leaves_an_element_out_by_default_and_it_can_be_put_back():
+    path = op.load_preset("npgr026", case=7)
+    assert path.parameters["filter"].default == "none"
+    np.testing.assert_array_equal(
+        path.trace(filter="horizontal").stokes,
+        op.load_preset("npgr026", case=7, filter="horizontal").trace().stokes,
+    )
+
+
+def test_a_path_gets_new_defaults_and_stays_as_it_was():
+    path = op.load_preset("malus")
+    crossed = path.with_defaults(angle="90 deg")
+    assert crossed.trace().intensity == 0.0
+    assert crossed.trace(angle=0.0).intensity == 0.5
+    assert path.trace().intensity == pytest.approx(0.375)
+    with pytest.raises(op.ParameterError) as error:
+        path.with_defaults(angel=0.1, intensity=-1.0)
+    assert len(error.value.faults) == 2
 
 
 def test_a_case_may_be_given_as_a_number():

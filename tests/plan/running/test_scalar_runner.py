@@ -153,6 +153,7 @@ ELEMENTS = {
 }
 
 
+@pytest.mark.filterwarnings("ignore::optipath.errors.AngleWarning")
 @pytest.mark.parametrize("element", ELEMENTS)
 @pytest.mark.parametrize("value", EXTREME)
 def test_the_later_runs_of_extreme_values_are_the_first(element, value):

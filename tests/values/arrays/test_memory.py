@@ -9,6 +9,7 @@ from optipath.values.arrays import memory
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
 ALONG = np.linspace(0.0, 1.5, 10**6)
 ACROSS = ALONG[:, np.newaxis]
+DARK = np.zeros((10**6, 4))
 WIDE = {"delta": ACROSS, "phi": ALONG}
 SIX = {
     name: np.linspace(0.1, 1.4, 100).reshape(-1, *[1] * axis)
@@ -66,8 +67,8 @@ def test_a_batch_too_large_for_the_machine_is_refused_with_the_cure(engine):
         lambda: chain().trace(a=ACROSS, b=ALONG),
         lambda: op.vertices_from_angles([ACROSS, ALONG], [0.1]),
         lambda: op.Light(np.ones((10**6, 1, 4)), exponent=np.zeros(10**6, int)),
-        lambda: op.Light(np.ones((10**6, 1, 4))).in_frame(op.Frame().turned(ALONG)),
-        lambda: op.Light(np.ones((10**6, 1, 4))) + op.Light(np.ones((10**6, 4))),
+        lambda: op.Light(np.ones((10**6, 1, 4)), physical=False).in_frame(op.Frame().turned(ALONG)),
+        lambda: op.Light(DARK[:, np.newaxis]) + op.Light(DARK),
         lambda: op.Mueller(np.ones((10**5, 1, 4, 4))) @ op.Mueller(np.ones((10**5, 4, 4))),
         lambda: op.Frame(*tiled([0.0, 1.0, 0.0], [1.0, 0.0, 0.0]), [0.0, 0.0, -1.0]),
         lambda: op.Frame.from_direction(*tiled([0.0, 0.0, 1.0], [1.0, 0.0, 0.0])),

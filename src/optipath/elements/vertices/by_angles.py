@@ -12,10 +12,10 @@ from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import entries_of
-from optipath.values.arrays.read_only import read_only, same_fields
+from optipath.values.arrays.read_only import same_fields
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains.domain import in_unit_of
 from optipath.values.domains.quantities import ANGLE, INCIDENCE
+from optipath.values.made import kept_value
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -60,7 +60,9 @@ class VerticesByAngles:
     def __post_init__(self) -> None:
         for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
             several = entries_of(name, "angles", getattr(self, name), PathError)
-            each = tuple(in_unit_of(read_only(angle), domain) for angle in several)
+            each = tuple(
+                kept_value(f"{name}[{place}]", angle, domain) for place, angle in enumerate(several)
+            )
             object.__setattr__(self, name, each)
         count, turns = len(self.incidences), len(self.turns)
         if not count:

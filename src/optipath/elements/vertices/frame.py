@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from optipath.elements.vertices.coordinates import Coordinates
     from optipath.values.operands import Operand
-    from optipath.values.parameters import Resolved
+    from optipath.values.resolved import Resolved
 
 _THREE_AXES = 72
 """How many bytes the axes of a frame have."""

@@ -20,7 +20,7 @@ from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.light.underflow import UNDERFLOW
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Hashable, Mapping
 
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
@@ -40,7 +40,7 @@ def lights_formula(
     carrier: type[Carrier],
     dtype: str,
     forms: Mapping[InputKey, str],
-    limits: Mapping[str, Limits],
+    limits: Mapping[Hashable, Limits],
     *,
     polynomials: bool,
     axes: Mapping[str, frozenset[int]] = NO_AXES,
@@ -63,7 +63,7 @@ def lights_formula(
         The precision of the formula.
     forms : mapping of InputKey to str
         What is given for each number.
-    limits : mapping of str to tuple of float
+    limits : mapping of Hashable to tuple of float
         The range of each parameter.
     polynomials : bool
         Whether sines and cosines are polynomials.
@@ -107,7 +107,7 @@ def bounds_formula(
     program: Program,
     dtype: str,
     forms: Mapping[InputKey, str],
-    limits: Mapping[str, Limits],
+    limits: Mapping[Hashable, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     model: str | None = None,
 ) -> Formula:
@@ -124,7 +124,7 @@ def bounds_formula(
         The precision of the formula.
     forms : mapping of InputKey to str
         What is given for each number.
-    limits : mapping of str to tuple of float
+    limits : mapping of Hashable to tuple of float
         The range of each parameter.
     axes : mapping of str to frozenset of int, optional
         Along which axes of the batch each array differs.
@@ -181,7 +181,7 @@ def matrix_formula(
     reading: Reading,
     dtype: str,
     forms: Mapping[InputKey, str],
-    limits: Mapping[str, Limits],
+    limits: Mapping[Hashable, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
 ) -> Formula:
     """Return the formula of the Mueller matrix from a source to a reading, row by row.
@@ -198,7 +198,7 @@ def matrix_formula(
         The precision of the formula.
     forms : mapping of InputKey to str
         What is given for each number.
-    limits : mapping of str to tuple of float
+    limits : mapping of Hashable to tuple of float
         The range of each parameter.
     axes : mapping of str to frozenset of int, optional
         Along which axes of the batch each array differs.

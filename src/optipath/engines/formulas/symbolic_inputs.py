@@ -16,7 +16,7 @@ from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Hashable, Mapping
 
     from optipath.engines.formulas.recorder import Recorder
     from optipath.engines.program.program import Program
@@ -38,7 +38,7 @@ class SymbolicInputs:
         Where they are recorded.
     forms : mapping of InputKey to str
         What is given for each number.
-    limits : mapping of str to tuple of float
+    limits : mapping of Hashable to tuple of float
         The range of each parameter; a value outside it is against a requirement.
     polynomials : bool
         Whether sines and cosines are to be polynomials.
@@ -53,7 +53,7 @@ class SymbolicInputs:
         self,
         recorder: Recorder,
         forms: Mapping[InputKey, str],
-        limits: Mapping[str, Limits],
+        limits: Mapping[Hashable, Limits],
         *,
         polynomials: bool,
         axes: Mapping[str, frozenset[int]],
@@ -109,7 +109,7 @@ class SymbolicInputs:
         return self.recorder.input(name, kind, axes=axes, left=left)
 
     def _given(self, key: InputKey, form: str) -> Any:
-        low, high = self.limits[key.name]
+        low, high = self.limits[key.quantity]
         given = self._input(str(key), form)
         if form == WIDE:
             # What is looked at is the number that is given, not what is left of it.
@@ -126,7 +126,7 @@ class SymbolicInputs:
 
     def _of_pair(self, operand: Operand) -> Any:
         """Return what an operand sees of an angle that is given by its cosine and sine."""
-        low, high = self.limits[operand.input_key.name]
+        low, high = self.limits[operand.input_key.quantity]
         least = 0.0 if low >= 0.0 and high <= np.pi / 2 else -1.0
         cos, sin = (
             self._part(operand.input_key._replace(part=part), least) for part in ("cos", "sin")
@@ -152,11 +152,11 @@ class SymbolicInputs:
         return given
 
     def _circular(self, operand: Operand, form: str, angle: Any) -> Any:
-        kind, negative = self.recorder.dtype, operand.value.negative
+        kind, negative = self.recorder.dtype, operand.value.is_negative
         if negative:
             angle = -angle
         digits = DIGITS[kind.name]
-        low, high = self.limits[operand.value.name]
+        low, high = self.limits[operand.input_key.quantity]
         first = not negative and low >= 0.0 and high <= np.pi / 2
         left = None
         if form in (ONE, WIDE) and kind != wide(kind):

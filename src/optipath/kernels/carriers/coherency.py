@@ -6,6 +6,8 @@ coherency matrix is negative.
 
 from __future__ import annotations
 
+from functools import reduce
+from operator import sub
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -55,23 +57,39 @@ def is_physical(xp: Primitives, numbers: Numbers, spare: float) -> Any:
     [True, False]
     """
     real, imaginary = (
-        [[_sum(part[:, 4 * row + column], numbers) for column in range(4)] for row in range(4)]
-        for part in (FROM_MUELLER.real, FROM_MUELLER.imag)
+        [[_sum(numbers, *places) for places in row] for row in part] for part in _FOUR_TIMES
     )
+    shift = 4.0 * spare * numbers[0]
     found: Any = np.True_
     for k in range(4):
-        pivot = real[k][k] + spare * numbers[0]
+        pivot = real[k][k] + shift
         found = found & (pivot >= 0.0)
         divisor = xp.where(pivot > 0.0, pivot, 1.0)
         for i in range(k + 1, 4):
             a, b = real[i][k] / divisor, imaginary[i][k] / divisor
-            for j in range(k + 1, i + 1):
+            real[i][i] = real[i][i] - (a * real[i][k] + b * imaginary[i][k])
+            for j in range(k + 1, i):
                 c, d = real[j][k], imaginary[j][k]
                 real[i][j] = real[i][j] - (a * c + b * d)
                 imaginary[i][j] = imaginary[i][j] - (b * c - a * d)
     return found
 
 
-def _sum(weights: Any, numbers: Numbers) -> Any:
-    pairs = zip(weights.tolist(), numbers, strict=True)
-    return sum(weight * number for weight, number in pairs if weight)
+def _places(part: Any) -> list[list[tuple[list[int], list[int]]]]:
+    """Return which numbers of a matrix are added and subtracted for four times each entry."""
+    weights = [[part[:, 4 * row + column] for column in range(row + 1)] for row in range(4)]
+    return [
+        [(np.flatnonzero(w > 0.0).tolist(), np.flatnonzero(w < 0.0).tolist()) for w in row]
+        for row in weights
+    ]
+
+
+_FOUR_TIMES = _places(FROM_MUELLER.real), _places(FROM_MUELLER.imag)
+"""The lower half of a coherency matrix, its real and its imaginary part."""
+
+
+def _sum(numbers: Numbers, added: list[int], subtracted: list[int]) -> Any:
+    if not added:
+        return 0.0
+    first, *others = [numbers[place] for place in added]
+    return reduce(sub, [numbers[place] for place in subtracted], sum(others, first))

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ComposerError, unknown
+from optipath.kernels.carriers.own_code import GuardedFactory, is_defined_in
 from optipath.kernels.numbers.primitives import Factory, KernelFunction, Primitives, made
 
 if TYPE_CHECKING:
@@ -51,8 +53,14 @@ class Kernel:
 
     def made_for(self, primitives: Primitives) -> KernelFunction:
         """Return the function in terms of these primitives, made once and kept."""
-        function: KernelFunction = made(self.factory, primitives)
+        factory = self.factory if self.of_library else GuardedFactory(self.name, self.factory)
+        function: KernelFunction = made(factory, primitives)
         return function
+
+    @cached_property
+    def of_library(self) -> bool:
+        """Whether it comes with the library, so that nothing it raises is a user's doing."""
+        return is_defined_in("optipath.", self.factory)
 
     def specialised(
         self, arguments: Sequence[Any], vanishes: Callable[[Any], bool]

@@ -38,7 +38,7 @@ class Boundaries(NamedTuple):
 
 @dataclass(frozen=True)
 class Stack:
-    """Makes the kernel of a stack, ``(n, ..., k, cos, sin) -> (Fs, Fp, B, C, S)``.
+    """Makes the kernel of a stack, ``(n, ..., k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
 
     Of the indices, front medium first and substrate last, only the last has a k. Layers are
     added one after the other; the intensities along s and along p go their own ways, and
@@ -50,24 +50,28 @@ class Stack:
         Of one boundary.
     through : bool
         Whether light that passes the stack is wanted, or that which comes back.
-    from_behind : bool
-        Whether the incidence is measured in the last medium, light coming from the other side.
+    measured : {"in front", "behind", "before"}
+        Whether the incidence is that in the first medium, in the last, light coming from the
+        other side, or in a medium n0 from which parallel boundaries have refracted the light.
     """
 
     reflection: Kernel
     transmission: Kernel
     through: bool
-    from_behind: bool
+    measured: str
 
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the kernel in terms of these primitives."""
 
         def stacked(*given: Any) -> tuple[Any, ...]:
-            *indices, k, c, s = given
-            measured_at = len(indices) - 1 if self.from_behind else 0
+            *indices, c, s = given
+            n0 = indices.pop() if self.measured == "before" else None
+            k = indices.pop()
+            measured_at = len(indices) - 1 if self.measured == "behind" else 0
             numbers = []
             for place in range(len(indices) - 1):
                 before = () if place == measured_at else (indices[measured_at],)
+                before = before if n0 is None else (n0,)
                 absorbs = k if place == len(indices) - 2 else 0.0
                 media = (*indices[place : place + 2], absorbs)
                 numbers.append(self._boundary(xp, *media, *before, c, s))

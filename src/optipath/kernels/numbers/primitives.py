@@ -19,15 +19,18 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Primitives:
-    """The functions a kernel may call; all are elementwise and none raises.
+    """The functions a kernel may call, which ``mueller_rows`` is given as ``xp``.
+
+    All are elementwise, and broadcast: numbers may be floats, arrays over paths, values that JAX
+    traces, or symbols that a formula is made of. `docs/own-elements.md` has them as a table.
 
     Attributes
     ----------
     where : callable
-        ``(condition, yes, no)``. Both may be evaluated, so kernels keep either free of division
-        by zero and of roots of negative numbers.
+        ``(condition, yes, no)``, in place of ``if``. Both may be evaluated, so kernels keep either
+        free of division by zero and of roots of negative numbers.
     sqrt, absolute, sin, cos, exp : callable
-        Of one number.
+        Of one number; in ``mueller_rows`` of a complex one, too.
     maximum, minimum, atan2 : callable
         Of two.
     frexp, ldexp : callable

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.errors import MissingExtraError, OptipathError
+from optipath.lab.bench.timing import duration
 from optipath.values.written_files import write_file
 
 try:
@@ -121,7 +122,8 @@ def _panel(axes: Axes, chart: Mapping[str, Any], kind: str) -> list[_Mark]:
     axes.grid(visible=True, which="major", color="#ececec", linewidth=0.8)
     axes.set_axisbelow(True)
     axes.set_title(_PANELS[kind], fontsize=10.5, color=_INK)
-    axes.set_xlabel("ns a path", color=_INK)
+    axes.set_xlabel("time a path", color=_INK)
+    axes.xaxis.set_major_formatter(lambda ns, _: duration(1e-9 * ns))
     axes.tick_params(colors=_INK, which="both")
     axes.spines[["top", "right"]].set_visible(False)
     return held

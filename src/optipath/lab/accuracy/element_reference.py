@@ -169,9 +169,11 @@ def mueller(element: Element, way: Coupling, read: Reader) -> list[list[Any]]:
 def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
     angle = cos_sin(read.angle(element.incidence))
     indices = [read.index(index) for index in element.indices]
+    before = indices[0] if element.incidence_in is None else read.index(element.incidence_in)
     if way.enters == "back":
-        angle = refracted(indices[0].real / indices[-1].real, angle[1])
         indices.reverse()
+    if indices[0] is not before:
+        angle = refracted(before.real / indices[0].real, angle[1])
     return stack(indices, *angle, back=False, way=way.reflects)
 
 

@@ -14,7 +14,7 @@ from optipath.values.operands import Operand, operand_of
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.values.parameters import Resolved
+    from optipath.values.resolved import Resolved
 
 
 @dataclass

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from optipath.composer.followed_values import with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.wiring import Wiring
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from optipath.elements.element import Element
     from optipath.lab.accuracy.boundary_reference import Jones
     from optipath.light.frames import Frame
-    from optipath.values.parameters import Resolved
+    from optipath.values.resolved import Resolved
 
 
 class ExactLight(NamedTuple):
@@ -73,7 +74,7 @@ def exact_lights(path: PathGraph, **parameters: Any) -> dict[str, ExactLight]:
     [0.5, 0.5, 0.0, 0.0]
     """
     given = _single(path, parameters)
-    return _exact(Wiring(path.graph), given, (), ())
+    return _exact(_wiring(path.graph), given, (), ())
 
 
 def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...]]:
@@ -97,7 +98,7 @@ def exact_stokes(path: PathGraph, **parameters: Any) -> dict[str, tuple[Any, ...
     [0.5, 0.5, 0.0, 0.0]
     """
     given = _single(path, parameters)
-    wiring = Wiring(path.graph)
+    wiring = _wiring(path.graph)
     with mpmath.workdps(_digits(wiring, Reader(given, (), ()))):
         return _Walk(wiring, Reader(given, (), ())).stokes()
 
@@ -126,9 +127,13 @@ def exact_batch(graph: nx.MultiDiGraph, **parameters: Any) -> Iterator[dict[str,
     dict of str to ExactLight
     """
     given, batch = Values(graph).inputs().resolve(parameters)
-    wiring = Wiring(graph)
+    wiring = _wiring(graph)
     for at in np.ndindex(batch):
         yield _exact(wiring, given, batch, at)
+
+
+def _wiring(graph: nx.MultiDiGraph) -> Wiring:
+    return Wiring(with_followed(graph)[0])
 
 
 def _exact(

@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.elements.interface import Interface
+from optipath.values.follows import FOLLOWS
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -58,7 +59,7 @@ def interfaces(path: PathGraph) -> list[str]:
     """Return the names of the interfaces of a path whose values nothing ties to those of others.
 
     Those of stacks are left alone: light from behind needs a medium that does not absorb, and
-    one angle fixes all others.
+    one angle fixes all others, and a medium has two boundaries.
     """
     lit_behind = {end for _, end, (_, enters) in path.graph.edges(keys=True) if enters == "back"}
     return [
@@ -67,4 +68,5 @@ def interfaces(path: PathGraph) -> list[str]:
         if isinstance(element, Interface)
         and name not in lit_behind
         and element.incidence_in is None
+        and FOLLOWS not in (element.outside, element.incidence)
     ]

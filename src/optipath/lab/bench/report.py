@@ -148,7 +148,9 @@ def _timed(
         plan = plan_of(run["engine"], run.get("dtype", "float64"), run.get("method", "stable"))
         values = random_values(plan, run["paths"])
         values = {name: value.astype(plan.dtype) for name, value in values.items()}
-        action = plan.mueller if run.get("output") == "mueller" else plan.run_all
+        action: Callable[..., object] = plan.run_all
+        if run.get("output") == "mueller":
+            action = plan.mueller
         contenders[name] = partial(_finished, action, values)
     return [
         {

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+_UNITS = {1.0: "s", 1e-3: "ms", 1e-6: "us", 1e-9: "ns"}
+
 
 class Timing(NamedTuple):
     """Seconds of one call.
@@ -88,3 +90,18 @@ def seconds_of(action: Callable[[], object], calls: int = 1) -> float:
     for _ in range(calls):
         action()
     return (perf_counter() - begin) / calls
+
+
+def duration(seconds: float) -> str:
+    """Return a time in the unit that suits it, with three digits.
+
+    Examples
+    --------
+    >>> [duration(seconds) for seconds in (1.05e-6, 2.3e-3, 0.99999, 0.0, 3e-10, 5000)]
+    ['1.05 us', '2.3 ms', '1 s', '0 s', '0.3 ns', '5,000 s']
+    """
+    rounded = float(f"{seconds:.3g}")
+    if rounded == 0.0 or rounded >= 1000.0:
+        return f"{rounded:,.0f} s"
+    sizes = [size for size in _UNITS if rounded >= size] or [min(_UNITS)]
+    return f"{rounded / sizes[0]:.3g} {_UNITS[sizes[0]]}"

@@ -91,7 +91,12 @@ def lack(matrix: Array) -> Array:
 
 def tolerance_for(matrix: Array) -> float:
     """Return what a matrix may lack, having been rounded in the precision of its numbers."""
-    return max(_TOLERANCE, 100.0 * rounding_of(matrix))
+    return tolerance_of(rounding_of(matrix))
+
+
+def tolerance_of(rounding: float) -> float:
+    """Return what a matrix may lack whose numbers have been rounded so, those near 1."""
+    return max(_TOLERANCE, 100.0 * rounding)
 
 
 def nearest_physical(matrix: Array) -> Array:

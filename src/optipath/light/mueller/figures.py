@@ -1,7 +1,8 @@
 """Figures read off the entries of a Mueller matrix, shape (..., 4, 4), each over M00.
 
-They are 0 where M00 is 0, NaN where it is infinite or an entry they need is not known, and exact
-in scale.
+They are 0 where M00 is 0, but psi and delta, angles that are not there, NaN; NaN where M00 or
+what an angle is of is no more than noise, as of crossed polarisers, where M00 is infinite or an
+entry they need is not known; and exact in scale.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from optipath.light.mueller import cloude
 from optipath.light.polarization_state import direction, length, ratio
-from optipath.values.arrays.jax_values import known
+from optipath.values.arrays.jax_values import known, namespace
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -48,7 +49,7 @@ class MatrixFigures:
     @property
     def diattenuation_vector(self) -> Array:
         """(M01, M02, M03) / M00, of shape (..., 3), in the frame of the light that comes in."""
-        return _over_m00(known(self.matrix), known(self.matrix)[..., 0, 1:])
+        return self._over_m00(known(self.matrix)[..., 0, 1:])
 
     @property
     def polarizance(self) -> Array:
@@ -58,7 +59,7 @@ class MatrixFigures:
     @property
     def polarizance_vector(self) -> Array:
         """(M10, M20, M30) / M00, of shape (..., 3), in the frame of the light that goes out."""
-        return _over_m00(known(self.matrix), known(self.matrix)[..., 1:, 0])
+        return self._over_m00(known(self.matrix)[..., 1:, 0])
 
     @property
     def depolarization_index(self) -> Array:
@@ -76,14 +77,16 @@ class MatrixFigures:
         """
         matrix = known(self.matrix)
         flat = matrix.reshape(*matrix.shape[:-2], 16)
-        return norm(_over_m00(matrix, flat[..., 1:])) / sqrt(3.0)
+        return norm(self._over_m00(flat[..., 1:])) / sqrt(3.0)
 
     @property
     def psi(self) -> Array:
         """The ellipsometric psi of an isotropic sample, of shape (...), in [0, pi/2].
 
         tan psi = abs(r_p) / abs(r_s), with x along s and y along p in both frames, as
-        `Interface` has them; from cos 2 psi : sin 2 psi = M01 : hypot(M22, M23).
+        `Interface` has them; from cos 2 psi : sin 2 psi = M01 : hypot(M22, M23), and NaN where
+        all three are 0. Of a sample that does not depolarise: what depolarises has less of M22 and
+        M23, and so a psi nearer to 0 or pi/2 (see `depolarization_index`).
 
         Examples
         --------
@@ -92,18 +95,20 @@ class MatrixFigures:
         >>> print(np.tan(Mueller(glass).psi).round(12), Mueller(glass).delta.round(4))
         0.5 3.1416
         """
-        B, C, S = _bcs(known(self.matrix))
-        return 0.5 * direction(length(C, S), B)  # type: ignore[no-any-return]
+        B, C, S = self._bcs()
+        rho = length(C, S)
+        return self._where_there(0.5 * direction(rho, B), length(rho, B))
 
     @property
     def delta(self) -> Array:
         """The ellipsometric Delta of an isotropic sample, of shape (...), in (-pi, pi].
 
         The phase of r_p / r_s in ellipsometry's exp(+i w t), atan2(M23, M22): pi where a
-        dielectric is met below Brewster's angle, between 0 and pi for a bare metal.
+        dielectric is met below Brewster's angle, between 0 and pi for a bare metal; NaN where
+        M22 and M23 are both 0.
         """
-        _, C, S = _bcs(known(self.matrix))
-        return direction(S, C)  # type: ignore[no-any-return]
+        _, C, S = self._bcs()
+        return self._where_there(direction(S, C), length(C, S))
 
     @property
     def coherency(self) -> npt.NDArray[np.complex128]:
@@ -130,15 +135,27 @@ class MatrixFigures:
         """
         return cloude.eigenvalues(self.matrix)
 
+    @property
+    def noise(self) -> Array:
+        """Which entries of `matrix` are no more than rounding, of shape (...)."""
+        raise NotImplementedError
+
+    def _where_there(self, value: Array, size: Array) -> Array:
+        """Return an angle, NaN where the vector whose direction it is is no longer than noise."""
+        floor = ratio(self.noise, abs(known(self.matrix)[..., 0, 0]))
+        return namespace(value).where(size <= floor, np.nan, value)  # type: ignore[no-any-return]
+
+    def _bcs(self) -> Iterator[Array]:
+        matrix = known(self.matrix)
+        return (self._over_m00(matrix[..., i, j, np.newaxis])[..., 0] for i, j in _BCS)
+
+    def _over_m00(self, entries: Array) -> Array:
+        """Return entries over M00; NaN where that is no more than noise."""
+        whole = known(self.matrix)[..., 0, 0, np.newaxis]
+        noise = (whole != 0.0) & (abs(whole) < self.noise[..., np.newaxis])
+        return namespace(whole).where(noise, np.nan, ratio(entries, whole))  # type: ignore[no-any-return]
+
 
 def norm(vector: Array) -> Array:
     """Return the length along the last axis, however small; at 0 its slope is 0."""
     return length(*(vector[..., i] for i in range(vector.shape[-1])))  # type: ignore[no-any-return]
-
-
-def _bcs(matrix: Array) -> Iterator[Array]:
-    return (_over_m00(matrix, matrix[..., i, j, np.newaxis])[..., 0] for i, j in _BCS)
-
-
-def _over_m00(matrix: Array, entries: Array) -> Array:
-    return ratio(entries, matrix[..., 0, 0, np.newaxis])  # type: ignore[no-any-return]

@@ -3,54 +3,62 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, NoReturn, overload
 
 import numpy as np
 
-from optipath.errors import FrameError
+from optipath.errors import FrameError, LightError
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.numbers.primitives import NUMPY
+from optipath.light.exchange import MuellerExchange
 from optipath.light.frames import Frame
+from optipath.light.inherited_noise import inheriting, rounding
 from optipath.light.light import Light
 from optipath.light.mueller import cloude
 from optipath.light.mueller.figures import MatrixFigures
+from optipath.light.mueller.matrix_noise import noise_of_product
 from optipath.light.mueller.polar_decomposition import polar_parts
 from optipath.light.mueller.sphere_rotations import turn_of
+from optipath.light.mueller.stacking import stacked
+from optipath.light.refused_products import why_refused
 from optipath.light.underflow import folded, normalise_exponent
-from optipath.values.arrays.jax_values import is_traced, known
-from optipath.values.arrays.read_only import same
+from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
+from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy.typing as npt
 
 
 @dataclass(frozen=True, eq=False)
-class Mueller(MatrixFigures):
+class Mueller(MatrixFigures, MuellerExchange, Unchanging):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
-    ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the
-    numbers from the frame that light leaves in to the frame it is expected in, and
-    refuse frames whose directions differ.
+    ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the numbers from the
+    frame that light leaves in to the one it is expected in; their directions must agree.
 
     Parameters
     ----------
     matrix : array_like, shape (..., 4, 4)
-        Acts on the Stokes vectors of `Light`.
+        Acts on Stokes vectors.
     frame_in, frame_out : Frame, optional
-        The frames of the light that comes in and that goes out; unit frames by default.
+        Those of the light that comes in and that goes out; unit frames by default.
 
     Raises
     ------
     ShapeError
-        If the last two axes have not four elements each.
+        If the last two axes have not four elements.
 
     Examples
     --------
     >>> half = Mueller(np.diag([0.5, 0.5, 0.5, 0.5]))
-    >>> (half @ half @ Light([1.0, 0.0, 0.0, 0.0])).stokes
-    array([0.25, 0.  , 0.  , 0.  ])
+    >>> half @ half @ Light([1.0, 0.0, 0.0, 0.0])
+    Light([0.25, 0.  , 0.  , 0.  ])
     """
+
+    __array_ufunc__ = None  # NumPy's arrays leave products to it.
 
     matrix: Any
     frame_in: Frame = field(default_factory=Frame)
@@ -59,7 +67,28 @@ class Mueller(MatrixFigures):
     def __post_init__(self) -> None:
         if not (isinstance(self.frame_in, Frame) and isinstance(self.frame_out, Frame)):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
-        object.__setattr__(self, "matrix", real_array("a Mueller matrix", self.matrix, (4, 4)))
+        matrix = real_array("a Mueller matrix", self.matrix, (4, 4))
+        kept = matrix if is_jax(matrix) else read_only(matrix, widened=False)
+        object.__setattr__(self, "matrix", kept)
+
+    @classmethod
+    def of(cls, matrix: Any, frame_in: Frame, frame_out: Frame) -> Mueller:
+        """Return what has been computed as a Mueller matrix: the array becomes read-only.
+
+        Parameters
+        ----------
+        matrix : ndarray, shape (..., 4, 4)
+            Nobody else has it.
+        frame_in, frame_out : Frame
+            Those of the light that comes in and that goes out.
+
+        Returns
+        -------
+        Mueller
+        """
+        found = cls.__new__(cls)
+        vars(found).update(matrix=locked(matrix), frame_in=frame_in, frame_out=frame_out)
+        return found
 
     @overload
     def __matmul__(self, other: Mueller) -> Mueller: ...
@@ -71,20 +100,67 @@ class Mueller(MatrixFigures):
             check_broadcast({"matrix": batch, "light": other.stokes.shape[:-1]})
             aligned = other.in_frame(self.frame_in)
             if is_traced(matrix) or is_traced(aligned.mantissa):
-                return Light((matrix @ aligned.stokes[..., np.newaxis])[..., 0], self.frame_out)
+                return Light.of((matrix @ aligned.stokes[..., np.newaxis])[..., 0], self.frame_out)
             stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
             with np.errstate(over="ignore", invalid="ignore"):
                 product = (matrix @ stokes[..., np.newaxis])[..., 0]
-            exponent = np.broadcast_to(exponent, product.shape[:-1])
-            stokes, exponent = folded(product, exponent)
-            return Light(stokes, self.frame_out, exponent)
+            stokes, exponent = folded(product, np.broadcast_to(exponent, product.shape[:-1]))
+            noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
+            return Light.of(stokes, self.frame_out, exponent, noise)
         if isinstance(other, Mueller):
             check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
             turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
             with np.errstate(over="ignore", invalid="ignore"):
                 product = matrix @ turn @ known(other.matrix)
-            return Mueller(product, other.frame_in, self.frame_out)
+            both = Mueller.of(product, other.frame_in, self.frame_out)
+            return both.with_noise(noise_of_product(*((m.matrix, m.noise) for m in (self, other))))
+        if hasattr(other, "dtype") or not hasattr(type(other), "__rmatmul__"):
+            raise LightError(why_refused(other))
         return NotImplemented
+
+    def __rmatmul__(self, other: object) -> NoReturn:
+        """Refuse what has no frames."""
+        raise LightError(why_refused(other))
+
+    @property
+    def noise(self) -> npt.NDArray[Any]:
+        """Which entries of `matrix` are no more than rounding: those below it, shape (...).
+
+        The rounding of M00; of a product, and of the matrix of a path, what is left of the
+        roundings of all factors: of crossed polarisers it is larger than M00.
+
+        Examples
+        --------
+        >>> print(Mueller(np.eye(4)).noise)
+        2.220446049250313e-16
+        """
+        own = self.__dict__
+        if callable(own.get("_noise")):
+            own["_noise"] = own["_noise"](self.matrix)
+        if "_floor" not in own:
+            least = rounding(known(self.matrix)[..., 0, :])
+            own["_floor"] = locked(namespace(least).maximum(least, own.get("_noise", 0.0)))
+        return own["_floor"]  # type: ignore[no-any-return]
+
+    def with_noise(self, noise: npt.NDArray[Any] | Callable[[Any], Any]) -> Mueller:
+        """Return the same matrix, of which more is noise than its own rounding.
+
+        Parameters
+        ----------
+        noise : ndarray of shape (...), or callable
+            The noise, or what returns it for the matrix when somebody asks.
+
+        Returns
+        -------
+        Mueller
+        """
+        found = Mueller.of(self.matrix, self.frame_in, self.frame_out)
+        found.__dict__["_noise"] = noise
+        return found
+
+    def __getstate__(self) -> dict[str, Any]:
+        # What computes the noise stays here.
+        return {**self.__dict__, "_noise": self.noise}
 
     @property
     def retardance(self) -> npt.NDArray[Any]:
@@ -143,11 +219,13 @@ class Mueller(MatrixFigures):
         >>> Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).nearest_physical().matrix.diagonal().round(12)
         array([ 1.5,  0.5,  0.5, -0.5])
         """
-        return Mueller(cloude.nearest_physical(self.matrix), self.frame_in, self.frame_out)
+        return Mueller.of(cloude.nearest_physical(self.matrix), self.frame_in, self.frame_out)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Mueller):
             return NotImplemented
+        for mueller in (self, other):
+            check_known("mueller == mueller", mueller.matrix)
         frames = self.frame_in == other.frame_in and self.frame_out == other.frame_out
         return frames and same(known(self.matrix), known(other.matrix))
 
@@ -162,7 +240,6 @@ class LuChipman:
     What does not depolarise has the parts of its Jones matrix and the unit matrix as depolarizer,
     however little it lets through: within the rounding of parts that let 1 through at most, so
     that crossed polarisers are told from depolarisers down to an M00 of 1e-10.
-
     No matrix is refused, and no noise makes a NaN. Where the parts are not unique:
 
     - behind an ideal polariser, the retarder is the least turn of the state it lets through into
@@ -239,10 +316,3 @@ class LuChipman:
     def polarizance_vector(self) -> npt.NDArray[Any]:
         """What the depolarizer makes of unpolarised light, along S1, S2 and S3; shape (..., 3)."""
         return self.depolarizer.polarizance_vector
-
-
-def stacked(rows: Any) -> npt.NDArray[np.float64]:
-    """Return rows of elementwise entries as one array of shape (..., 4, 4)."""
-    entries = np.broadcast_arrays(*(entry for row in rows for entry in row))
-    flat = np.stack(entries, axis=-1)
-    return flat.reshape(*flat.shape[:-1], 4, 4)

@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.vertex_domain import VerticesDomain
-from optipath.errors import PresetError, UnitError, did_you_mean, shown
+from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
 from optipath.paths.format.faults import Faults
+from optipath.paths.format.references import named, referred
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
-from optipath.values.domains.indices import INDEX, IndexDomain, IndicesDomain, OutsideDomain
+from optipath.values.domains.followed import Followed
+from optipath.values.domains.indices import (
+    FOLLOWED_OUTSIDE,
+    INDEX,
+    IndexDomain,
+    IndicesDomain,
+    OutsideDomain,
+)
+from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import AMPLITUDE, ANGLE
+from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
@@ -22,6 +33,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
 _ANGLES = ("incidences", "turns")
+_AFFINE = ("parameter", "scale", "offset")
+"""The keys of a multiple of a parameter with an offset."""
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -59,16 +72,59 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
             raise PresetError(
                 f"{shown(raw)} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
             )
-        return [decode(one, INDEX, parameters) for one in raw]
-    if isinstance(raw, str) and raw.lstrip("-").startswith("$"):
-        return _reference(raw, parameters)
+        # The one in front may be misspelt as well.
+        domains = [FOLLOWED_OUTSIDE] + [INDEX] * len(raw)
+        faults = Faults()
+        indices = [
+            FOLLOWS
+            if index == FOLLOWS.word
+            else faults.attempt(f"[{place}]", decode, index, domain, parameters)
+            for place, (index, domain) in enumerate(zip(raw, domains, strict=False))
+        ]
+        if faults:
+            raise PresetError(*faults)
+        return indices
+    if isinstance(domain, Followed) and raw == FOLLOWS.word:
+        return FOLLOWS
+    if isinstance(raw, str) and "$" in raw:
+        return referred(raw, parameters)
+    if isinstance(raw, dict) and raw.keys() & _AFFINE:
+        return _affine(raw, domain, parameters)
     if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
-        return Material(**_parts(raw, domain, parameters))
+        parts = _parts(raw, domain, parameters)
+        several = parts.keys() == {"n"} and is_pair(parts["n"])
+        return np.array(parts["n"]) if several else Material(**parts)
     if isinstance(raw, dict) and domain.complex_parts:
         return _complex(_parts(raw, domain, {}))
     if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
         return _by_angles(raw, parameters)
-    return _number(raw, domain.unit)
+    if isinstance(raw, str) and raw.strip() in parameters:
+        return named(raw, domain)
+    if domain.complex_parts and is_pair(raw):
+        raise PresetError(which_pair(raw, domain.complex_parts))
+    return domain.parse(raw) if isinstance(raw, str) else _number(raw, domain.unit)
+
+
+def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
+    """Ask whether a pair of numbers is one complex number, or those of two paths.
+
+    Parameters
+    ----------
+    raw : sequence of float
+        What stands in the file.
+    names : tuple of str
+        What files call the two parts.
+
+    Returns
+    -------
+    str
+    """
+    (first, second), (real, imaginary) = raw, names
+    return (
+        f"{shown(raw)} may be {real} and {imaginary}, or the numbers of two paths; write "
+        f"{{ {real} = {first}, {imaginary} = {second} }} for the one, "
+        f"{{ {real} = [{first}, {second}] }} for the other"
+    )
 
 
 def decode_given(raw: Any, parameter: Parameter) -> Any:
@@ -92,7 +148,12 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
         If it is no word of the parameter and no quantity of its dimension.
     """
     if isinstance(raw, str):
-        return parameter.parse(raw)
+        try:
+            return parameter.parse(raw)
+        except OptipathError as error:
+            # The place in the file has the name already.
+            said = f"parameter '{parameter.name}': "
+            raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
         return [decode_given(entry, parameter) for entry in raw]
     if isinstance(raw, dict):
@@ -126,7 +187,9 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, Parameter):
-        return f"{'-' * value.negative}${value.name}"
+        return _parameter(value, unit)
+    if value is FOLLOWS:
+        return FOLLOWS.word
     if isinstance(value, Material):
         return {"n": encode(value.n, unit), "k": encode(value.k, unit)}
     if isinstance(value, VerticesByAngles):
@@ -145,12 +208,35 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     raise PresetError(f"{shown(value)} has no form in a preset file; use numbers or parameters")
 
 
-def _reference(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
-    sign, _, name = raw.partition("$")
-    if sign not in ("", "-") or name not in parameters:
-        known = [f"${parameter}" for parameter in parameters]
-        raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
-    return -parameters[name] if sign else parameters[name]
+def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Parameter:
+    """Return a multiple of a parameter with an offset that is written as a table."""
+    faults = _unknown_keys(raw, _AFFINE)
+    name = raw.get("parameter")
+    if name is None:
+        faults.append("a table with 'scale' or 'offset' needs 'parameter', a name")
+    elif not isinstance(name, str) or name not in parameters:
+        faults.append(f"parameter {shown(name)} is not declared{did_you_mean(name, parameters)}")
+    found: dict[str, Any] = {}
+    for key, unit in (("scale", ""), ("offset", domain.unit)):
+        if isinstance(raw.get(key), (list, dict)):
+            faults.append(f"'{key}' must be one number, not {shown(raw[key])}")
+        elif key in raw:
+            found[key] = faults.attempt(f"'{key}'", _number, raw[key], unit)
+    if faults:
+        raise PresetError(*faults)
+    return replace(parameters[raw["parameter"]], **found)
+
+
+def _parameter(value: Parameter, unit: str) -> Any:
+    """Write a parameter, or a multiple of one with an offset."""
+    if value.is_signed:
+        return f"{'-' * value.is_negative}${value.name}"
+    row = {"parameter": value.name}
+    if value.scale != 1.0:
+        row["scale"] = encode(value.scale, "")
+    if value.offset:
+        row["offset"] = encode(value.offset, unit)
+    return row
 
 
 def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
@@ -160,7 +246,7 @@ def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dic
     if names[0] not in raw:
         faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
     pure, given = Domain(domain.name), [key for key in names if key in raw]
-    parts = {key: faults.attempt(key, decode, raw[key], pure, parameters) for key in given}
+    parts = {key: faults.attempt(f".{key}", decode, raw[key], pure, parameters) for key in given}
     if faults:
         raise PresetError(*faults)
     return parts
@@ -183,7 +269,7 @@ def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngle
         if not isinstance(several, list):
             faults.append(f"{key} must be a list of angles, not {shown(several)}")
             continue
-        places = [(f"{key}[{place}]", angle) for place, angle in enumerate(several)]
+        places = [(f".{key}[{place}]", angle) for place, angle in enumerate(several)]
         angles.append(tuple(faults.attempt(at, decode, a, ANGLE, parameters) for at, a in places))
     if faults:
         raise PresetError(*faults)
@@ -203,7 +289,8 @@ def _number(raw: Any, unit: str) -> Any:
     if isinstance(raw, str):
         return parse_quantity(raw, dimension_of(unit))
     if isinstance(raw, bool) or not isinstance(raw, (int, float)):
-        raise UnitError(f"{shown(raw)} is not a number")
+        written = str(raw).lower() if isinstance(raw, bool) else shown(raw)
+        raise UnitError(f"{written} is not a number")
     try:
         number = float(raw)
     except OverflowError:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
-from optipath.errors import OptipathError
+from optipath.errors import OptipathError, listed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
 T = TypeVar("T")
 P = ParamSpec("P")
+
+_MOST = 4
+"""How many places are named where the same is wrong."""
 
 
 class Faults(list[str]):
@@ -46,5 +49,38 @@ class Faults(list[str]):
         try:
             return action(*arguments, **keywords)
         except OptipathError as error:
-            self += [f"{where}: {fault}" for fault in error.faults]
+            self += [_placed(where, fault) for fault in error.faults]
             return None
+
+
+def _placed(where: str, fault: str) -> str:
+    """Return a fault with its place, which is not named twice."""
+    named = f"parameter '{where.rpartition('.')[2]}' "
+    if fault.startswith(named):
+        return f"{where} {fault.removeprefix(named)}"
+    # A fault within the value begins with its place there, such as ".n".
+    return f"{where}{fault}" if fault.startswith(".") else f"{where}: {fault}"
+
+
+def joined(faults: Iterable[str]) -> list[str]:
+    """Return faults, one sentence for all the places where the same is wrong.
+
+    Examples
+    --------
+    >>> joined(["a.x: 'z' is unknown", "b: 'y' is unknown", "c: 'z' is unknown", "no lamp"])
+    ["a.x and c: 'z' is unknown", "b: 'y' is unknown", 'no lamp']
+    """
+    places: dict[tuple[str, str], list[str]] = {}
+    for fault in dict.fromkeys(faults):
+        where, colon, sentence = fault.partition(": ")
+        places.setdefault((colon, sentence) if colon else ("", fault), []).append(where)
+    return [
+        f"{listed(_few(where))}: {sentence}" if colon else sentence
+        for (colon, sentence), where in places.items()
+    ]
+
+
+def _few(places: list[str]) -> list[str]:
+    if len(places) <= _MOST:
+        return places
+    return [*places[: _MOST - 1], f"{len(places) - _MOST + 1} more places"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import did_you_mean, shown
+from optipath.spelling import closest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -12,12 +13,19 @@ if TYPE_CHECKING:
 FORMAT = 1
 
 TOP = {"format": int, "description": str, "parameters": dict, "elements": dict, "links": list}
-TOP |= {"cases": dict, "loops": str}
+TOP |= {"cases": dict, "choices": dict, "loops": str}
 PARAMETER = {"default": object, "unit": str, "range": list, "help": str, "words": dict}
 PARAMETER |= {"optional": bool, "bound": bool}
-LINK = {"from": str, "to": str, "azimuth": object}
+LINK = {"from": str, "to": str, "azimuth": object, "tap": bool}
+CHOICE = {"element": str, "behind": dict, "help": str}
 CASE = {"values": dict, "published": dict, "note": str}
 
+_EXAMPLES = {
+    "links": "a list of tables, each headed [[links]]",
+    **{name: f"tables headed [{name}.NAME]" for name in ("elements", "parameters", "cases")},
+    "loops": 'a text, "refuse" or "sum"',
+    "range": 'a list of two values, such as ["0 deg", "90 deg"]',
+}
 _WORDS = {
     int: "a whole number",
     str: "a text",
@@ -72,8 +80,85 @@ def type_faults(where: str, table: Mapping[str, Any], schema: Mapping[str, Any])
         Nothing where all is well.
     """
     wrong = [
-        f"{where}: '{key}' must be {_WORDS[kind]}, not {shown(table[key])}"
+        f"{where}: '{key}' must be {_EXAMPLES.get(key, _WORDS[kind])}, not {shown(table[key])}"
         for key, kind in schema.items()
         if key in table and kind not in (object, type(table[key]))
     ]
     return key_faults(where, table, schema) + wrong
+
+
+def as_meant(table: Mapping[str, Any], known: Iterable[str]) -> dict[str, Any]:
+    """Return a table in which misspelt keys stand under the names that were meant.
+
+    So that what stands there is read, and not called missing as well.
+
+    Parameters
+    ----------
+    table, known
+        As `key_faults` takes them.
+
+    Returns
+    -------
+    dict
+        Only known keys.
+
+    Examples
+    --------
+    >>> as_meant({"knd": "source", "frames": {}, "colour": 3}, ["kind", "frames"])
+    {'frames': {}, 'kind': 'source'}
+    """
+    names = list(known)
+    found = {key: value for key, value in table.items() if key in names}
+    for key, value in table.items():
+        name = key if key in names else closest(key, names)
+        if name is None or name == key:
+            continue
+        here = found.setdefault(name, value)
+        if here is not value and isinstance(here, dict) and isinstance(value, dict):
+            found[name] = {**value, **here}
+    return found
+
+
+def checked(
+    where: str, table: dict[str, Any], schema: Mapping[str, Any], faults: list[str]
+) -> dict[str, Any] | None:
+    """Return a table with its keys as they were meant; None where a value has another type.
+
+    Parameters
+    ----------
+    where, table, schema
+        As `type_faults` takes them.
+    faults : list of str
+        Takes what is wrong.
+
+    Returns
+    -------
+    dict or None
+        The table itself where all is well.
+    """
+    found = type_faults(where, table, schema)
+    if not found:
+        return table
+    faults += found
+    table = as_meant(table, schema)
+    return None if type_faults(where, table, schema) else table
+
+
+def texts_in(raw: Any) -> list[str]:
+    """Return the texts that stand anywhere in a value.
+
+    Examples
+    --------
+    >>> texts_in({"index": {"n": "$n1", "k": 0.1}, "range": ["0 deg", "90 deg"]})
+    ['0 deg', '90 deg', '$n1']
+    """
+    found, left = [], [raw]
+    while left:
+        entry = left.pop()
+        if isinstance(entry, str):
+            found.append(entry)
+        elif isinstance(entry, dict):
+            left += entry.values()
+        elif isinstance(entry, list):
+            left += reversed(entry)
+    return found

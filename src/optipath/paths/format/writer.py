@@ -15,7 +15,10 @@ from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.schema import FORMAT
-from optipath.values.domains.indices import INDEX
+from optipath.paths.place_choice import choice_faults
+from optipath.values.domains.choice import Choice
+from optipath.values.domains.indices import INDEX, IndicesDomain
+from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.parameters import Parameter
 
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
     from optipath.elements.element import Element
     from optipath.light.frames import Frame
     from optipath.values.cases import Case
+    from optipath.values.domains.domain import Domain
 
 
 def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case]) -> str:
@@ -60,17 +64,24 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     tables: list[str] = [_lines("", top)]
     parts = complex_parts_of(graph)
     for name, parameter in parameters.items():
-        row = _parameter(parameter, parts.get(name, INDEX.complex_parts))
+        row = _parameter(parameter, parts.get(name))
         tables.append(_lines(f"[parameters.{_key(name)}]", row))
     for name, element in graph.nodes(data="element"):
         described = faults.attempt(name, _element, element, graph.nodes[name]["frames"])
         if described is not None:
             tables.append(_lines(f"[elements.{_key(name)}]", described))
-    for start, end, (leaves, enters), azimuth in graph.edges(keys=True, data="azimuth"):
+    for (start, end, (leaves, enters)), about in graph.edges.items():
         link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
-        if azimuth is not None:
-            link["azimuth"] = encode(azimuth, ANGLE.unit)
+        if about["azimuth"] is not None:
+            link["azimuth"] = encode(about["azimuth"], ANGLE.unit)
+        if about["tap"]:
+            link["tap"] = True
         tables.append(_lines("[[links]]", link))
+    for name, choice in graph.graph.get("choices", {}).items():
+        faults += [f"choice '{name}': {fault}" for fault in choice_faults(graph, choice)]
+        row = {"element": choice.node, "behind": dict(choice.behind)}
+        row |= {"help": choice.help} if choice.help else {}
+        tables.append(_lines(f"[choices.{_key(name)}]", row))
     for name, case in cases.items():
         faults += [
             f"case '{name}' gives parameter '{given}', which is unknown"
@@ -94,10 +105,10 @@ def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
     }
 
 
-def _parameter(parameter: Parameter, complex_parts: tuple[str, ...]) -> dict[str, Any]:
+def _parameter(parameter: Parameter, complex_parts: tuple[str, ...] | None) -> dict[str, Any]:
     unit, default = parameter.unit, parameter.default
     limits = parameter.minimum, parameter.maximum
-    row = {} if default is None else {"default": encode(default, unit, complex_parts)}
+    row = {} if default is None else {"default": _number(default, unit, complex_parts)}
     others = {
         "unit": unit,
         "range": [encode(end, unit) for end in limits] if np.isfinite(limits).any() else None,
@@ -120,7 +131,10 @@ def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
         value = getattr(element, f.name)
         if value is not None:
             domain = element.domains()[f.name]
-            row[f.name] = encode(value, domain.unit, domain.complex_parts or INDEX.complex_parts)
+            if isinstance(domain, Choice):
+                row[f.name] = domain.check(f.name, value)
+                continue
+            row[f.name] = _field(value, domain)
     if frames:
         row["frames"] = {
             port: {axis: getattr(frame, axis).tolist() for axis in "xyz"}
@@ -129,13 +143,27 @@ def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
     return row
 
 
+def _field(value: Any, domain: Domain) -> Any:
+    """Write a value of an element's field so that decoding gives it back."""
+    if isinstance(domain, IndicesDomain) and isinstance(value, tuple):
+        return [_field(one, INDEX) for one in value]
+    return _number(value, domain.unit, domain.complex_parts)
+
+
+def _number(value: Any, unit: str, complex_parts: tuple[str, ...] | None) -> Any:
+    """Write a value; numbers of two paths as first parts, if they might be one complex number."""
+    if complex_parts and isinstance(value, np.ndarray) and is_pair(value.tolist()):
+        return {complex_parts[0]: encode(value, unit)}
+    return encode(value, unit, complex_parts or INDEX.complex_parts)
+
+
 def _case(
     case: Case, parameters: Mapping[str, Parameter], parts: Mapping[str, tuple[str, ...]]
 ) -> dict[str, Any]:
     values = {}
     for name, value in case.values.items():
         unit = parameters[name].unit if name in parameters else ""
-        values[name] = encode(value, unit, parts.get(name, INDEX.complex_parts))
+        values[name] = _number(value, unit, parts.get(name))
     published = {name: list(stokes) for name, stokes in case.published.items()}
     others = {"published": published, "note": case.note}
     return {"values": values} | {key: value for key, value in others.items() if value}

@@ -5,16 +5,19 @@ from __future__ import annotations
 import re
 from numbers import Integral
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Never
 
 from optipath.errors import (
     OptipathError,
+    ParameterError,
     PathError,
     PresetError,
     did_you_mean,
-    few_suggestions,
     shown,
+    there_are,
 )
+from optipath.spelling import closest, few_suggestions
+from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -37,8 +40,24 @@ def preset_names() -> list[str]:
     return sorted(path.stem for path in _folder().glob("*.toml"))
 
 
+def preset_descriptions() -> dict[str, str]:
+    """Return what each preset is, by name, without making its path.
+
+    Examples
+    --------
+    >>> preset_descriptions()["glass-slab"][:15]
+    'A slab of glass'
+    """
+    files = {name: locate(name) for name in preset_names()}
+    return {name: _parse(file, _text(file))["description"] for name, file in files.items()}
+
+
 def load_preset(
-    preset: str | PathLike[str], /, *, case: str | int | None = None, **values: Any
+    preset: str | PathLike[str],
+    /,
+    *unnamed: Never,
+    case: str | int | None = None,
+    **values: Any,
 ) -> PathGraph:
     """Return the path of a preset.
 
@@ -46,8 +65,10 @@ def load_preset(
     ----------
     preset : str or path
         A name out of `preset_names`, or the path of a TOML file of one's own.
+    *unnamed
+        None: a case and values are given by name.
     case : str or int, optional
-        A named set of values of the preset.
+        A named set of values of the preset, which become the defaults of its parameters.
     **values : float, str or array_like
         Parameters that are bound to these values, in radians and metres; they take
         precedence over the case. The others stay open, with their defaults.
@@ -68,13 +89,26 @@ def load_preset(
 
     Examples
     --------
-    >>> load_preset("npgr026", case="8").trace().stokes.round(4)
+    >>> path = load_preset("npgr026", case="8")
+    >>> path.trace().stokes.round(4)
     array([ 19.1245,  10.9873, -13.0076,  -8.7079])
+    >>> path.trace(delta=["30 deg", "48 deg"]).intensity.round(4)
+    array([17.9613, 19.1245])
     """
-    return with_values(read_preset(locate(preset)), preset, case, values)
+    path = read_preset(locate(preset))
+    if unnamed and _number_of(unnamed[0]).strip("'") in path.cases:
+        raise ParameterError(
+            f"a case is given by name: load_preset({shown(preset)}, case={shown(unnamed[0])})"
+        )
+    if unnamed:
+        opened = [name for name, parameter in path.parameters.items() if not parameter.bound]
+        check_named("load_preset", unnamed, opened, first=shown(preset))
+    known, faults = _of_case(path, preset, case)
+    path = path.with_defaults(**known) if known else path
+    return _bound(path, values, faults)
 
 
-def with_values(
+def bound_preset(
     path: PathGraph, preset: str | PathLike[str], case: str | int | None, values: Mapping[str, Any]
 ) -> PathGraph:
     """Return the path of a preset, bound to the values of a case and to others.
@@ -100,15 +134,28 @@ def with_values(
     PresetError, ParameterError
         As `load_preset` does.
     """
-    given, faults = values, []
+    known, faults = _of_case(path, preset, case)
+    return _bound(path, {**known, **values}, faults)
+
+
+def _of_case(
+    path: PathGraph, preset: str | PathLike[str], case: str | int | None
+) -> tuple[Mapping[str, Any], list[str]]:
+    """Return the values of a case, and what is wrong with its name, a sentence."""
+    if isinstance(case, bool):
+        return {}, [f"case must be a name or a number, not {case}{there_are([*path.cases])}"]
     name = case if isinstance(case, str) else _number_of(case)
-    if case is not None and name not in path.cases:
-        cure = did_you_mean(name, path.cases)
-        faults.append(f"case '{name}' is unknown in preset '{preset}'{cure}")
-    elif case is not None:
-        given = {**path.cases[name].values, **values}
+    if case is None or name in path.cases:
+        return {} if case is None else path.cases[name].values, []
+    near = closest(name, path.cases)
+    cure = there_are([*path.cases]) + (f"; did you mean '{near}'?" if near else "")
+    return {}, [f"case '{name}' is unknown in preset '{preset}'{cure}"]
+
+
+def _bound(path: PathGraph, values: Mapping[str, Any], faults: list[str]) -> PathGraph:
+    """Return a path bound to values; what is wrong with them comes behind other faults."""
     try:
-        path = path.bind(**given) if given else path
+        path = path.bind(**values) if values else path
     except OptipathError as error:
         if not faults:
             raise
@@ -160,6 +207,8 @@ def read_preset(path: Path) -> PathGraph:
     # Not for every import of the library.
     from optipath.paths.format.schema import FORMAT  # noqa: PLC0415
     from optipath.paths.presets.reader.document import read  # noqa: PLC0415
+    from optipath.values.cures import of_files  # noqa: PLC0415
+    from optipath.values.written_units import units_are_written  # noqa: PLC0415
 
     document = _parse(path, _text(path))
     number = document.get("format", FORMAT)
@@ -168,10 +217,10 @@ def read_preset(path: Path) -> PathGraph:
             f"'{path}' has format {shown(number)}, but this version reads format {FORMAT}"
         )
     try:
-        with few_suggestions():
+        with few_suggestions(), units_are_written(), of_files():
             return read(document)
     except OptipathError as error:
-        raise PathError(*(f"{path.name}: {fault}" for fault in error.faults)) from None
+        raise PathError(*error.faults, about=path.name) from None
 
 
 def _number_of(case: object) -> str:
@@ -202,6 +251,7 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
     import tomllib  # noqa: PLC0415 - as above
 
     from optipath.paths.format.limits import refuse_unwieldy  # noqa: PLC0415 - as above
+    from optipath.paths.format.slips import likely_cure  # noqa: PLC0415 - as above
 
     try:
         refuse_unwieldy(text)
@@ -211,7 +261,8 @@ def _parse(path: Path, text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.
         reason = "too deeply nested" if isinstance(error, RecursionError) else str(error)
-        raise PresetError(f"'{path}' is not TOML: {reason}") from None
+        cure = likely_cure(text, reason)
+        raise PresetError(f"'{path}' is not TOML: {reason}{cure}") from None
 
 
 def _folder() -> Path:

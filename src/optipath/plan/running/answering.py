@@ -14,6 +14,11 @@ if TYPE_CHECKING:
 class Answering(ABC):
     """What answers questions about a path."""
 
+    @property
+    @abstractmethod
+    def ran_by(self) -> tuple[str, ...]:
+        """The engines that have answered the last question; none before the first."""
+
     @abstractmethod
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         """Return what is asked for.

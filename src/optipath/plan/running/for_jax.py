@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.options import RunOptions
     from optipath.values.inputs import Inputs
-    from optipath.values.parameters import Resolved
+    from optipath.values.resolved import Resolved
 
 
 class ForJax:
@@ -116,6 +116,13 @@ class ForJax:
         factor = xp.where(inside, 1.0, xp.nan).astype(numbers.dtype)
         return numbers * factor.reshape(*factor.shape, *[1] * axes)
 
+    def traces(self, parameters: Mapping[str, Any]) -> bool:
+        """Tell whether JAX traces a value, so that it is not known yet."""
+        return self.has_traced or any(
+            value.is_traced if type(value) is CosSin else is_traced(value)
+            for value in parameters.values()
+        )
+
     def refuse_traced(self, parameters: Mapping[str, Any], what: str) -> None:
         """Refuse values that are not known yet.
 
@@ -131,10 +138,7 @@ class ForJax:
         ParameterError
             Telling what they are not for.
         """
-        if self.has_traced or any(
-            value.is_traced if type(value) is CosSin else is_traced(value)
-            for value in parameters.values()
-        ):
+        if self.traces(parameters):
             raise ParameterError(
                 f"{what} of numbers, not of values that JAX traces; do it outside of jit and grad"
             )

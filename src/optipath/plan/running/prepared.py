@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.engines.automatic import COMPILER, EngineChoice
 from optipath.engines.known_engines import REGISTRY
+from optipath.errors import ValueFault
 from optipath.plan.running.batch_runner import BatchRunner
 from optipath.values.operands import ABSENT
 
@@ -148,11 +149,18 @@ class Recipe:
         self.parts: list[InputKey] = []
         self.fixed: dict[str, Any] = dict(prepared.known)
         self.ranges: list[tuple[str, float, float]] = []
+        # What is more than numbers within limits, which formulas look at, is looked at each time.
+        self.whole = [
+            use
+            for use in reader.inputs.distinct_uses
+            if type(value := parameters.get(use.value.name)) is np.ndarray
+            and not reader.is_plain(use.value.name, value)
+        ]
         for key, number in given.numbers.items():
             value = parameters.get(key.name)
             if value is None or type(value) is str or key.part == "present":
                 self.fixed[str(key)] = number
-            elif key.part in ("value", "real"):
+            elif key.part in ("value", "real") and not key.is_affine:
                 self.names[str(key)] = key.name
             else:
                 self.parts.append(key)
@@ -184,10 +192,15 @@ class Recipe:
         )
 
     def numbers(self, parameters: Mapping[str, Any]) -> dict[str, Any] | None:
-        """Return the numbers by the names of a formula's inputs; None if one is out of range."""
+        """Return the numbers by the names of a formula's inputs; None if one is not allowed."""
         for name, low, high in self.ranges:
             if not low <= parameters[name] <= high or abs(parameters[name]) == np.inf:
                 return None
+        try:
+            for use in self.whole:
+                use.check_given(parameters[use.value.name])
+        except ValueFault:
+            return None
         found = dict(self.fixed)
         for name, parameter in self.names.items():
             found[name] = parameters[parameter]

@@ -9,10 +9,10 @@ import numpy as np
 from optipath.plan.running.batch import sliced
 from optipath.values.angles import CosSin
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, InputKey, part_of
-from optipath.values.roundings import is_beyond
+from optipath.values.roundings import as_doubles, is_beyond
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Hashable, Mapping
 
     from optipath.engines.program.program import Program
     from optipath.values.inputs import Inputs
@@ -60,14 +60,15 @@ class ResolvedInputs(NamedTuple):
         }
         return ResolvedInputs(numbers, np.broadcast_to(0.0, self.batch)[where].shape, self, where)
 
-    def within(self, limits: Mapping[str, tuple[float, float]]) -> bool:
+    def within(self, limits: Mapping[Hashable, tuple[float, float]]) -> bool:
         """Tell whether each single number is within the range of its parameter."""
-        return all(
-            isinstance(n, (np.ndarray, bool))
-            or key.part in _PAIR
-            or (limits[key.name][0] <= n <= limits[key.name][1] and abs(n) < np.inf)
-            for key, n in self.numbers.items()
-        )
+        for key, number in self.numbers.items():
+            if isinstance(number, (np.ndarray, bool)) or key.part in _PAIR:
+                continue
+            low, high = limits[key.quantity]
+            if not (low <= number <= high and abs(number) < np.inf):
+                return False
+        return True
 
     @property
     def is_of_floats(self) -> bool:
@@ -103,6 +104,8 @@ class InputReader:
         self._known_kinds = "fd?" if dtype == np.float32 else "d?"
         found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         self.keys = {name: [r for r in found if r.name == name] for name in inputs.open}
+        affine = [key for key in found if key.is_affine]
+        self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
         # A formula checks the range of a number that it reads, and of no other.
         self._plain = {
             name
@@ -113,12 +116,18 @@ class InputReader:
         self._plain |= {name for name, keys in self.keys.items() if keys and shows[name]}
         self._angles = {name for name in self._plain if inputs.dimensions[name] == "angle"}
         self._angles -= {name for name, p in inputs.open.items() if p.optional}
+        # Nothing else would look at their cosines and sines.
+        self._angles -= {
+            name for name, several in self._affine.items() if several == self.keys[name]
+        }
 
     def key(self, parameters: Mapping[str, Any]) -> tuple[Any, ...] | None:
         """Return what the names, shapes and types of what is given say of how it is run.
 
         A word stands for itself, and 0 is a case of its own. None for what must be looked at.
         """
+        if self.inputs.agreements:
+            return None
         found: list[Any] = []
         for name, value in parameters.items():
             kind = type(value)
@@ -128,6 +137,8 @@ class InputReader:
                 found.append((name, value.shape))
             elif kind is float:
                 found.append((name, value == 0.0))
+                if self._affine:
+                    found += [self._placed(key, value) == 0.0 for key in self._affine.get(name, ())]
             elif kind is str:
                 found.append((name, value))
             else:
@@ -151,6 +162,11 @@ class InputReader:
             if type(value) is CosSin:
                 for part in _PAIR:
                     numbers[InputKey(name, part)] = self._number(getattr(value, part))
+                # Of a multiple, or with an offset, the angle is what is needed.
+                for key in self._affine.get(name, ()):
+                    numbers[key] = self._number(
+                        self._placed(key, as_doubles(np.asarray(value.angle)))
+                    )
                 continue
             for key in self.keys[name]:
                 numbers[key] = self._number(self.part(key, value, present))
@@ -206,8 +222,12 @@ class InputReader:
         if key.part == "present":
             return True if np.all(present) else present
         if type(value) is float:
-            return 0.0 if key.part == "imag" else value
-        return part_of(value, key.part, self.inputs.tails[key.name])
+            return 0.0 if key.part == "imag" else self._placed(key, value)
+        return part_of(self._placed(key, value), key.part, self.inputs.tails[key.name])
+
+    def _placed(self, key: InputKey, value: Any) -> Any:
+        """Return the numbers of a multiple with an offset; those of a plain parameter as given."""
+        return key.placed(value, self.inputs.limits[key.quantity]) if key.is_affine else value
 
     def _number(self, value: Any) -> Any:
         """Return one number as a float or a bool, and arrays in a precision engines know."""

@@ -12,6 +12,7 @@ from optipath.errors import ParameterError
 from optipath.plan.running.answering import Answering
 from optipath.plan.running.batch import Layout
 from optipath.plan.running.batch_runner import Results
+from optipath.plan.running.first_values import FirstValues
 from optipath.plan.running.for_jax import ForJax
 from optipath.plan.running.formula_maker import FormulaMaker
 from optipath.plan.running.interpreter import Interpreter, carrier_of
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from contextlib import AbstractContextManager
 
+    from optipath.elements.own_ways import OwnWay
     from optipath.engines.program.program import Program
     from optipath.plan.running.options import RunOptions
     from optipath.plan.running.question import Question
@@ -55,17 +57,26 @@ class Runner(Answering):
         What may be given.
     options : RunOptions
         How they are run.
+    own_ways : tuple of OwnWay
+        What is looked at with the first values.
     unreduced : bool
         Whether everything is done for each path.
     """
 
     def __init__(
-        self, program: Program, inputs: Inputs, options: RunOptions, *, unreduced: bool = False
+        self,
+        program: Program,
+        inputs: Inputs,
+        options: RunOptions,
+        own_ways: tuple[OwnWay, ...] = (),
+        *,
+        unreduced: bool = False,
     ) -> None:
         self.program = program
         self.inputs = inputs
         self.options = options
         self.unreduced = unreduced
+        self.first_values = FirstValues(own_ways)
         self.dtype = np.dtype(options.dtype)
         self.carrier = carrier_of(program, options.composing)
         self.for_jax = ForJax(program, inputs, self.carrier, options)
@@ -73,8 +84,13 @@ class Runner(Answering):
         self.interpreter = Interpreter(program, self.carrier, self.dtype)
         self.formulas = FormulaMaker(program, inputs, self.carrier, self.dtype, unreduced=unreduced)
         self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas)
+        self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
         self._recipes: dict[Any, Recipe] = {}
+
+    @property
+    def ran_by(self) -> tuple[str, ...]:
+        return (self._ran,) if self._ran else ()
 
     def answer(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         key = self.reader.key(parameters)
@@ -127,10 +143,13 @@ class Runner(Answering):
         Any
             As the class of the question says.
         """
+        if self.first_values.ways:
+            self.first_values.check((given.forms(self.dtype), given.batch), lambda: given)
         floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
         if floats and not given.batch:
             lights = self.single.lights(given)
             if lights is not None:
+                self._ran = FLOATS
                 ends = zip(self.program.readings, lights, strict=True)
                 return {name: (light[:4], light[4]) for name, light in ends}
         known = {name: given.cut(array) for name, array in self.formulas.known_arrays.items()}
@@ -197,6 +216,7 @@ class Runner(Answering):
             rows = None
             if engine == FLOATS and kind.function is not None:
                 rows = kind.function.rows(numbers, layout)
+            self._ran = NUMPY_STEPS if engine == FLOATS and rows is None else engine
             if rows is not None:
                 results = Results.of(rows, question.read, self.dtype)
             elif stepped or engine == FLOATS:
@@ -219,8 +239,11 @@ class Runner(Answering):
 
     def _by_jax(self, question: Question, parameters: Mapping[str, Any]) -> Any:
         resolved, batch = self.inputs.resolve(parameters)
+        if not self.for_jax.traces(parameters):
+            self.first_values.check((*parameters, batch), lambda: self.reader.read(parameters))
         with self.enough_for(batch, 2 * question.read):
             found = question.by_jax(self, resolved, batch, parameters)
+        self._ran = NUMPY_STEPS if found is None else "jax"
         if found is None:
             # Loops that need a closer look get the same one by every engine.
             return self._stepped(question, self.reader.read(parameters))

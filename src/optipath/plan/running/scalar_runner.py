@@ -142,7 +142,7 @@ class ScalarRunner:
             return self._stepped(given)
         if absent not in self._looked_at:
             self._looked_at.add(absent)
-            if self._is_default(given):
+            if self._is_default(given) and not self.inputs.agreements:
                 self._default_call = self._unread(given, function)
         return _called(function.path, [given.numbers[key] for key in function.keys])
 
@@ -183,7 +183,7 @@ class ScalarRunner:
         for key in map(keys.__getitem__, function.names):
             default = self.inputs.open[key.name].default
             # One number may be given to several kernels, an index as its two parts.
-            if key.part != "value" or type(default) not in (float, int, NoneType):
+            if key.part != "value" or key.is_affine or type(default) not in (float, int, NoneType):
                 return None
             order.append((key.name, default))
         asked = {name for name, _ in order}

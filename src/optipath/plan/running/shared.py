@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.kernels.carriers.own_code import is_defined_in
 from optipath.plan.running.runner import Runner
+from optipath.values.arrays.jax_values import is_traced
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
+    from optipath.elements.own_ways import OwnWay
     from optipath.engines.program.program import Program
     from optipath.plan.running.options import RunOptions
     from optipath.values.inputs import Inputs
@@ -23,12 +25,17 @@ _MOST = 32
 _LARGEST = 1 << 16
 """How many bytes the arrays of a program have at most that is kept."""
 
-_RUNNERS: OrderedDict[Hashable, Runner] = OrderedDict()
+_RUNNERS: dict[Hashable, Runner] = {}
 _LOCK = Lock()
 
 
 def runner_for(
-    program: Program, inputs: Inputs, options: RunOptions, *, unreduced: bool = False
+    program: Program,
+    inputs: Inputs,
+    options: RunOptions,
+    own_ways: tuple[OwnWay, ...] = (),
+    *,
+    unreduced: bool = False,
 ) -> Runner:
     """Return what runs a program: what ran an equal one before, if that is still kept.
 
@@ -40,6 +47,8 @@ def runner_for(
         What may be given.
     options : RunOptions
         How they are run.
+    own_ways : tuple of OwnWay, optional
+        What is looked at with the first values.
     unreduced : bool, optional
         Whether everything is done for each path.
 
@@ -49,16 +58,18 @@ def runner_for(
         One for all programs of equal steps, numbers and parameters.
     """
     key = _key(program, inputs)
-    if key is None:
-        return Runner(program, inputs, options, unreduced=unreduced)
+    if key is None or own_ways:
+        return Runner(program, inputs, options, own_ways, unreduced=unreduced)
     key = key, options, unreduced
     with _LOCK:
-        if key not in _RUNNERS:
-            _RUNNERS[key] = Runner(program, inputs, options, unreduced=unreduced)
-        _RUNNERS.move_to_end(key)
+        # Taken out and put back, it stands last; an OrderedDict compares keys three times for that.
+        runner = _RUNNERS.pop(key, None)
+        if runner is None:
+            runner = Runner(program, inputs, options, unreduced=unreduced)
+        _RUNNERS[key] = runner
         while len(_RUNNERS) > _MOST:
-            _RUNNERS.popitem(last=False)
-        return _RUNNERS[key]
+            del _RUNNERS[next(iter(_RUNNERS))]
+        return runner
 
 
 def _key(program: Program, inputs: Inputs) -> Hashable:
@@ -67,9 +78,11 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
     size = sum([getattr(operand.value, "nbytes", 0) for operand in program.operands])
     if None in operands or size > _LARGEST or inputs.known:
         return None
+    parameters = (*inputs.open.values(), *inputs.bound.values())
+    if any(is_traced(parameter.default) for parameter in parameters):
+        return None
     if not all(_is_pure(evaluation.kernel.factory) for evaluation in program.evaluations):
         return None
-    parameters = (*inputs.open.values(), *inputs.bound.values())
     return (
         tuple(operands),
         program.evaluations,
@@ -82,12 +95,13 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
         tuple(inputs.bound.values()),
         # A default of -0.0 equals 0.0, but is another number.
         tuple([np.asarray(p.default).tobytes() for p in parameters if p.default is not None]),
-        tuple([(use.owner, use.value.name, use.value.negative, use.domain) for use in inputs.uses]),
+        tuple(
+            [(u.owner, u.value.name, u.value.scale, u.value.offset, u.domain) for u in inputs.uses]
+        ),
         tuple(inputs.shapes.items()),
     )
 
 
 def _is_pure(factory: Any) -> bool:
     """Tell whether a kernel is of the library; one of a user's own may read what changes."""
-    maker = factory if hasattr(factory, "__name__") else type(factory)
-    return str(getattr(maker, "__module__", "")).startswith("optipath.kernels.")
+    return is_defined_in("optipath.kernels.", factory)

@@ -23,6 +23,17 @@ _LABELS = ("to_numpy", "dims", "coords", "columns")
 _UNITS = ("unit", "units")
 _CURES = {"to_numpy": ".to_numpy()", "values": ".values"}
 _ANY_CURE = "numpy.asarray(...)"
+_OURS = {
+    "Light": (
+        "and light is no number; only where a state is asked for give its Stokes vector, as in "
+        "op.Source(stokes=light.stokes), whose frame is not looked at"
+    ),
+    "Mueller": (
+        "whose frames are not looked at; only where a Mueller matrix is asked for give its numbers,"
+        " as in op.MuellerElement(mueller.matrix)"
+    ),
+}
+"""What is given in place of light and of what light meets."""
 
 
 def array_of(
@@ -90,8 +101,8 @@ def as_given(what: str, value: Any, error: type[OptipathError] = ValueFault) -> 
         return np.asarray(value)
     try:
         _refuse_endless(value)
-        _refuse_too_long(value)
         kinds = _kinds(value, set())
+        _refuse_too_long(value)
         array = np.asarray(value)
     except _MoreThanNumbers as more:
         raise error(f"{what} {more}") from None
@@ -183,14 +194,18 @@ def _refuse_endless(value: Any) -> None:
 
 def _refuse_too_long(value: Any) -> None:
     """Refuse a sequence that says how long it is, and is longer than there is memory for."""
-    long = not isinstance(value, (str, bytes, np.ndarray)) and hasattr(type(value), "__len__")
-    if long and (length := len(value)) * _NUMBER > memory():
+    # A number of JAX has a length, and refuses to tell it.
+    if isinstance(value, (str, bytes, np.ndarray)) or getattr(value, "ndim", None) == 0:
+        return
+    if hasattr(type(value), "__len__") and (length := len(value)) * _NUMBER > memory():
         raise _MoreThanNumbers(f"has {length:.3g} entries, more than this machine has memory for")
 
 
 def _refuse_more(value: Any) -> None:
     """Refuse what has masked entries, a unit or labels."""
     if type(value).__module__.partition(".")[0] == "optipath":
+        if (cure := _OURS.get(type(value).__name__)) is not None:
+            raise _MoreThanNumbers(f"is a {type(value).__name__}, {cure}")
         return
     mask = getattr(value, "mask", None)
     if not callable(mask) and np.any(mask):
@@ -212,6 +227,8 @@ def _refuse_more(value: Any) -> None:
 
 
 def _reason(fault: Exception) -> str:
+    if type(fault).__name__ == "TracerArrayConversionError":
+        return "is a value that JAX traces; do it outside of jit and grad, or give it to trace()"
     said = [argument for argument in fault.args if type(argument) is str]
     if any("inhomogeneous" in text for text in said):
         return "has rows of unequal lengths; make it one shape"

@@ -30,7 +30,9 @@ def is_traced(value: Any) -> bool:
     >>> is_traced(1.0)
     False
     """
-    return is_jax(value) and isinstance(value, sys.modules["jax"].core.Tracer)
+    # As `is_jax`, which it does not call: it is asked of nearly every value.
+    jax = sys.modules.get("jax")
+    return jax is not None and isinstance(value, jax.Array) and isinstance(value, jax.core.Tracer)
 
 
 def known(value: Any) -> Any:

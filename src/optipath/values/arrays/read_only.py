@@ -27,6 +27,27 @@ class Unchanging:
         kind = type(self).__name__
         raise AttributeError(f"a {kind} cannot change; make a new one instead of setting '{name}'")
 
+    def __delattr__(self, name: str) -> None:
+        kind = type(self).__name__
+        raise AttributeError(f"a {kind} cannot change; '{name}' stays")
+
+    def __setstate__(self, own: dict[str, Any]) -> None:
+        # NumPy's own copies and pickles can be written to.
+        vars(self).update({name: locked(value) for name, value in own.items()})
+
+
+def locked(value: Any) -> Any:
+    """Return a value; an array of NumPy's, which nobody else has, is read-only from now on.
+
+    Examples
+    --------
+    >>> locked(np.zeros(2)).flags.writeable
+    False
+    """
+    if type(value) is np.ndarray:
+        value.setflags(write=False)
+    return value
+
 
 def read_only(value: Any, limits: tuple[float, float] = ENDLESS, *, widened: bool = True) -> Any:
     """Return a value that nobody can change: whatever is an array becomes a read-only copy.

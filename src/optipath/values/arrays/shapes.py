@@ -9,11 +9,12 @@ import numpy as np
 
 from optipath.errors import ShapeError
 from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.combinations import combination
 from optipath.values.arrays.jax_values import is_jax
 from optipath.values.arrays.memory import refuse_too_large
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     import numpy.typing as npt
 
@@ -47,18 +48,36 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
     return found
 
 
-def broadcast_fault(shapes: Mapping[str, tuple[int, ...]]) -> list[str]:
+def broadcast_fault(
+    shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = (), *, paired: bool = False
+) -> list[str]:
     """Return the sentence that names shapes which do not broadcast, or nothing.
+
+    Parameters
+    ----------
+    shapes : mapping of str to tuple of int
+        The shapes by what has them, as the sentence names it.
+    fixed : collection of str, optional
+        Which of these cannot be given with other axes.
+    paired : bool, optional
+        Whether they belong together one by one, as a cosine and its sine do.
+
+    Returns
+    -------
+    list of str
 
     Examples
     --------
-    >>> broadcast_fault({"delta": (3,), "rho": (4,)})
-    ['arrays do not broadcast together: delta (3,), rho (4,); make their axes equal or 1']
+    >>> print(*broadcast_fault({"delta": (7,), "rho": (4,)}))  # doctest: +NORMALIZE_WHITESPACE
+    arrays do not broadcast together: delta (7,), rho (4,);
+    for every pair, give delta[:, None]; or make their axes equal
     """
     found = _joint(shapes.values())
     if found is None:
         named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
-        return [f"arrays do not broadcast together: {named}; make their axes equal or 1"]
+        more = "" if paired else combination(shapes, fixed)
+        cure = f"{more}; or make their axes equal" if more else "make their axes equal or 1"
+        return [f"arrays do not broadcast together: {named}; {cure}"]
     if len(found) > MOST_AXES:
         owner = max(shapes, key=lambda owner: len(shapes[owner]))
         return [f"{owner} has {len(found)} axes, and a batch has {MOST_AXES} at most; join some"]

@@ -18,6 +18,12 @@ class Choice(Domain):
 
     words: tuple[str, ...] = ()
 
+    def quickly_allows(self, value: Any) -> bool:
+        return type(value) is str and value in self.words
+
+    def parse(self, text: str) -> Any:
+        return text
+
     def check(self, owner: str, value: Any) -> Any:
         if isinstance(value, str) and value in self.words:
             return value

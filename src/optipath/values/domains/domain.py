@@ -13,9 +13,11 @@ from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import changed, read_only
+from optipath.values.degrees import TURN, called
 from optipath.values.parameters import Parameter
 from optipath.values.roundings import as_doubles, doubles, rounding_of
-from optipath.values.units import USUAL_UNITS, format_quantity
+from optipath.values.texts import numbers_for
+from optipath.values.units import USUAL_UNITS, format_quantity, parse_quantity
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,7 @@ class Domain:
         if is_traced(value):
             self._check_shape(owner, value.shape)
             return value  # type: ignore[no-any-return]
+        value = self.read(owner, value)
         given = as_given(owner, value)
         array = doubles(given, (self.minimum, self.maximum))
         if array.dtype.kind in "iu":
@@ -125,6 +128,11 @@ class Domain:
         """
 
     @property
+    def unphysical(self) -> Domain:
+        """The domain of values as they are measured, or of what amplifies; mostly the same."""
+        return self
+
+    @property
     def shows_in_light(self) -> bool:
         """Whether no light is finite where an array of the right shape is not allowed.
 
@@ -135,13 +143,50 @@ class Domain:
     def quickly_allows(self, value: Any) -> bool:
         """Tell, for the plain floats that long paths are made of, whether all is well."""
         inside = type(value) is float and self.minimum <= value <= self.maximum
-        return inside and math.isfinite(value) and not self.tail
+        finite = inside and math.isfinite(value) and not self.tail
+        # Of an angle beyond a whole turn one asks whether it is one of degrees.
+        return finite and (self.dimension != "angle" or abs(value) <= TURN)
+
+    def parse(self, text: str) -> Any:
+        """Return the number that a text such as ``"30 deg"`` stands for.
+
+        Raises
+        ------
+        UnitError, ValueFault
+            If it stands for none.
+        """
+        return parse_quantity(text, self.dimension)
+
+    def read(self, owner: str, value: Any) -> Any:
+        """Return a value with numbers in place of texts.
+
+        Parameters
+        ----------
+        owner : str
+            What has the value, as sentences name it.
+        value : Any
+            What is given: a number, a text, an array or a list of either, or anything else.
+
+        Returns
+        -------
+        Any
+            The value itself where there is no text.
+
+        Raises
+        ------
+        ValueFault
+            With a sentence for each text that stands for no number.
+        """
+        return numbers_for(owner, value, self.parse)
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
-        if isinstance(value, Parameter):
-            return value
         return read_only(value, (self.minimum, self.maximum))
+
+    @property
+    def takes_large_angles(self) -> bool:
+        """Whether angles beyond a whole turn are allowed."""
+        return self.dimension == "angle" and max(-self.minimum, self.maximum) > TURN
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -187,8 +232,14 @@ class Domain:
         rounded = as_doubles(array)
         bad = ~self.allows(rounded)
         if np.any(bad):
-            value = self._text(float(array[bad].ravel()[0]))
-            raise ValueFault(f"{owner} is {value}; give {self.described()}")
+            number = float(array[bad].ravel()[0])
+            value, meant = self.called(number)
+            raise ValueFault(f"{owner} is {value}; give {self.described()}{meant}")
+
+    def called(self, number: float) -> tuple[str, str]:
+        """Return how a number that is not allowed is called, and what it was meant to be."""
+        limits = self.minimum, self.maximum
+        return called(number, self._text(number), self.dimension, limits)
 
 
 def in_unit_of(value: Any, domain: Domain) -> Any:

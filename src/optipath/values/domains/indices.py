@@ -13,10 +13,11 @@ from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.domain import Domain
-from optipath.values.materials import Material
+from optipath.values.domains.followed import Followed
+from optipath.values.domains.pair import is_pair
+from optipath.values.follows import FOLLOWS
+from optipath.values.materials import K, Material, N, index_of
 
-_N = Domain("index of refraction", minimum=0.0)
-_K = Domain("extinction coefficient", minimum=0.0)
 _NO_K = Domain("extinction coefficient of the medium that light comes from", minimum=0.0, maximum=0)
 _NO_K_BEHIND = Domain(
     "extinction coefficient, since light comes from there too (by port 'back')",
@@ -38,11 +39,25 @@ class IndexDomain(Domain):
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
-            return super().parts(name, value)
-        return [(f"{name}.n", value.n, _N), (f"{name}.k", value.k, _K)]
+            return [(name, value, self)]
+        return [(f"{name}.n", value.n, N), (f"{name}.k", value.k, K)]
 
     def quickly_allows(self, value: Any) -> bool:
+        if type(value) is complex:
+            return 0.0 <= value.real < math.inf and 0.0 <= value.imag < math.inf
         return type(value) is float and 0.0 <= value < math.inf
+
+    def parse(self, text: str) -> Any:
+        return index_of(text)
+
+    def read(self, owner: str, value: Any) -> Any:
+        if is_pair(value):
+            n, k = value
+            raise ValueFault(
+                f"{owner} is {value}, which may be n and k, or the indices of two paths; write "
+                f"Material({n}, {k}) or {n}+{k}j for the one, np.array([{n}, {k}]) for the other"
+            )
+        return super().read(owner, value)
 
     def described(self) -> str:
         return "an index of refraction n + ik with n and k not negative"
@@ -65,13 +80,20 @@ class OutsideDomain(Domain):
 
     of_k: ClassVar[Domain] = _NO_K
 
+    def parse(self, text: str) -> Any:
+        return index_of(text, "its index as a number, such as 1.33")
+
     def described(self) -> str:
         return "a real index of refraction above 0, since light comes from there"
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
-            return super().parts(name, value)
+            return [(name, value, self)]
         return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, self.of_k)]
+
+
+class FollowedOutside(Followed, OutsideDomain):
+    """The same, or that of the boundary before."""
 
 
 class OptionalOutside(OutsideDomain):
@@ -114,6 +136,24 @@ class InnerDomain(OutsideDomain):
 class IndicesDomain(Domain):
     """Indices of the media of a stack, the front medium first and the substrate last."""
 
+    def quickly_allows(self, value: Any) -> bool:
+        del value
+        return False
+
+    def read(self, owner: str, value: Any) -> Any:
+        if not isinstance(value, (list, tuple)):
+            return value
+        try:
+            entries = [*enumerate(entries_of(owner, "indices", value))]
+        except ValueFault:
+            return value  # For validation to name.
+        for place in (place for place, index in entries if place and index is FOLLOWS):
+            raise ValueFault(
+                f"{owner}[{place}] cannot be FOLLOWS; only {owner}[0], the medium in front, can be "
+                f"taken over; give an index of refraction"
+            )
+        return [INDEX.read(f"{owner}[{place}]", index) for place, index in entries]
+
     def kept(self, value: Any) -> Any:
         """Return the indices one by one, since each may be an array of its own."""
         if not isinstance(value, (list, tuple, np.ndarray)):
@@ -127,7 +167,7 @@ class IndicesDomain(Domain):
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, tuple) or len(value) < 2:
             return [(name, value, self)]
-        domains = [OUTSIDE, *[INNER] * (len(value) - 2), INDEX]
+        domains = [FOLLOWED_OUTSIDE, *[INNER] * (len(value) - 2), INDEX]
         return [
             part
             for place, (index, domain) in enumerate(zip(value, domains, strict=True))
@@ -135,11 +175,12 @@ class IndicesDomain(Domain):
         ]
 
     def check(self, owner: str, value: Any) -> Any:
-        # Good lists are checked by their parts.
-        entries_of(owner, "two indices or more", value)
+        if value is not None and not isinstance(value, (float, int, complex)):
+            # Good lists are checked by their parts.
+            entries_of(owner, "two indices or more", value)
         raise ValueFault(
             f"{owner} is {shown(value)}; give a list of two indices or more, the medium in front "
-            f"first and the substrate last"
+            f"first and the substrate last, such as [1, 1.5, 1.33]"
         )
 
     def check_parameter(self, owner: str, parameter: Any) -> None:
@@ -156,6 +197,7 @@ def _plain_index(index: Any) -> Any:
 
 INDEX = IndexDomain("index of refraction")
 OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
+FOLLOWED_OUTSIDE = FollowedOutside("index of refraction", minimum=_LEAST)
 OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=_LEAST)
 LIT_BEHIND = LitBehind("index of refraction", minimum=_LEAST)
 # Beyond, waves across a layer have squares that vanish.

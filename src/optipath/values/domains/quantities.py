@@ -8,10 +8,16 @@ from typing import Annotated, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from optipath.values.domains.axis import AxisDomain
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
-from optipath.values.domains.indices import INDEX, INDICES, OPTIONAL_OUTSIDE, OUTSIDE
+from optipath.values.domains.followed import Followed
+from optipath.values.domains.fraction import FractionDomain
+from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, INDICES, OPTIONAL_OUTSIDE
 from optipath.values.domains.states import AmplitudeDomain, StokesDomain
+from optipath.values.domains.whole_number import WholeNumber
+from optipath.values.domains.yes_no import YesNo
+from optipath.values.follows import Follows
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 
@@ -22,14 +28,19 @@ REAL = Domain("number")
 
 ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
+Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
 Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
-Fraction: TypeAlias = Annotated[Quantity, Domain("fraction", minimum=0.0, maximum=1.0)]
+FollowedIncidence: TypeAlias = Annotated[
+    Quantity | Follows,
+    Followed(INCIDENCE.name, INCIDENCE.dimension, INCIDENCE.minimum, INCIDENCE.maximum),
+]
+Fraction: TypeAlias = Annotated[Quantity, FractionDomain("fraction", minimum=0.0, maximum=1.0)]
 NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
-OutsideIndex: TypeAlias = Annotated[Quantity | Material, OUTSIDE]
-Indices: TypeAlias = Annotated[Sequence[Quantity | Material], INDICES]
+OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTSIDE]
+Indices: TypeAlias = Annotated[Sequence[Quantity | Material | Follows], INDICES]
 OptionalIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_OUTSIDE]
 AMPLITUDE = AmplitudeDomain("amplitude")
 Amplitude: TypeAlias = Annotated[Quantity, AMPLITUDE]
@@ -43,5 +54,7 @@ RotatoryPower: TypeAlias = Annotated[
 ]
 StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
+Whole: TypeAlias = Annotated[int, WholeNumber("whole number")]
 READINGS = ("stokes", "linear", "intensity")
 Reads: TypeAlias = Annotated[str, Choice("reading", words=READINGS)]
+YesOrNo: TypeAlias = Annotated[bool, YesNo("yes or no")]

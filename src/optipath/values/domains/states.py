@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -10,10 +11,13 @@ import numpy.typing as npt
 from optipath.errors import ValueFault
 from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.read_only import read_only
+from optipath.values.cures import cure
 from optipath.values.domains.domain import Domain
+from optipath.values.domains.pair import is_pair
 from optipath.values.roundings import rounding_of
 
 _ROUNDING = 1e-12
+_LEAST, _MOST = 1e-280, 1e300
 _SINGLE_ROUNDING = 1e-6
 """How far the size of an amplitude may be above 1: numbers of single precision are rounded so."""
 
@@ -22,6 +26,15 @@ class AmplitudeDomain(Domain):
     """Complex numbers of a size of 1 or less, but for the rounding of single precision."""
 
     complex_parts = ("re", "im")
+
+    def read(self, owner: str, value: Any) -> Any:
+        if is_pair(value):
+            raise ValueFault(
+                f"{owner} is {value}, which may be one complex number, or the amplitudes of two "
+                f"paths; write complex{tuple(value)} for the one, np.array({[*value]}) for the "
+                f"other"
+            )
+        return super().read(owner, value)
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -47,8 +60,22 @@ class AmplitudeDomain(Domain):
             raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
 
 
+@dataclass(frozen=True)
 class StokesDomain(Domain):
-    """Stokes vectors that light can have; none at all is unpolarised light."""
+    """Stokes vectors that light can have; none at all is unpolarised light.
+
+    Attributes
+    ----------
+    physical : bool
+        Whether they are polarised by 100 % at most.
+    """
+
+    physical: bool = True
+
+    @property
+    def unphysical(self) -> Domain:
+        """The domain of Stokes vectors as they are measured."""
+        return replace(self, physical=False)
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         return [] if value is None else super().parts(name, value)
@@ -59,7 +86,8 @@ class StokesDomain(Domain):
 
     def allows(self, numbers: Any) -> Any:
         finite = super().allows(numbers).all(axis=-1)
-        return finite & (numbers[..., 0] >= 0.0) & _can_be(numbers, rounding_of(numbers))
+        lit = finite & (numbers[..., 0] >= 0.0)
+        return lit & can_be_light(numbers, rounding_of(numbers)) if self.physical else lit
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         super()._check_numbers(owner, array, rounding)
@@ -67,20 +95,50 @@ class StokesDomain(Domain):
         if np.any(negative):
             value = array[..., 0][negative].ravel()[0]
             raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
-        bad = ~_can_be(array, rounding)
+        if not self.physical or _surely_light(array):
+            return
+        bad = ~can_be_light(array, rounding)
         if np.any(bad):
             state = array[bad].reshape(-1, 4)[0].tolist()
             raise ValueFault(
-                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
+                f"{owner} is {state}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= "
+                f"S0^2, or {cure('physical=False', 'physical = false')} for what is measured as it "
+                f"is"
             )
 
 
-def _can_be(stokes: Any, rounding: float) -> Any:
-    """Return which Stokes vectors are polarised by 100 % at most."""
+def _surely_light(stokes: npt.NDArray[Any]) -> bool:
+    """Tell quickly, and never wrongly, whether all are polarised by 100 % at most."""
+    with np.errstate(all="ignore"):
+        squares = np.einsum("...i,...i->...", stokes, stokes)
+        most = (2.0 + _ROUNDING) * stokes[..., 0] ** 2
+        # Beyond, squares have lost digits.
+        return bool(np.all((squares <= most) & (most < _MOST) & (most > _LEAST)))
+
+
+def can_be_light(stokes: Any, rounding: float) -> Any:
+    """Return which Stokes vectors are polarised by 100 % at most.
+
+    Parameters
+    ----------
+    stokes : ndarray, shape (..., 4)
+        The vectors; S0 >= 0.
+    rounding : float
+        That of the precision in which they are given, as `rounding_of` has it.
+
+    Returns
+    -------
+    ndarray of bool, shape (...)
+
+    Examples
+    --------
+    >>> can_be_light(np.array([[1.0, 0.6, 0.0, 0.8], [1.0, 1.0, 1.0, 1.0]]), 0.0)
+    array([ True, False])
+    """
     xp = namespace(stokes)
     dark = stokes[..., :1] == 0.0
     shares = abs(stokes[..., 1:]) / xp.where(dark, 1.0, stokes[..., :1])
     # Cut off, so that squares of what is far too much do not overflow.
     polarised = xp.linalg.norm(xp.minimum(shares, 2.0), axis=-1)
     most = 1.0 + max(_ROUNDING, rounding * (1.0 + rounding))
-    return polarised <= xp.where(dark[..., 0], 0.0, most)
+    return xp.where(dark[..., 0], xp.max(shares, axis=-1) == 0.0, polarised <= most)

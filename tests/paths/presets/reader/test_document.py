@@ -77,17 +77,17 @@ def test_a_complex_index_and_a_material_give_equal_plans():
         ('kind = "source"', 'kind = "sorce"', ["'sorce' is unknown", "did you mean 'source'"]),
         ('kind = "source"', "", ["elements.lamp: kind is missing"]),
         ('kind = "source"', "kind = 3", ["'kind' must be a text, not 3"]),
-        ("index =", "indx =", ["key 'indx'", "did you mean 'index'", "'index' is missing"]),
+        ("index =", "indx =", ["key 'indx'", "did you mean 'index'"]),
         ("k = 7.0", "kk = 7.0", ["key 'kk' is unknown"]),
         ("k = 7.0", "k = -7.0", ["mirror.index.k is -7"]),
         ("k = 7.0", "k = nan", ["mirror.index.k is nan"]),
         ("n = 1.2", "n = '1.2 nm'", ["pure number"]),
         ('"$theta"', '"$thta"', ["'$thta' is not declared", "did you mean '$theta'"]),
-        ('"$theta"', '"30 dge"', ["'dge' is unknown", "did you mean 'deg'", "no element takes"]),
+        ('"$theta"', '"30 dge"', ["'dge' of '30 dge' is unknown", "did you mean 'deg'"]),
         ('"$theta"', "30", ["30 has no unit", "'30 deg'"]),
-        ('"$theta"', "true", ["True is not a number"]),
+        ('"$theta"', "true", ["true is not a number"]),
         ('"$theta"', '"100 deg"', ["mirror.incidence is 100 deg"]),
-        ('unit = "deg"', 'unit = "dge"', ["'dge' is unknown"]),
+        ('unit = "deg"', 'unit = "dge"', ["unit 'dge' is unknown"]),
         ('unit = "deg"', "", ["parameters.theta", "declares no unit"]),
         ('["0 deg", "90 deg"]', '["0 deg"]', ["two ends, not 1"]),
         ('["0 deg", "90 deg"]', '["90 deg", "0 deg"]', ["lower end"]),
@@ -95,7 +95,7 @@ def test_a_complex_index_and_a_material_give_equal_plans():
         ("[parameters.theta]", "[parameters.the-ta]", ["parameter name 'the-ta'"]),
         ("mirror.reflected", "mirror.reflectd", ["did you mean 'mirror.reflected'"]),
         ("mirror.in", "miror.in", ["'miror' does not exist", "did you mean 'mirror'"]),
-        ('from = "lamp.out"', 'form = "lamp.out"', ["key 'form'", "'from' is missing"]),
+        ('from = "lamp.out"', 'form = "lamp.out"', ["key 'form'", "did you mean 'from'"]),
         ('to = "mirror.in"', "to = 3", ["'to' must be a text"]),
         ("[elements.eye]", "[elements.'e.y']", ["node name 'e.y'"]),
         ('"10 deg"', '"10 nm"', ["links[1]", "no angle"]),
@@ -150,9 +150,8 @@ def test_a_parameter_that_is_an_angle_declares_a_unit():
         'default = "30 deg"\nunit = "deg"\nrange = ["0 deg", "90 deg"]', "default = 1"
     )
     faults = faults_of(text.split("[cases")[0])
-    assert faults == (
-        'parameters.theta is used where an angle is asked for; add unit = "deg" or another',
-    )
+    assert len(faults) == 1
+    assert 'theta is used where an angle is asked for; add unit = "deg" or another' in faults[0]
 
 
 def test_a_parameter_without_unit_in_python_gets_one_where_it_is_an_angle():
@@ -245,7 +244,7 @@ def test_arrays_parameters_and_words_are_written_and_read_back():
     lamp = path.add("lamp", op.Source(stokes=[[1.0, 0, 0, 1.0], [1.0, 0, 0, 0]]))
     node = lamp >> path.add("turn", op.Rotator(-word))
     node >> path.add("glass", op.Interface(index, [0.1, 0.2], outside=1.1))
-    path["glass"] >> path.add("metal", op.Interface([1 + 1j, 2 + 1j], 0.3, azimuth=word))
+    path["glass"] >> path.add("metal", op.Interface([1 + 1j, 2 + 1j], 0.3, 1.1, azimuth=word))
     (
         path["metal"]
         >> path.add("any", op.MuellerElement(np.eye(4)))

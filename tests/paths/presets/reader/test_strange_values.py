@@ -33,6 +33,12 @@ STRANGE = [
 PART = 1 if "OPTIPATH_STRANGE" in os.environ else 5
 
 PLACES = {
+    "npgr026": [
+        ("choices",),
+        ("choices", "place"),
+        *(("choices", "place", key) for key in ("element", "behind", "help")),
+        ("choices", "place", "behind", "eye"),
+    ],
     "npgr026-3d": [
         ("format",),
         ("description",),
@@ -58,7 +64,7 @@ PLACES = {
         ("elements", "E", "reads"),
         ("links",),
         ("links", 0),
-        *(("links", 0, key) for key in ("from", "to", "azimuth")),
+        *(("links", 0, key) for key in ("from", "to", "azimuth", "tap")),
         ("cases",),
         ("cases", "1"),
         *(("cases", "1", key) for key in ("values", "published", "note")),

@@ -10,7 +10,7 @@ from optipath.paths.format.codec import decode_given
 from optipath.values.cases import Case
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     from optipath.paths.format.faults import Faults
     from optipath.values.parameters import Parameter
@@ -19,7 +19,11 @@ _LARGEST = 1e308
 
 
 def read_case(
-    where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
+    where: str,
+    table: dict[str, Any],
+    parameters: Mapping[str, Parameter],
+    doubtful: Collection[str],
+    faults: Faults,
 ) -> Case:
     """Return the case that a table describes, without what is faulty in it.
 
@@ -29,6 +33,8 @@ def read_case(
         Its place in the file, and what stands there.
     parameters : mapping of str to Parameter
         What it may give.
+    doubtful : collection of str
+        The names of which something wrong is told already.
     faults : Faults
         Takes what is wrong.
 
@@ -37,11 +43,20 @@ def read_case(
     Case
         With the numbers that the texts stand for.
     """
-    if wrong := schema.type_faults(where, table, schema.CASE):
-        faults += wrong
+    if loose := [name for name in table if name in parameters and name not in schema.CASE]:
+        faults.append(
+            f"{where}: the values of parameters stand in a table of their own; write values = "
+            f"{{ {loose[0]} = ... }}"
+        )
+        table = {name: value for name, value in table.items() if name not in loose}
+    sound = schema.checked(where, table, schema.CASE, faults)
+    if sound is None:
         return Case({})
+    table = sound
     values = {}
     for name, raw in table.get("values", {}).items():
+        if name in doubtful:
+            continue
         if name not in parameters:
             cure = did_you_mean(name, parameters)
             faults.append(f"{where}: parameter '{name}' is unknown{cure}")

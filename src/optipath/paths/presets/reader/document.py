@@ -4,21 +4,31 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.composer.validate import partial_faults
+from optipath.composer.path_values import Values
+from optipath.composer.validate import partial_faults, validate
 from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean, shown, unknown
 from optipath.paths.format import schema
-from optipath.paths.format.codec import decode
-from optipath.paths.format.faults import Faults
+from optipath.paths.format.codec import decode, which_pair
+from optipath.paths.format.faults import Faults, joined
+from optipath.paths.format.writer import complex_parts_of
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.port_names import find_port
 from optipath.paths.presets.reader.case_tables import read_case
-from optipath.paths.presets.reader.element_tables import read_element, read_frames
-from optipath.paths.presets.reader.parameter_tables import read_parameter
+from optipath.paths.presets.reader.declarations import (
+    read_declarations,
+    references_in,
+    tables_of,
+    unit_faults,
+)
+from optipath.paths.presets.reader.element_tables import STAND_IN, read_element, read_frames
+from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
-from optipath.values.units import dimension_of, with_article
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.paths.presets.reader.declarations import Declarations
     from optipath.values.parameters import Parameter
 
     Table: TypeAlias = dict[str, Any]
@@ -31,66 +41,112 @@ def read(document: Table) -> PathGraph:
     Raises
     ------
     PathError
-        With every fault: keys, kinds, units, values, ports, links, and the path itself.
+        With every fault: keys, kinds, units, values, ports, links, and the path itself; what
+        follows from another fault is left out.
     """
     faults = Faults(schema.type_faults("the preset", document, schema.TOP))
+    if faults:
+        document = schema.as_meant(document, schema.TOP)
     if "format" not in document:
         faults.append(f"the preset: 'format' is missing; add format = {schema.FORMAT}")
-    parameters = {
-        name: read_parameter(name, table, faults)
-        for name, table in _tables(document, "parameters", faults).items()
-    }
+    references = references_in([document.get("elements"), document.get("links")])
+    parameters = read_declarations(document, references, faults)
     description = str(document.get("description", ""))
     loops = document.get("loops", LOOPS[0])
     if isinstance(loops, str):
         faults += unknown("the preset: loops", loops, LOOPS)
     loops = loops if loops in LOOPS else LOOPS[-1]
     path = PathGraph(description, declared=tuple(parameters), loops=loops)
-    elements = _tables(document, "elements", faults)
-    lost = {
-        name for name, table in elements.items() if not _add(path, name, table, parameters, faults)
-    }
-    links = document.get("links", [])
-    suspects = set(lost)
-    for number, table in enumerate(links if isinstance(links, list) else []):
-        suspects |= _link(path, f"links[{number}]", table, parameters, lost, faults)
-    ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
-    for name, table in _tables(document, "cases", faults).items():
-        path.cases[name] = read_case(f"cases.{name}", table, parameters, faults)
-        for detector in path.cases[name].published:
-            if detector not in ends and detector not in lost:
-                cure = did_you_mean(detector, ends)
-                faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
-    used = path.parameters
-    if not suspects:
+    before = len(faults)
+    lost = _elements(path, document, parameters, faults)
+    suspects = lost | _links(path, document, parameters, lost, faults)
+    for name, table in tables_of(document, "choices", faults).items():
+        _offer(path, name, table, faults)
+    values = Values(path.graph)
+    unfit = unit_faults(values, parameters)
+    faults += unfit.values()
+    faults += _pair_faults(path, document)
+    doubtful = {*parameters.doubtful, *unfit, STAND_IN.name}
+    _cases(path, document, parameters, doubtful, lost, faults)
+    if len(faults) == before:
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
             for name in parameters
-            if name not in used
+            if name not in references
         ]
-    faults += [
-        f"parameters.{name} is used where {with_article(dimension_of(parameter.unit))} is "
-        f'asked for; add unit = "{parameter.unit}" or another'
-        for name, parameter in used.items()
-        if name in parameters and parameter.unit != parameters[name].unit
-    ]
     if faults:
-        partial = partial_faults(path.graph, suspects, whole=not lost)
-        raise PathError(*dict.fromkeys([*faults, *partial]))
-    path.check()
+        whole = bool(path.graph) and not lost
+        partial = partial_faults(path.graph, suspects, doubtful, whole=whole)
+        raise PathError(*joined([*faults, *partial]))
+    validate(path.graph, values)
     return path
 
 
-def _tables(document: Table, section: str, faults: Faults) -> dict[str, Table]:
-    tables = document.get(section, {})
-    entries = tables.items() if isinstance(tables, dict) else ()
-    wrong = {name: table for name, table in entries if not isinstance(table, dict)}
-    faults += [f"{section}.{name} must be a table, not {shown(wrong[name])}" for name in wrong]
-    return {name: table for name, table in entries if name not in wrong}
+def _pair_faults(path: PathGraph, document: Table) -> Iterator[str]:
+    """Ask what pairs mean that are given for parameters which stand for complex numbers."""
+    declared = document.get("parameters", {})
+    for name, parts in complex_parts_of(path.graph).items():
+        tables = [(f"parameters.{name}", "default", declared.get(name))]
+        for case, table in document.get("cases", {}).items():
+            values = table.get("values") if isinstance(table, dict) else None
+            tables.append((f"cases.{case}.values", name, values))
+        for where, key, table in tables:
+            raw: Any = table.get(key) if isinstance(table, dict) else None
+            if is_pair(raw):
+                yield f"{where}.{key}: {which_pair(raw, parts)}"
 
 
-def _add(path: PathGraph, name: str, table: Table, parameters: Parameters, faults: Faults) -> bool:
+def _elements(
+    path: PathGraph, document: Table, parameters: Declarations, faults: Faults
+) -> set[str]:
+    """Add the elements; return the names of those that could not be added."""
+    tables = document.get("elements", {})
+    if tables == {}:
+        faults.append("the preset has no elements; add a table [elements.NAME] for each")
+    if not isinstance(tables, dict):
+        return set()
+    lost = {
+        name for name, table in tables.items() if not _add(path, name, table, parameters, faults)
+    }
+    # Links to a name that has a dot name but its first part.
+    return lost | {name.partition(".")[0] for name in lost}
+
+
+def _links(
+    path: PathGraph, document: Table, parameters: Declarations, lost: set[str], faults: Faults
+) -> set[str]:
+    """Add the links; return the nodes of which some may be missing."""
+    links = document.get("links", [])
+    if not isinstance(links, list):
+        return set(path.graph)
+    suspects = set()
+    for number, table in enumerate(links):
+        suspects |= _link(path, f"links[{number}]", table, parameters, lost, faults)
+    return suspects
+
+
+def _cases(
+    path: PathGraph,
+    document: Table,
+    parameters: Declarations,
+    doubtful: set[str],
+    lost: set[str],
+    faults: Faults,
+) -> None:
+    ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
+    for name, table in tables_of(document, "cases", faults).items():
+        path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, faults)
+        for detector in path.cases[name].published:
+            if detector not in ends and detector not in lost and path.graph:
+                cure = did_you_mean(detector, ends)
+                faults.append(f"cases.{name}.published: '{detector}' is no detector{cure}")
+
+
+def _add(path: PathGraph, name: str, table: Any, parameters: Parameters, faults: Faults) -> bool:
     where = f"elements.{name}"
+    if not isinstance(table, dict):
+        faults.append(f"{where} must be a table, not {shown(table)}")
+        return False
     element = read_element(where, table, parameters, faults)
     frames = read_frames(where, table.get("frames", {}), faults)
     if element is None:
@@ -101,6 +157,17 @@ def _add(path: PathGraph, name: str, table: Table, parameters: Parameters, fault
     return bool(frames) and Faults().attempt(where, path.add, name, element) is not None
 
 
+def _offer(path: PathGraph, name: str, table: Table, faults: Faults) -> None:
+    where = f"choices.{name}"
+    wrong = schema.type_faults(where, table, schema.CHOICE)
+    wrong += [f"{where}: '{k}' is missing" for k in ("element", "behind") if k not in table]
+    # Where links or elements are missing, places would be called wrong as well.
+    if not wrong and not faults:
+        about = table["element"], table["behind"], table.get("help", "")
+        faults.attempt(where, path.offer, name, *about)
+    faults += wrong
+
+
 def _link(
     path: PathGraph, where: str, table: Any, parameters: Parameters, lost: set[str], faults: Faults
 ) -> set[str]:
@@ -108,22 +175,36 @@ def _link(
     if not isinstance(table, dict):
         faults.append(f"{where} must be a table headed [[links]], not {shown(table)}")
         return set(path.graph)
+    sound = schema.checked(where, table, schema.LINK, faults)
+    if sound is None:
+        return set(path.graph)
+    table = sound
     ends = {key: str(table.get(key)).partition(".")[0] for key in ("from", "to")}
-    before = len(faults)
-    faults += schema.type_faults(where, table, schema.LINK)
-    faults += [f"{where}: '{key}' is missing" for key in ends if key not in table]
-    if len(faults) > before:
+    missing = [f"{where}: '{key}' is missing" for key in ends if key not in table]
+    if missing:
+        faults += missing
         return set(path.graph)
     azimuth = None
     if "azimuth" in table:
-        azimuth = faults.attempt(where, decode, table["azimuth"], ANGLE, parameters)
+        azimuth = faults.attempt(f"{where}.azimuth", decode, table["azimuth"], ANGLE, parameters)
     known = [key for key, name in ends.items() if name not in lost]
-    found = [
-        faults.attempt(where, find_port, path.graph, table[key], out=key == "from") for key in known
-    ]
+    wrong, graph = Faults(), path.graph
+    found = [wrong.attempt(where, find_port, graph, table[key], out=key == "from") for key in known]
+    if wrong and _is_reversed(path, table):
+        wrong = Faults([f"{where} leads from an in-port to an out-port; swap 'from' and 'to'"])
+    faults += wrong
     if len(known) == 2 and None not in found:
         before = len(faults)
-        faults.attempt(where, path.connect, table["from"], table["to"], azimuth)
+        tap = table.get("tap", False)
+        faults.attempt(where, path.connect, table["from"], table["to"], azimuth, tap=tap)
         return set() if len(faults) == before else set(ends.values())
     # A node that does not exist may be any of those that do.
     return set(ends.values()) if set(ends.values()) <= {*path.graph, *lost} else set(path.graph)
+
+
+def _is_reversed(path: PathGraph, table: Table) -> bool:
+    """Tell whether a link that is wrong would do if it were written the other way round."""
+    swapped = Faults()
+    swapped.attempt("from", find_port, path.graph, table["to"], out=True)
+    swapped.attempt("to", find_port, path.graph, table["from"], out=False)
+    return not swapped

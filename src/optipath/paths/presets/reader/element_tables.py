@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.registry import element_class
+from optipath.elements.known_elements import element_class
 from optipath.errors import shown
 from optipath.light.frames import Frame
 from optipath.paths.format import schema
 from optipath.paths.format.codec import decode
 from optipath.values.domains.choice import Choice
+from optipath.values.made import checked_later
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -18,10 +19,11 @@ if TYPE_CHECKING:
     from optipath.elements.element import Element
     from optipath.paths.format.faults import Faults
 
-_STAND_IN = Parameter("unknown")
+STAND_IN = Parameter("unknown")
 """Takes the place of a value that is missing or faulty, so that the rest is checked too."""
 
 
+@checked_later()  # With the whole path, by the names of its nodes.
 def read_element(
     where: str, table: dict[str, Any], parameters: Mapping[str, Parameter], faults: Faults
 ) -> Element | None:
@@ -41,16 +43,20 @@ def read_element(
     Element or None
         With a parameter of no meaning in place of each value that is missing or faulty.
     """
-    kind = table.get("kind")
+    named = table if "kind" in table else schema.as_meant(table, ["kind"])
+    kind = named.get("kind")
     if not isinstance(kind, str):
-        what = f"'kind' must be a text, not {shown(kind)}" if "kind" in table else "kind is missing"
+        what = f"'kind' must be a text, not {shown(kind)}" if "kind" in named else "kind is missing"
         faults.append(f'{where}: {what}; write kind = "..."')
         return None
     found = faults.attempt(where, element_class, kind)
     if found is None:
         return None
     domains = found.domains()
-    faults += schema.key_faults(where, table, ["kind", "frames", *domains])
+    known = ["kind", "frames", *domains]
+    if wrong := schema.key_faults(where, table, known):
+        faults += wrong
+        table = schema.as_meant(table, known)
     values: dict[str, Any] = {}
     for name, domain in domains.items():
         if name in table:
@@ -58,10 +64,10 @@ def read_element(
             if value is not None:
                 values[name] = value
             elif not isinstance(domain, Choice):
-                values[name] = _STAND_IN
+                values[name] = STAND_IN
         elif found.needs(name):
             faults.append(f"{where}: '{name}' is missing; every {kind} needs one")
-            values[name] = _STAND_IN
+            values[name] = STAND_IN
     return faults.attempt(where, found, **values)
 
 

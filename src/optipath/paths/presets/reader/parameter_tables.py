@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from optipath.paths.format import schema
 from optipath.paths.format.codec import decode, decode_given
+from optipath.paths.format.schema import texts_in
 from optipath.values.domains.domain import Domain
 from optipath.values.parameters import Parameter
-from optipath.values.units import dimension_of
+from optipath.values.specification import checked_name
+from optipath.values.units import UNITS, dimension_of, with_article
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from optipath.paths.format.faults import Faults
 
+_WITH_UNIT = re.compile(rf"[-+.\d][-+.\deE]*\s*({'|'.join(map(re.escape, UNITS))})", re.ASCII)
 
-def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Parameter:
-    """Return the parameter that a table declares; a bare one where the table is faulty.
+
+def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Parameter | None:
+    """Return the parameter that a table declares; None where the table is faulty.
 
     Parameters
     ----------
@@ -30,43 +35,64 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
 
     Returns
     -------
-    Parameter
-        By its name, or "unknown" where that is none.
+    Parameter or None
     """
-    where = f"parameters.{name}"
-    bare = faults.attempt(where, Parameter, name) or Parameter("unknown")
-    before = len(faults)
-    faults += schema.type_faults(where, table, schema.PARAMETER)
-    unit = table.get("unit", "")
-    dimension = faults.attempt(where, dimension_of, unit) if isinstance(unit, str) else None
-    if dimension is None or len(faults) > before:
-        return bare
+    where, before = f"parameters.{name}", len(faults)
+    sound = schema.checked(where, table, schema.PARAMETER, faults)
+    named = faults.attempt(where, checked_name, name) is not None
+    if sound is None:
+        return None
+    table, unit = sound, sound.get("unit", "")
+    dimension = faults.attempt(where, dimension_of, unit)
+    if dimension is None or not named:
+        return None
+    if fault := _unit_fault(where, unit, table):
+        faults.append(fault)
+        return None
     domain = Domain("value", dimension, own_unit=unit)
-    low, high = _range(where, table, domain, faults)
     words = {
         word: faults.attempt(f"{where}.words.{word}", decode, raw, domain, {})
         for word, raw in table.get("words", {}).items()
     }
-    keys: dict[str, Any] = {k: table[k] for k in ("help", "optional", "bound") if k in table}
-    keys |= {"unit": unit, "minimum": low, "maximum": high, "words": words}
-    default = None
-    if "default" in table and len(faults) == before:
-        open_one = Parameter(name, **{**keys, "bound": False})
-        at = f"{where}.default"
-        default = faults.attempt(at, decode_given, table["default"], open_one)
+    keys: dict[str, Any] = {key: table[key] for key in ("help", "optional") if key in table}
+    keys |= {"unit": unit, "words": {word: n for word, n in words.items() if n is not None}}
+    keys |= _range(where, table, domain, faults)
+    default, bare = None, faults.attempt(where, Parameter, name, None, **keys)
+    given = table.get("default")
+    waits = isinstance(given, str) and given in words and words[given] is None
+    if given is not None and bare is not None and not waits:
+        default = faults.attempt(f"{where}.default", decode_given, given, bare)
     if len(faults) > before:
-        if not unit and any(f.startswith(where) and "has the unit" in f for f in faults):
-            faults.append(f'{where} declares no unit; if its values have one, add unit = "..."')
-        return bare
-    return faults.attempt(where, Parameter, name, default, **keys) or bare
+        return None
+    bound = table.get("bound", False)
+    return faults.attempt(where, Parameter, name, default, bound=bound, **keys)
 
 
-def _range(where: str, table: dict[str, Any], domain: Domain, faults: Faults) -> tuple[Any, Any]:
-    limits = table.get("range", [-np.inf, np.inf])
-    if len(limits) != 2:
-        faults.append(f"{where}: 'range' must have two ends, not {len(limits)}")
-        return None, None
-    low, high = (faults.attempt(f"{where}.range", decode, end, domain, {}) for end in limits)
-    if isinstance(low, list) or isinstance(high, list):
+def _range(where: str, table: Mapping[str, Any], domain: Domain, faults: Faults) -> dict[str, Any]:
+    """Return the limits of a parameter; none where they are faulty."""
+    if "range" not in table:
+        return {}
+    if len(table["range"]) != 2:
+        faults.append(f"{where}: 'range' must have two ends, not {len(table['range'])}")
+        return {}
+    ends = faults.attempt(f"{where}.range", decode, table["range"], domain, {})
+    if ends is None:
+        return {}
+    if any(isinstance(end, list) for end in ends):
         faults.append(f"{where}: the ends of 'range' must be single values")
-    return low, high
+        return {}
+    return dict(zip(("minimum", "maximum"), ends, strict=True))
+
+
+def _unit_fault(where: str, unit: str, table: Mapping[str, Any]) -> str:
+    """Say that no value has the dimension of the unit, if so: it is the unit that is wrong."""
+    given = texts_in([table.get(key) for key in ("default", "range", "words")])
+    units = {text: match[1] for text in given if (match := _WITH_UNIT.fullmatch(text.strip()))}
+    if not units or dimension_of(unit) in [UNITS[name].dimension for name in units.values()]:
+        return ""
+    text, found = next(iter(units.items()))
+    if not unit:
+        cure = f'add unit = "{found}", or give pure numbers if it is one'
+        return f"{where} declares no unit, but its values have one; {cure}"
+    dimension = with_article(dimension_of(found))
+    return f"{where} is in {unit}, but '{text}' is {dimension}; let them agree"

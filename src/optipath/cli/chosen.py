@@ -1,0 +1,199 @@
+"""What a command line is about: a preset, a case, and values by options."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from optipath.composer.path_values import Values
+from optipath.errors import OptipathError, ParameterError, there_are
+from optipath.paths.presets.loader import bound_preset
+from optipath.values.other_part import other_part
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from optipath.paths.path_graph import PathGraph
+
+
+ALL = "all"
+"""Stands for every case of a preset, unless one has that name."""
+
+
+@dataclass(frozen=True)
+class Chosen:
+    """What a command line is about.
+
+    Attributes
+    ----------
+    preset : str
+        The name of a preset, or a file.
+    opened : PathGraph
+        The path that it describes, which is read once.
+    case : str, optional
+        A named set of its values.
+    values : mapping of str to Any
+        Values that take precedence over the case.
+    """
+
+    preset: str
+    opened: PathGraph
+    case: str | None
+    values: Mapping[str, Any]
+
+    @property
+    def title(self) -> str:
+        """The preset and the case."""
+        return self.preset + (f", case {self.case}" if self.case else "")
+
+    @property
+    def places(self) -> dict[str, str]:
+        """The words that were given for choices of places, by name."""
+        return {name: self.values[name] for name in self.opened.choices if name in self.values}
+
+    def path(self, reads: str | None = None) -> PathGraph:
+        """Return the path, bound to what is given, and with other readings if they are."""
+        bound = bound_preset(self.opened, self.preset, self.case, self.values)
+        return bound if reads is None else bound.reading(reads)
+
+
+def chosen_by(
+    preset: str, path: PathGraph, cases: Sequence[str], texts: Mapping[str, Sequence[str]]
+) -> list[Chosen]:
+    """Return what the options give, for each case that is asked for.
+
+    Parameters
+    ----------
+    preset : str
+        The name of a preset, or a file.
+    path : PathGraph
+        What it describes.
+    cases : sequence of str
+        Named sets of its values; none for its defaults.
+    texts : mapping of str to sequence of str
+        What stands behind the option of each parameter, as often as it is given.
+
+    Returns
+    -------
+    list of Chosen
+        One at least.
+
+    Raises
+    ------
+    ParameterError
+        With all that is wrong at once.
+    """
+    faults: list[str] = []
+    given = {name: _once(name, several, faults) for name, several in texts.items() if several}
+    values = {name: _value(path, name, text, faults) for name, text in given.items()}
+    sound = {name: value for name, value in values.items() if value is not None}
+    found = [Chosen(preset, path, case, sound) for case in dict.fromkeys(cases)]
+    found = found or [Chosen(preset, path, None, sound)]
+    for chosen in found if faults or len(found) > 1 else ():
+        try:
+            chosen.path()
+        except OptipathError as error:
+            faults += error.faults
+    if faults:
+        raise ParameterError(*dict.fromkeys(faults))
+    return found
+
+
+def asks_for_several(path: PathGraph, cases: Sequence[str]) -> bool:
+    """Tell whether several cases are asked for, by their names or by ``all``.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What has the cases.
+    cases : sequence of str
+        What is asked for.
+
+    Returns
+    -------
+    bool
+    """
+    return len({*cases}) > 1 or (ALL in cases and ALL not in path.cases)
+
+
+def cases_of(preset: str, path: PathGraph, cases: Sequence[str]) -> Sequence[str]:
+    """Return the names of cases, ``all`` replaced by those that there are.
+
+    Parameters
+    ----------
+    preset : str
+        The name of a preset, or a file.
+    path : PathGraph
+        What it describes.
+    cases : sequence of str
+        What is asked for.
+
+    Returns
+    -------
+    sequence of str
+
+    Raises
+    ------
+    ParameterError
+        If all are asked for and there are none.
+    """
+    if ALL not in cases or ALL in path.cases:
+        return cases
+    if not path.cases:
+        raise ParameterError(f"preset '{preset}' has no cases; leave --case out")
+    return list(path.cases)
+
+
+def one_case(command: str, path: PathGraph, cases: Sequence[str]) -> str | None:
+    """Return the case that is asked for, of a command that can do with one.
+
+    Parameters
+    ----------
+    command : str
+        Its name.
+    path : PathGraph
+        What has the cases.
+    cases : sequence of str
+        What is asked for.
+
+    Returns
+    -------
+    str or None
+
+    Raises
+    ------
+    ParameterError
+        If several are asked for.
+    """
+    if asks_for_several(path, cases):
+        raise ParameterError(f"{command} takes one case{there_are([*path.cases])}")
+    return cases[0] if cases else None
+
+
+def _once(name: str, several: Sequence[str], faults: list[str]) -> str:
+    """Return what is given for a parameter, which is given once."""
+    if len(several) > 1:
+        faults.append(f"--{_flag(name)} is given {len(several)} times; give it once")
+    return several[-1]
+
+
+def _value(path: PathGraph, name: str, text: str, faults: list[str]) -> Any:
+    """Return what a text stands for; None where it is faulty."""
+    if name in path.choices:
+        return text
+    parameter = path.parameters[name]
+    try:
+        value = parameter.parse(text, parameter.unit)
+    except OptipathError as error:
+        faults += error.faults
+        return None
+    if isinstance(value, complex) and (
+        other := other_part(Values(path.graph).uses, name, lambda word: f"--{_flag(word)}")
+    ):
+        faults.append(f"'{text}' is complex, but --{_flag(name)} takes a real number; {other}")
+        return None
+    return value
+
+
+def _flag(name: str) -> str:
+    return name.replace("_", "-")

@@ -1,0 +1,200 @@
+"""Light as it is printed: the state at each end, and a table of cases."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from rich.table import Table
+
+from optipath.cli.console import PlainConsole, cell, headed, title
+from optipath.cli.outcome import TOLD
+from optipath.cli.plain_json import plain
+from optipath.errors import listed
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from optipath.cli.outcome import Outcome
+    from optipath.light.light import Light
+    from optipath.values.parameters import Parameter
+
+_ROWS = 20
+_UNDEFINED = "-"
+_SMALL = 1e-9
+"""How far from 1 a degree of polarisation may be by rounding alone."""
+
+
+class Numbers(NamedTuple):
+    """How numbers are written.
+
+    Attributes
+    ----------
+    digits : int
+        How many of them, leading zeros aside.
+    """
+
+    digits: int
+
+    def text(self, number: float, noise: float = 0.0) -> str:
+        """Return a number as it is printed.
+
+        Parameters
+        ----------
+        number : float
+            NaN where a detector does not read it.
+        noise : float, optional
+            What is smaller is rounding, and is printed as 0.
+
+        Returns
+        -------
+        str
+        """
+        if math.isnan(number):
+            return "not read"
+        return f"{0.0 if abs(number) < noise else number + 0.0:.{self.digits}g}"
+
+    def value_of(self, parameter: Parameter) -> str:
+        """Return the value of a parameter, in its unit."""
+        value = parameter.default
+        if not isinstance(value, float):
+            return parameter.text(value)
+        return f"{in_unit(value, parameter.unit):.{self.digits}g} {parameter.unit}".strip()
+
+    def stokes(self, light: Light, index: tuple[int, ...] = ()) -> list[str]:
+        """Return the four components of a light.
+
+        Parameters
+        ----------
+        light : Light
+            One, or a batch.
+        index : tuple of int, optional
+            Which of a batch.
+
+        Returns
+        -------
+        list of str
+        """
+        noise = float(light.noise[index])
+        return [self.text(component, noise) for component in light.stokes[index].tolist()]
+
+
+def print_outcome(outcome: Outcome, digits: int) -> None:
+    """Print what a run was given and has found.
+
+    Parameters
+    ----------
+    outcome : Outcome
+        The run.
+    digits : int
+        How many digits numbers have.
+    """
+    console, numbers = PlainConsole(), Numbers(digits)
+    console.print(title(outcome.chosen.title, outcome.path.description))
+    table = Table(box=None, show_header=False)
+    for name, parameter in outcome.path.parameters.items():
+        table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
+    for name, word in outcome.chosen.places.items():
+        table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))
+    console.print(table)
+    for name in outcome.lights:
+        console.print(_light_table(outcome, name, numbers))
+    if outcome.note:
+        console.print(cell(f"note: {outcome.note}"))
+    console.print(cell(_ran([outcome])))
+
+
+def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
+    """Print a table of cases, with what was published under what is computed.
+
+    Parameters
+    ----------
+    outcomes : mapping of str to Outcome
+        The run of each case.
+    digits : int
+        How many digits numbers have.
+    """
+    console, numbers = PlainConsole(), Numbers(digits)
+    first = next(iter(outcomes.values()))
+    console.print(title(f"{first.chosen.preset}, {len(outcomes)} cases", first.path.description))
+    for name, value in first.chosen.values.items():
+        parameter = first.path.parameters.get(name)
+        text = value if parameter is None else numbers.value_of(parameter)
+        console.print(cell(f"{name} {text}"))
+    table = headed("case", "at", "S0", "S1", "S2", "S3")
+    for case, outcome in outcomes.items():
+        for name, light in outcome.lights.items():
+            for row in _case_rows(light, numbers):
+                table.add_row(*map(cell, [f"{case}{row[0]}", name, *row[1:]]))
+            if published := outcome.published(name):
+                texts = [f"{number:g}" for number in published]
+                table.add_row(*map(cell, [f"{case}, published", name, *texts]))
+    console.print(table)
+    notes: dict[str, list[str]] = {}
+    for case, outcome in outcomes.items():
+        if outcome.note:
+            notes.setdefault(outcome.note, []).append(case)
+    for note, cases in notes.items():
+        console.print(
+            cell(f"note on {'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {note}")
+        )
+    console.print(cell(_ran([*outcomes.values()])))
+
+
+def _case_rows(light: Light, numbers: Numbers) -> Iterator[list[str]]:
+    """Yield what is told of each light of a batch: its index, and its components."""
+    indices = list(np.ndindex(light.intensity.shape))
+    for index in indices[:_ROWS]:
+        yield [f" {list(index)}" if index else "", *numbers.stokes(light, index)]
+    if len(indices) > _ROWS:
+        yield [f" {len(indices) - _ROWS} more", *[""] * 4]
+
+
+def _ran(outcomes: Sequence[Outcome]) -> str:
+    """Say how it was computed."""
+    ways = {
+        "method": [outcome.plan.method for outcome in outcomes],
+        "model": [outcome.model for outcome in outcomes],
+        "engine": [outcome.engine for outcome in outcomes],
+    }
+    return ", ".join(f"{what} {' or '.join(dict.fromkeys(found))}" for what, found in ways.items())
+
+
+def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
+    light, published = outcome.lights[name], outcome.published(name)
+    if light.stokes.ndim > 1:
+        return _batch_table(name, light, numbers)
+    table = headed(f"light at {name}", "computed")
+    if published:
+        table.add_column("published")
+    for position, component in enumerate(numbers.stokes(light)):
+        row = [f"S{position}", component]
+        table.add_row(*map(cell, [*row, *([f"{published[position]:g}"] if published else [])]))
+    for word, text in _state_rows(light, numbers):
+        table.add_row(cell(word), cell(text))
+    return table
+
+
+def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
+    """Yield what is told of light besides its components."""
+    unread = bool(np.isnan(light.stokes).any())
+    partly = " of the polarised part" if float(light.dop) < 1.0 - _SMALL else ""
+    for key, (word, unit) in TOLD.items():
+        number = plain(getattr(light, key.lower()), unit)
+        if number is not None:
+            behind = partly if "ellipsometry" in word else ""
+            yield word, f"{numbers.text(number)} {unit}".strip() + behind
+        elif not unread:
+            yield word, _UNDEFINED
+    if light.exponent:
+        yield "log10 S0", numbers.text(float(light.log10_intensity))
+        yield "over S0", ", ".join(map(numbers.text, light.normalized.tolist()))
+
+
+def _batch_table(name: str, light: Light, numbers: Numbers) -> Table:
+    table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
+    for row in _case_rows(light, numbers):
+        table.add_row(*(cell(text.strip()) for text in row))
+    return table

@@ -1,0 +1,26 @@
+"""Help that tells of each subcommand in a whole sentence."""
+
+from __future__ import annotations
+
+import click
+
+_LONGEST = 1000
+"""No line of help is longer, whatever the terminal."""
+
+
+class WholeHelp(click.Group):
+    """A group of commands whose help cuts no sentence short."""
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write a line for each subcommand, which goes on in the next where it is long.
+
+        Parameters
+        ----------
+        ctx, formatter
+            As `click.Group` takes them.
+        """
+        commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
+        rows = [(n, c.get_short_help_str(_LONGEST)) for n, c in commands.items() if c is not None]
+        if rows:
+            with formatter.section("Commands"):
+                formatter.write_dl(rows)

@@ -1,0 +1,183 @@
+"""What boundaries take over from those before them: a graph with `FOLLOWS` becomes one without."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer.media import FOLLOWING, absorption_of, are_same, index_of
+from optipath.composer.meetings import Meetings
+from optipath.composer.same_medium import SameMedium
+from optipath.composer.wiring import Wiring
+from optipath.elements.media_of_boundary import MediaOfBoundary
+from optipath.values.arrays.read_only import read_only
+from optipath.values.follows import FOLLOWS
+from optipath.values.materials import Material
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    import networkx as nx
+
+    from optipath.composer.meetings import Meeting
+
+
+def with_followed(
+    graph: nx.MultiDiGraph, unsure: Collection[str] = ()
+) -> tuple[nx.MultiDiGraph, list[str]]:
+    """Return a graph of elements in which boundaries have what they take over from others.
+
+    The medium in front is that of the boundary whose light enters at ``in``. The incidence is
+    that of a parallel boundary which has refracted the light before, measured where that is.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        The elements and links; it stays as it is.
+    unsure : collection of str, optional
+        Nodes whose links may not all be there, of which no faults are told.
+
+    Returns
+    -------
+    networkx.MultiDiGraph
+        The graph itself where nothing is taken over.
+    list of str
+        A sentence for each value that no boundary gives.
+    """
+    elements = dict(graph.nodes(data="element"))
+    names = [
+        name for name, e in elements.items() if isinstance(e, MediaOfBoundary) and e.followed()
+    ]
+    if not names:
+        return graph, []
+    taking = _Taking(elements, Meetings(Wiring(graph)))
+    faults = {name: [*taking.faults(name)] for name in names if name not in unsure}
+    found = graph.copy()
+    found.graph[FOLLOWING] = frozenset(
+        name for name in names if "incidence" in elements[name].followed()
+    )
+    for name in names:
+        if not faults.get(name):
+            found.nodes[name]["element"] = taking.elements[name]
+    told = [fault for several in faults.values() for fault in several]
+    going_round = [name for name in faults if not told and taking.elements[name].followed()]
+    told += [
+        f"'{name}' takes over (FOLLOWS) what the boundaries before it take over, too; give it at "
+        f"one of them"
+        for name in going_round
+    ]
+    return found, told
+
+
+class _Taking:
+    """Gives values on from boundary to boundary, as soon as they are there."""
+
+    def __init__(self, elements: dict[str, Any], meetings: Meetings) -> None:
+        self.given, self.elements = elements, dict(elements)
+        self.fronts = _by_end(m for m in meetings.all if m.enters[1] == "in")
+        self.layers = _by_end(meetings.in_layers)
+        behind: dict[str, set[str]] = {}
+        for into in (self.fronts, self.layers):
+            for name, several in into.items():
+                for meeting in several:
+                    behind.setdefault(meeting.leaves[0], set()).add(name)
+        waiting = [
+            name for name, e in elements.items() if isinstance(e, MediaOfBoundary) and e.followed()
+        ][::-1]
+        while waiting:
+            name = waiting.pop()
+            if self._take(name):
+                waiting += sorted(behind.get(name, ()), reverse=True)
+
+    def _take(self, name: str) -> bool:
+        """Take over what is there for an element; tell whether anything was."""
+        element = self.elements[name]
+        taken: dict[str, Any] = {}
+        for field in element.followed():
+            if field == "outside":
+                taken |= dict(zip(["outside"], self._media(name), strict=False))
+            elif _may_measure(element) and (pairs := self._angles(name)):
+                taken |= dict(zip(["incidence", "incidence_in"], pairs[0], strict=True))
+        if taken:
+            self.elements[name] = element.taking_over(**taken)
+        return bool(taken)
+
+    def _media(self, name: str) -> list[Any]:
+        """Return the media in which light comes to the front of an element."""
+        ports = [meeting.leaves for meeting in self.fronts.get(name, ())]
+        media = [self.elements[node].medium_at(port) for node, port in ports]
+        return [_real(index) for index in media if index is not FOLLOWS]
+
+    def _angles(self, name: str) -> list[tuple[Any, Any]]:
+        """Return the incidence at parallel boundaries before it, each with its medium."""
+        pairs = [self.elements[m.leaves[0]].measured for m in self.layers.get(name, ())]
+        return [(a, n) for a, n in pairs if a is not FOLLOWS and n is not FOLLOWS]
+
+    def faults(self, name: str) -> Iterator[str]:
+        """Yield what an element could not take over, a sentence each."""
+        element = self.elements[name]
+        missing = element.followed()
+        port, field = f"'{name}.in'", element.media_fields[0]
+        if "outside" in missing and not self.fronts.get(name):
+            yield (
+                f"'{name}' takes its {field} over (FOLLOWS), but no boundary before it sends light "
+                f"to {port}; give the index of the medium in front"
+            )
+        took = "outside" in self.given[name].followed() and "outside" not in missing
+        if took and _absorbs(element.medium_at("in")):
+            yield (
+                f"'{name}' takes its {field} over (FOLLOWS), but the medium before {port} absorbs; "
+                f"give that an index without k, and link a Medium between, which absorbs on the way"
+            )
+        elif took and any(_differ(index, element.medium_at("in")) for index in self._media(name)):
+            yield (
+                f"'{name}' takes its {field} over (FOLLOWS), but light of several media comes to "
+                f"{port}; give the index of the medium in front"
+            )
+        if "incidence" in missing and not (_may_measure(element) and self.layers.get(name)):
+            why = (
+                "has an incidence_in of its own, which comes with it; leave that out"
+                if not _may_measure(element)
+                else "is not parallel to what is before it; give the angle"
+                if not element.parallel
+                else "no parallel boundary before it sends it light that it has refracted; give "
+                "the angle"
+            )
+            yield f"'{name}' takes its incidence over (FOLLOWS), but {why}"
+
+
+def _by_end(meetings: Any) -> dict[str, list[Meeting]]:
+    found: dict[str, list[Meeting]] = {}
+    for meeting in meetings:
+        found.setdefault(meeting.enters[0], []).append(meeting)
+    return found
+
+
+def _may_measure(element: Any) -> bool:
+    return element.incidence_in is None
+
+
+def _real(index: Any) -> Any:
+    """Return an index without absorption as a real number; any other as it is.
+
+    Of an absorption that is open it takes nothing over: that is compared with what is before.
+    """
+    k = absorption_of(index) if isinstance(index, Material) else None
+    if k is not None and (not k.known or k.traced):
+        return Material(index.n)
+    if isinstance(index, complex) or (isinstance(index, np.ndarray) and index.dtype.kind == "c"):
+        return index if np.any(index.imag) else read_only(index.real)
+    return index
+
+
+def _absorbs(index: Any) -> bool:
+    """Tell whether an index is known to have an absorption."""
+    k = absorption_of(index)
+    return k is not None and k.known and not k.traced and bool(np.any(k.numbers()))
+
+
+def _differ(first: Any, second: Any) -> bool:
+    """Tell whether two indices are known to be of different media."""
+    law = SameMedium((index_of(first), index_of(second)), "", "", "")
+    return not are_same(first, second) and not law.is_open and bool(law.fault())

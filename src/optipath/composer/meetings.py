@@ -1,0 +1,220 @@
+"""Meetings: where light that leaves one boundary enters another, and which of them are parallel."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.composer.one_plane import TURNED
+from optipath.composer.placement import azimuth_of, is_zero
+from optipath.elements.boundary_frames import BoundaryElement
+from optipath.elements.four_port import FourPort
+from optipath.elements.media_of_boundary import MediaOfBoundary
+from optipath.values.operands import Operand
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.composer.travel import Port
+    from optipath.composer.wiring import Link, Wiring
+
+_MOST_ROUTES = 64
+"""How many routes to one port are told apart, lest turned elements in a ring give no end."""
+
+
+class Meeting(NamedTuple):
+    """Light leaves a boundary and enters another, or the same again.
+
+    Attributes
+    ----------
+    leaves, enters : Port
+        The out-port and the in-port.
+    straight : bool
+        Whether nothing between turns the direction of light.
+    turns : tuple
+        The azimuths on the way that are not known to be 0.
+    sides : frozenset of Port
+        The sides of the two boundaries that face each other, each by its in-port.
+    """
+
+    leaves: Port
+    enters: Port
+    straight: bool
+    turns: tuple[Any, ...]
+    sides: frozenset[Port]
+
+
+class Meetings:
+    """The meetings of a path.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path.
+    """
+
+    def __init__(self, wiring: Wiring) -> None:
+        self.wiring = wiring
+
+    @cached_property
+    def all(self) -> tuple[Meeting, ...]:
+        """Every meeting, those by a front first: these have a medium to be given."""
+        elements = self.wiring.elements
+        starts = [
+            (name, port)
+            for name, element in elements.items()
+            if isinstance(element, MediaOfBoundary)
+            for port in element.outputs
+        ]
+        if not starts:
+            return ()
+        found = [meeting for start in starts for meeting in self._of(start)]
+        return tuple(sorted(found, key=lambda meeting: meeting.enters[1] == "back"))
+
+    @cached_property
+    def _links_from(self) -> dict[Port, list[Link]]:
+        """The links of each out-port, those that only read its light included."""
+        wiring = self.wiring
+        found = {port: [*links] for port, links in wiring.links_from.items()}
+        for tap in wiring.taps:
+            found.setdefault((tap[0], tap[2][0]), []).append(tap)
+        return found
+
+    def _of(self, start: Port) -> Iterator[Meeting]:
+        """Yield where light goes from a port, through all that keeps it in its medium."""
+        wiring = self.wiring
+        waiting: list[tuple[Port, bool, tuple[Any, ...]]] = [(start, True, ())]
+        seen: dict[Port, set[Any]] = {}
+        while waiting:
+            port, straight, before = waiting.pop()
+            for link in self._links_from.get(port, ()):
+                enters = link[1], link[2][1]
+                element, azimuth = wiring.elements[link[1]], azimuth_of(wiring, link)
+                turns = before if is_zero(azimuth) else (*before, azimuth)
+                routes = seen.setdefault(enters, set())
+                route = straight, keys_of(turns)
+                if route in routes or len(routes) == _MOST_ROUTES:
+                    continue
+                routes.add(route)
+                if isinstance(element, MediaOfBoundary):
+                    sides = frozenset([_side(start), enters])
+                    yield Meeting(start, enters, straight, turns, sides)
+                    continue
+                for way in wiring.couplings[link[1]]:
+                    # A beam splitter lets light through as it is.
+                    passes = isinstance(element, FourPort) and not way.reflects
+                    goes_on = element.straight or passes
+                    if way.enters == enters[1] and (goes_on or way.reflects):
+                        waiting.append(((link[1], way.leaves), straight and goes_on, turns))
+
+    @cached_property
+    def in_layers(self) -> tuple[Meeting, ...]:
+        """The meetings of light between parallel faces: one of them has refracted it.
+
+        It stays between them where one of them reflects it, and goes to and fro. Those that a
+        turn gives another plane of incidence are among them, since their angles may be 0.
+        """
+        leaving: dict[Port, list[Meeting]] = {}
+        facing = [m for m in self._straight if m.sides not in self._told]
+        for meeting in facing:
+            leaving.setdefault(meeting.leaves, []).append(meeting)
+        both = self.to_and_fro
+        waiting = [m for m in facing if m.sides in both or self._refracted(m.leaves)]
+        found = {_way(meeting) for meeting in waiting}
+        while waiting:
+            last = waiting.pop()
+            # What stands at an angle sends light where no other is known to be parallel.
+            if last.sides not in both and _are_turned(last.turns):
+                continue
+            name, port = last.enters
+            reflected = name, "reflected" if port == "in" else "transmitted"
+            for meeting in leaving.get(reflected, ()):
+                if _way(meeting) not in found:
+                    found.add(_way(meeting))
+                    waiting.append(meeting)
+        return tuple(m for m in facing if _way(m) in found)
+
+    @cached_property
+    def to_and_fro(self) -> frozenset[frozenset[Port]]:
+        """The sides of faces between which light goes both ways."""
+        ways = Counter(sides for sides, *_ in {(m.sides, *_way(m)) for m in self._straight})
+        return frozenset(sides for sides, count in ways.items() if count > 1)
+
+    @property
+    def wedges(self) -> list[Meeting]:
+        """The meetings of faces that are told not to be parallel, but get their light back."""
+        return [m for m in self._straight if m.sides in self.to_and_fro and self._is_told(m)]
+
+    @cached_property
+    def _straight(self) -> list[Meeting]:
+        """The meetings of two faces whose directions no frames in the world give."""
+        return [m for m in self.all if self._of_faces(m) and not self._in_space(m)]
+
+    @cached_property
+    def _told(self) -> set[frozenset[Port]]:
+        return {meeting.sides for meeting in self._straight if self._is_told(meeting)}
+
+    def _is_told(self, meeting: Meeting) -> bool:
+        """Tell whether a face says that it is not parallel to the one before.
+
+        That is the one whose light enters in front, or behind where none does so in front.
+        """
+        face: Any = self.wiring.elements[meeting.enters[0]]
+        return face.parallel is False and self._comes_before(meeting)
+
+    def may_be_told(self, meeting: Meeting) -> bool:
+        """Tell whether the face that light enters might say ``parallel=False``."""
+        return self._comes_before(meeting) and meeting.sides not in self.to_and_fro
+
+    def _comes_before(self, meeting: Meeting) -> bool:
+        name, port = meeting.enters
+        return port == "in" or (name, "in") not in self.wiring.lit
+
+    def _of_faces(self, meeting: Meeting) -> bool:
+        ends = (self.wiring.elements[name] for name, _ in (meeting.leaves, meeting.enters))
+        others = len({name for name, _ in meeting.sides}) > 1
+        return others and meeting.straight and all(isinstance(e, BoundaryElement) for e in ends)
+
+    def _refracted(self, port: Port) -> bool:
+        """Tell whether light at a port has been refracted there.
+
+        In front, where light is reflected too, what comes next stands as it likes.
+        """
+        name, leaves = port
+        lit = self.wiring.lit
+        if leaves == "transmitted":
+            return (name, "in") in lit
+        return (name, "back") in lit and (name, "in") not in lit
+
+    def _in_space(self, meeting: Meeting) -> bool:
+        nodes = (self.wiring.graph.nodes[name] for name, _ in (meeting.leaves, meeting.enters))
+        return all(len(node["frames"]) > 1 for node in nodes)
+
+
+def _side(port: Port) -> Port:
+    """Return the in-port on the same side of a boundary as an out-port."""
+    return port[0], "in" if port[1] == "reflected" else "back"
+
+
+def _way(meeting: Meeting) -> tuple[Port, Port]:
+    return meeting.leaves, meeting.enters
+
+
+def keys_of(turns: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return what the same turns share."""
+    return tuple(Operand(turn).key() or id(turn) for turn in turns)
+
+
+def _are_turned(turns: tuple[Any, ...]) -> bool:
+    """Tell whether turns are known to come to another plane of incidence, on every path."""
+    operands = [Operand(turn) for turn in turns]
+    if not turns or any(not operand.known or operand.traced for operand in operands):
+        return False
+    try:
+        turn = sum(operand.numbers() for operand in operands)
+        return bool(np.all(np.abs(np.sin(turn)) > TURNED))
+    except (TypeError, ValueError):
+        return False  # What is no angle is a fault of its own.

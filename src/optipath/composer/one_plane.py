@@ -1,0 +1,71 @@
+"""OnePlane: parallel boundaries have one plane of incidence, however the way between is turned."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from optipath.values.agreement import Agreement, text_of
+
+TURNED = 1e-3
+"""From what sine on a turn makes another plane of incidence: less is none in a laboratory."""
+
+_NORMAL = 1e-9
+"""Up to what sine of an incidence light has no plane of incidence."""
+
+
+@dataclass(frozen=True, eq=False)
+class OnePlane(Agreement):
+    """The turns on the way between two parallel boundaries come to none, or light is normal.
+
+    The operands are the incidence at the first, and the turns, which add up.
+
+    Attributes
+    ----------
+    leaves, enters : str
+        The ports between which light passes, as ``"node.port"``.
+    follows : bool
+        Whether they are parallel because the second takes its incidence over, and not because
+        light goes to and fro between them.
+    """
+
+    leaves: str
+    enters: str
+    follows: bool
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        angle, *turns = numbers
+        return ~((abs(xp.sin(sum(turns))) > TURNED) & (abs(xp.sin(angle)) > _NORMAL))
+
+    def sentence(self, *numbers: float) -> str:
+        name, own = (port.rpartition(".")[0] for port in (self.leaves, self.enters))
+        cure = "let the azimuths on the way add up to 0"
+        if self.follows:
+            why = f"'{own}' takes its incidence over (FOLLOWS), as a face parallel to '{name}' does"
+            cure += ", or give its incidence"
+        else:
+            why = f"light goes to and fro between '{name}' and '{own}', which are parallel then"
+        return (
+            f"{why}, but the way from '{self.leaves}' to '{self.enters}' turns the plane of "
+            f"incidence by {turn_text(self.operands[1:], numbers[1:])}; {cure} (a polarizer or "
+            f"retarder is turned by its angle, which turns nothing behind it)"
+        )
+
+
+def turn_text(operands: Any, turns: Any) -> str:
+    """Write what turns add up to, and whose values they are.
+
+    Parameters
+    ----------
+    operands : sequence of Operand
+        Where they stand.
+    turns : sequence of float
+        In radians.
+
+    Returns
+    -------
+    str
+    """
+    each = [text_of(o, math.degrees(t), " deg") for o, t in zip(operands, turns, strict=True)]
+    return each[0] if len(each) == 1 else f"{math.degrees(sum(turns)):.10g} deg ({', '.join(each)})"

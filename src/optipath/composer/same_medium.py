@@ -1,0 +1,82 @@
+"""SameMedium: light that leaves one boundary and enters another is in one medium."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from optipath.values.agreement import Agreement, is_single, text_of
+from optipath.values.cures import cure
+from optipath.values.follows import FOLLOWS
+from optipath.values.parameters import Parameter
+
+_ROUNDING, _SINGLE_ROUNDING = 1e-9, 2.0**-23
+"""How far apart two indices may be, as a share of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class SameMedium(Agreement):
+    """The indices of refraction of two boundaries that face each other are the same.
+
+    The operands are n on both sides, and k behind the first where it may not be 0: light that
+    enters a boundary comes from a medium that does not absorb.
+
+    Attributes
+    ----------
+    leaves, enters : str
+        The ports, as ``"node.port"``.
+    field : str
+        What the second index is called by its element.
+    measures : bool
+        Whether the incidence at the second is measured in its medium.
+    """
+
+    leaves: str
+    enters: str
+    field: str
+    measures: bool = False
+
+    @property
+    def spoils(self) -> tuple[str, ...]:
+        """The incidence that is measured in a medium that is wrong says nothing."""
+        return (self.enters, self.enters.rpartition(".")[0]) if self.measures else ()
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        n1, n2, *k = numbers
+        single = is_single(xp, n1) | is_single(xp, n2)
+        rounding = xp.where(single, _SINGLE_ROUNDING, _ROUNDING)
+        differs = abs(n1 - n2) > rounding * xp.maximum(n1, n2)
+        return ~(differs | (k[0] != 0.0) if k else differs)
+
+    def sentence(self, *numbers: float) -> str:
+        before, behind, *k = (text_of(o, n) for o, n in zip(self.operands, numbers, strict=True))
+        name, _, port = self.leaves.rpartition(".")
+        side = "behind" if port == "transmitted" else "in front of"
+        if any(numbers[2:]):
+            return (
+                f"'{self.enters}' is lit from a medium that absorbs, with k = {k[0]} {side} "
+                f"'{name}' (by '{self.leaves}'); give '{name}' an index without k there, and link "
+                f"a Medium between, which absorbs on the way"
+            )
+        cures = [] if self._is_one_parameter else [self._cure(numbers[0])]
+        if not self.enters.endswith(".back"):
+            cures.append(f"{cure('op.FOLLOWS', FOLLOWS.in_file)} for {self.field}")
+        elif not cures:
+            cures.append(f"the same for {self.field} as there")
+        lit = before if "=" in before else f"n = {before}"
+        return (
+            f"'{self.enters}' is lit from {lit} {side} '{name}' (by '{self.leaves}'), but "
+            f"its {self.field} is {behind}; give {', or '.join(cures)}"
+        )
+
+    @property
+    def _is_one_parameter(self) -> bool:
+        """Whether both are multiples of one parameter, so that no value of it is the cure."""
+        values = [operand.value for operand in self.operands[:2]]
+        both = all(isinstance(value, Parameter) for value in values)
+        return both and len({value.name for value in values}) == 1
+
+    def _cure(self, number: float) -> str:
+        value: Any = self.operands[1].value
+        given = value.formula if isinstance(value, Parameter) else self.field
+        return f"{given} = {number:.12g}"

@@ -1,0 +1,164 @@
+"""Code of a user's own, in kernels and elements: what it raises is told in words."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import OptipathError, PathError, did_you_mean
+from optipath.kernels.numbers.primitives import FLOAT, Primitives
+
+if TYPE_CHECKING:
+    from optipath.kernels.numbers.primitives import Factory, KernelFunction
+
+FUNCTIONS = tuple(f.name for f in fields(Primitives))
+"""What ``xp`` has."""
+
+_LONGEST = 200
+
+_OTHERWISE = {
+    "abs": "xp.absolute(x)",
+    "fabs": "xp.absolute(x)",
+    "arctan2": "xp.atan2(y, x)",
+    "arctan": "xp.atan2(x, 1.0)",
+    "atan": "xp.atan2(x, 1.0)",
+    "arcsin": "xp.atan2(x, xp.sqrt(1.0 - x * x))",
+    "asin": "xp.atan2(x, xp.sqrt(1.0 - x * x))",
+    "arccos": "xp.atan2(xp.sqrt(1.0 - x * x), x)",
+    "acos": "xp.atan2(xp.sqrt(1.0 - x * x), x)",
+    "tan": "xp.sin(x) / xp.cos(x)",
+    "sinh": "(xp.exp(x) - xp.exp(-x)) / 2",
+    "cosh": "(xp.exp(x) + xp.exp(-x)) / 2",
+    "tanh": "1.0 - 2.0 / (xp.exp(2.0 * x) + 1.0)",
+    "hypot": "xp.sqrt(x * x + y * y)",
+    "square": "x * x",
+    "power": "x**y",
+    "pow": "x**y",
+    "max": "xp.maximum(x, y)",
+    "min": "xp.minimum(x, y)",
+    "pi": "math.pi",
+    "array": "the rows as tuples of four entries each",
+}
+"""How what other libraries have is written by what ``xp`` has."""
+
+_CURES = (
+    ("truth value", "choose by xp.where(condition, yes, no) in place of 'if', 'and', 'min', 'max'"),
+    ("boolean conversion of traced", "choose by xp.where(condition, yes, no) in place of 'if'"),
+    ("true nor false", "choose by xp.where(condition, yes, no) in place of 'if'"),
+    ("only length-1 arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("only 0-dimensional arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("only scalar arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("must be real number, not", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("tracer", "call the functions of xp in place of those of numpy and math"),
+    ("inhomogeneous", "return four rows, tuples of four entries each, and no array of them"),
+    ("could not be broadcast", "compute each entry by itself: numbers may be arrays over paths"),
+    ("read-only", "make a new number, a = a + 1, in place of a += 1: arguments are the caller's"),
+    ("division by zero", "let xp.where choose another divisor there"),
+)
+
+
+def in_words(what: str, error: Exception) -> OptipathError:
+    """Return an error of the library for what code of a user's own has raised.
+
+    Parameters
+    ----------
+    what : str
+        What has raised it, such as ``"mueller_rows of element class Foil"``.
+    error : Exception
+        What was raised.
+
+    Returns
+    -------
+    OptipathError
+        Of which the other is the cause.
+
+    Examples
+    --------
+    >>> print(in_words("it", ZeroDivisionError("division by zero")))
+    it raises ZeroDivisionError: division by zero; let xp.where choose another divisor there
+    """
+    if isinstance(error, AttributeError) and isinstance(error.obj, Primitives):
+        known = _OTHERWISE.get(str(error.name))
+        cure = f"; write {known}" if known else did_you_mean(error.name, FUNCTIONS)
+        return PathError(f"{what} calls xp.{error.name}, which does not exist{cure}")
+    text = " ".join(str(error).split())
+    lower = text.lower()
+    cure = next((cure for sign, cure in _CURES if sign in lower), "")
+    text = text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
+    return PathError(f"{what} raises {type(error).__name__}: {text}{cure and '; ' + cure}")
+
+
+def is_defined_in(package: str, factory: Any) -> bool:
+    """Tell whether what makes a kernel is defined in a package, or its class is.
+
+    Parameters
+    ----------
+    package : str
+        What the names of its modules begin with.
+    factory : callable
+        What makes a kernel.
+
+    Returns
+    -------
+    bool
+    """
+    maker = factory if hasattr(factory, "__name__") else type(factory)
+    return str(getattr(maker, "__module__", "")).startswith(package)
+
+
+def guarded(what: str, xp: Primitives, function: KernelFunction) -> KernelFunction:
+    """Return a function of a user's own that raises errors of the library alone.
+
+    Parameters
+    ----------
+    what : str
+        What sentences call it.
+    xp : Primitives
+        What it computes with.
+    function : callable
+        Numbers in, numbers out.
+
+    Returns
+    -------
+    callable
+        Of plain floats, it raises errors of arithmetic as they are: arrays, which know infinity,
+        do it once more.
+    """
+    left = (ArithmeticError, ValueError) if xp is FLOAT else ()
+
+    def numbers(*values: Any) -> tuple[Any, ...]:
+        try:
+            return function(*values)
+        except (MemoryError, OptipathError, Warning, *left):
+            raise
+        except Exception as error:
+            raise in_words(what, error) from error
+
+    return numbers
+
+
+@dataclass(frozen=True)
+class GuardedFactory:
+    """Makes the function of a kernel of a user's own.
+
+    Parameters
+    ----------
+    name : str
+        Of the kernel.
+    factory : callable
+        Makes the function itself.
+    """
+
+    name: str
+    factory: Factory
+
+    def __call__(self, xp: Primitives) -> KernelFunction:
+        """Return what the factory makes, guarded."""
+        what = f"kernel '{self.name}'"
+        try:
+            function = self.factory(xp)
+        except (MemoryError, OptipathError, Warning):
+            raise
+        except Exception as error:
+            raise in_words(what, error) from error
+        return guarded(what, xp, function)

@@ -1,0 +1,124 @@
+"""Light that adds up and is dimmed: sums of lights, and light times a number."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NoReturn, Self
+
+import numpy as np
+
+from optipath.errors import LightError, shown
+from optipath.light.array_of_light import ArrayOfLight
+from optipath.light.inherited_noise import inheriting
+from optipath.light.refused_products import why_refused
+from optipath.light.underflow import folded, normalise_exponent, times_two_to
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import is_jax, is_traced, known
+from optipath.values.arrays.shapes import check_broadcast
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.light.frames import Frame
+    from optipath.values.roundings import Array
+
+_CURE = "light adds up, light + light, and is taken times numbers >= 0, 0.5 * light, light / 2"
+
+
+class Arithmetic(ArrayOfLight):
+    """What can be computed with light: incoherent sums, and multiples that are no negative."""
+
+    frame: Frame
+
+    def __add__(self, other: object) -> Self:
+        """Return both lights together, incoherently, in the frame of this one."""
+        if not isinstance(other, Arithmetic):
+            self._refuse(f"{shown(other)} is no light to be added")
+        check_broadcast({"light": self.shape, "other light": other.shape})
+        aligned = other.in_frame(self.frame)
+        if is_traced(self.mantissa) or is_traced(aligned.mantissa):
+            return self._like(self.stokes + aligned.stokes)
+        one, two = self._numbers, aligned._numbers
+        # Dark light has no exponent of its own.
+        mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
+        theirs = np.where(two[..., 0] == 0.0, self.exponent, aligned.exponent)
+        power = np.maximum(mine, theirs)
+        with np.errstate(over="ignore", invalid="ignore"):
+            total = times_two_to(one, self.exponent - power)
+            total = total + times_two_to(two, aligned.exponent - power)
+        return self._like(total, power, inheriting((self, aligned)))
+
+    def __radd__(self, other: object) -> Self:
+        """Begin a sum: 0 and light is light, so that ``sum(lights)`` has one."""
+        if not (isinstance(other, (int, float)) and other == 0):
+            self._refuse(f"{shown(other)} is no light to be added")
+        return self
+
+    def __mul__(self, factor: Any) -> Self:
+        """Return the light times a number, or times numbers that broadcast over the batch."""
+        return self._times(factor, np.multiply)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: Any) -> Self:
+        """Return the light divided by a number, or by numbers that broadcast over the batch."""
+        return self._times(divisor, np.divide)
+
+    def _times(self, factor: Any, done: Callable[[Any, Any], Any]) -> Self:
+        factor = self._factor(factor, least=0.0 if done is np.multiply else np.nextafter(0.0, 1.0))
+        batch = check_broadcast({"light": self.shape, "factor": factor.shape})
+        factor = factor[..., np.newaxis]
+        if is_traced(self.mantissa) or is_traced(factor):
+            return self._like(self.stokes * factor if done is np.multiply else self.stokes / factor)
+        stokes, exponent = normalise_exponent(self._numbers, self.exponent)
+        with np.errstate(over="ignore", invalid="ignore"):
+            stokes = done(stokes, factor)
+        share = factor[..., 0] if done is np.multiply else 1.0 / factor[..., 0]
+        stokes, exponent = folded(stokes, np.broadcast_to(exponent, batch))
+        return self._like(stokes, exponent, self._inherited(factor=share))
+
+    def _factor(self, factor: Any, least: float) -> Array:
+        """Return a factor as an array of what keeps the precision of the light."""
+        if is_traced(factor):
+            return factor  # type: ignore[no-any-return]
+        if isinstance(factor, ArrayOfLight):
+            self._refuse("light times light has no meaning")
+        array = as_given("a factor of light", known(factor), LightError)
+        if array.dtype.kind not in "biuf":
+            self._refuse(f"{shown(factor)} is no real number")
+        if not np.all((array >= least) & (array < np.inf)):
+            bad = array[~((array >= least) & (array < np.inf))].ravel()[0]
+            self._refuse(f"light has no {bad!s}-fold" if least == 0.0 else f"{bad!s} divides none")
+        if type(factor) in (bool, int, float) and not is_jax(self.mantissa):
+            return array.astype(self.mantissa.dtype)
+        return array if array.dtype.kind == "f" else array.astype(np.float64)
+
+    def __matmul__(self, other: object) -> NoReturn:
+        """Refuse: what light meets stands before it."""
+        raise LightError("what light meets stands before it; write element @ light")
+
+    def __rmatmul__(self, other: object) -> NoReturn:
+        """Refuse a matrix without frames, a path, a class."""
+        raise LightError(why_refused(other))
+
+    def _refuse(self, problem: str) -> NoReturn:
+        raise LightError(f"{problem}; {_CURE}; for other sums take light.stokes")
+
+    def _refused(self, *_: object) -> NoReturn:
+        """Refuse what would be no light."""
+        self._refuse("differences, powers and divisors of light are no light")
+
+    __sub__ = __rsub__ = __neg__ = __pow__ = __rtruediv__ = _refused
+
+    def in_frame(self, frame: Frame) -> Self:
+        """Return the same light in another frame."""
+        raise NotImplementedError
+
+    def _inherited(self, factor: Any = 1.0, part: Any = None) -> tuple[Any, ...] | None:
+        """Return what light that is made of this one has of its noise."""
+        if is_traced(self.mantissa):
+            return None
+        return inheriting((self,), factor, part=part)
+
+    def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Self:
+        """Return light of other numbers in the frame of this one, unchecked."""
+        raise NotImplementedError

@@ -1,0 +1,204 @@
+"""The conventions of other software and books, as signs of the four Stokes components.
+
+Each of them differs from ours in the hand of S3, in which axis is called x, or in the direction of
+y: all of these change signs, and nothing else, so that a map is its own inverse.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import ValueFault, did_you_mean, shown, unknown
+from optipath.values.arrays.jax_values import known, namespace
+
+if TYPE_CHECKING:
+    from optipath.values.roundings import Array
+
+
+class Convention(NamedTuple):
+    """How somebody else writes light.
+
+    Attributes
+    ----------
+    signs : tuple of four float
+        What S0, S1, S2 and S3 of ours are multiplied by.
+    sentence : str
+        What differs.
+    source : str
+        Where they say so.
+    delta : str
+        Its ellipsometric Delta by ours: "same", "negative", "supplement" (180 degrees minus ours),
+        or nothing where it has none.
+    """
+
+    signs: tuple[float, float, float, float]
+    sentence: str
+    source: str
+    delta: str = ""
+
+
+_S3 = 1.0, 1.0, 1.0, -1.0
+_P_ALONG_X = 1.0, -1.0, -1.0, 1.0
+_BOTH = 1.0, -1.0, -1.0, -1.0
+
+CONVENTIONS = {
+    "mitsuba": Convention(
+        _S3,
+        "S3 > 0 turns clockwise to the sensor, which looks at the source; x is along s.",
+        "mitsuba.readthedocs.io, Polarization; figures of Mitsuba 3.9.1",
+    ),
+    "hecht": Convention(
+        _S3,
+        "S3 > 0 is an R-state, clockwise to who looks at the source.",
+        "E. Hecht, Optics, 4th ed. (2002), sec. 8.1.2 and 8.13, tables 8.5 and 8.6",
+    ),
+    "ellipsometry": Convention(
+        _BOTH,
+        "x is along p, and S3 > 0 turns clockwise to who looks at the source; exp(+i w t).",
+        "P. S. Hauge, R. H. Muller and C. G. Smith, Surf. Sci. 96, 81 (1980); H. Fujiwara, "
+        "Spectroscopic Ellipsometry (2007), sec. 3.4",
+        "same",
+    ),
+    "py_pol": Convention(
+        _S3,
+        "S3 > 0 turns clockwise to who looks at the source.",
+        "figures of py_pol 1.3.0",
+    ),
+    "pypolar": Convention(
+        _BOTH,
+        "As in ellipsometry: its Fresnel matrices have p along x; exp(+i w t).",
+        "pypolar.readthedocs.io, conventions; figures of pypolar 1.2.0",
+        "same",
+    ),
+    "pyelli": Convention(
+        _P_ALONG_X,
+        "x is along p, and S3 has our sign: not that of most books of ellipsometry.",
+        "figures of pyElli 0.23.1",
+        "same",
+    ),
+    "scatmech": Convention(
+        (1.0, 1.0, 1.0, 1.0),
+        "As ours: exp(-i w t), x along s, S3 > 0 counter-clockwise to who looks at the source.",
+        "NIST, SCATMECH, Conventions; figures of pySCATMECH 0.1.10",
+        "negative",
+    ),
+    "tmm": Convention(
+        (1.0, 1.0, -1.0, -1.0),
+        "It has no Stokes vectors: those of the field (E_s, -E_p), of which Delta is the phase.",
+        "S. J. Byrnes, arXiv:1603.02720; figures of tmm 0.2.0",
+        "supplement",
+    ),
+}
+"""Those that light and Mueller matrices can be given in, by name."""
+
+
+def signs_of(convention: Any) -> Array:
+    """Return what a convention multiplies S0, S1, S2 and S3 by.
+
+    Raises
+    ------
+    ValueFault
+        If there is no convention of that name.
+
+    Examples
+    --------
+    >>> print(signs_of("hecht"))
+    [ 1.  1.  1. -1.]
+    """
+    return np.array(_found(convention).signs)
+
+
+def changed_stokes(convention: Any, stokes: Any) -> Array:
+    """Return Stokes vectors of ours in a convention, or the other way about.
+
+    Parameters
+    ----------
+    convention : str
+        A name in `CONVENTIONS`.
+    stokes : ndarray, shape (..., 4)
+        In either convention: the maps are their own inverses.
+
+    Returns
+    -------
+    ndarray, shape (..., 4)
+        Of the same precision.
+
+    Examples
+    --------
+    >>> changed_stokes("ellipsometry", np.array([1.0, 0.5, 0.0, 0.25]))
+    array([ 1.  , -0.5 ,  0.  , -0.25])
+    """
+    stokes = known(stokes)
+    # 0 is added since 0 times -1 is -0.
+    return stokes * signs_of(convention).astype(stokes.dtype) + 0.0  # type: ignore[no-any-return]
+
+
+def changed_matrix(convention: Any, matrix: Any) -> Array:
+    """Return Mueller matrices of ours in a convention, or the other way about.
+
+    Both frames change, so that matrices still act on Stokes vectors and on each other.
+
+    Parameters
+    ----------
+    convention : str
+        A name in `CONVENTIONS`.
+    matrix : ndarray, shape (..., 4, 4)
+        In either convention.
+
+    Returns
+    -------
+    ndarray, shape (..., 4, 4)
+        Of the same precision.
+
+    Examples
+    --------
+    >>> changed_matrix("mitsuba", np.ones((4, 4)))[3]
+    array([-1., -1., -1.,  1.])
+    """
+    matrix, signs = known(matrix), signs_of(convention)
+    return matrix * np.outer(signs, signs).astype(matrix.dtype) + 0.0  # type: ignore[no-any-return]
+
+
+def changed_delta(convention: Any, delta: Any) -> Array:
+    """Return the ellipsometric Delta of a convention by ours, in (-pi, pi].
+
+    Parameters
+    ----------
+    convention : str
+        A name in `CONVENTIONS`.
+    delta : ndarray
+        By the convention "ellipsometry", in radians.
+
+    Returns
+    -------
+    ndarray
+        In radians.
+
+    Raises
+    ------
+    ValueFault
+        If there is no convention of that name, or it has no Delta.
+
+    Examples
+    --------
+    >>> print(changed_delta("tmm", np.radians(150.0)).round(12) == np.radians(30.0).round(12))
+    True
+    """
+    way = _found(convention).delta
+    if not way:
+        having = [name for name, entry in CONVENTIONS.items() if entry.delta]
+        raise ValueFault(
+            f"convention {shown(convention)} has no psi and Delta{did_you_mean('', having)}"
+        )
+    xp = namespace(delta)
+    found = {"same": delta, "negative": -delta, "supplement": np.pi - delta}[way]
+    found = xp.where(found > np.pi, found - 2.0 * np.pi, found)
+    return xp.where(found <= -np.pi, np.pi, found)  # type: ignore[no-any-return]
+
+
+def _found(convention: Any) -> Convention:
+    if faults := unknown("convention", convention, CONVENTIONS):
+        raise ValueFault(*faults)
+    return CONVENTIONS[convention]

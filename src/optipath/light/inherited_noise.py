@@ -1,0 +1,134 @@
+"""Noise of light that is made of other light: what it inherits, found when it is asked for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.values.arrays.jax_values import is_traced, known, namespace
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.light.array_of_light import ArrayOfLight
+    from optipath.values.roundings import Array
+
+
+def inheriting(
+    lights: tuple[ArrayOfLight, ...],
+    factor: Any = 1.0,
+    *,
+    mixed: bool = False,
+    part: Any = None,
+    added: Any = 0.0,
+) -> tuple[Any, ...]:
+    """Return what light keeps that is made of others, for its noise to be found by.
+
+    Parameters
+    ----------
+    lights, factor, mixed, part, added
+        As `inherited_noise` takes them.
+
+    Returns
+    -------
+    tuple
+        As `noise_in` takes it.
+    """
+    for light in lights:
+        # What is inherited twice is found now, lest sums of many lights keep all of them.
+        noise = vars(light).get("_noise")
+        if isinstance(noise, tuple) and noise[0] is inherited_noise:
+            vars(light)["_noise"] = light.noise_floor
+    return inherited_noise, lights, factor, mixed, part, added
+
+
+def inherited_noise(
+    lights: tuple[ArrayOfLight, ...],
+    factor: Any,
+    mixed: bool,  # noqa: FBT001 - called by what is kept of it
+    part: Callable[[Any], Any] | None,
+    added: Any,
+    stokes: Array,
+    exponent: Array,
+) -> Array:
+    """Return the noise in a mantissa, of shape (...).
+
+    Parameters
+    ----------
+    lights : tuple of Light
+        What the light has been made of.
+    factor : float or ndarray
+        How much of each is left.
+    mixed : bool
+        Whether numbers as large as S0 have been added up, which leaves their roundings.
+    part : callable, optional
+        Which part of the batch is taken.
+    added : float or ndarray
+        The noise of what each has met, as a share of its S0.
+    stokes : ndarray, shape (..., 4)
+        The light.
+    exponent : ndarray of int, shape (...)
+        Of the power of two times it.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        To be taken times the same power.
+    """
+    total = np.zeros(exponent.shape, stokes.dtype)
+    for light in lights:
+        floor, power = light.noise_floor, light.exponent
+        with np.errstate(over="ignore", under="ignore", invalid="ignore"):
+            if mixed:
+                floor = floor + rounding(known(light.mantissa))
+            floor = floor * np.abs(factor) + added * np.abs(known(light.mantissa)[..., 0])
+        if part is not None:
+            floor, power = part(floor), part(power)
+        with np.errstate(over="ignore", under="ignore"):
+            total = total + np.ldexp(floor, power - exponent)
+    return total
+
+
+def noise_in(stokes: Any, noise: Any, exponent: Array) -> Any:
+    """Return the noise in a mantissa: the rounding of S0 at least.
+
+    Parameters
+    ----------
+    stokes : ndarray, shape (..., 4)
+        The mantissa.
+    noise : ndarray, tuple or None
+        What is known of it: the noise, or a function and what it is given before the mantissa
+        and the exponent, so that nothing is computed before somebody asks.
+    exponent : ndarray of int, shape (...)
+        Of the power of two times it.
+
+    Returns
+    -------
+    ndarray, shape (...)
+
+    Examples
+    --------
+    >>> print(noise_in(np.array([1.0, 0.0, 0.0, 0.0]), np.array(1e-9), np.array(0)))
+    1e-09
+    """
+    least = rounding(stokes)
+    if noise is None or is_traced(stokes):
+        return least
+    if isinstance(noise, tuple):
+        found, *given = noise
+        noise = found(*given, stokes, exponent)
+    return np.maximum(least, noise)
+
+
+def rounding(stokes: Any) -> Any:
+    """Return by how much sums of numbers as large as S0 are rounded, of shape (...).
+
+    Examples
+    --------
+    >>> print(rounding(np.array([2.0, 0.0, 0.0, 0.0], np.float32)))
+    2.3841858e-07
+    """
+    xp = namespace(stokes)
+    with np.errstate(under="ignore", over="ignore"):
+        return abs(stokes[..., 0]) * float(xp.finfo(stokes.dtype).eps)

@@ -1,0 +1,168 @@
+"""What a passive element can do: Mueller matrices that are physical and let no more light out."""
+
+from __future__ import annotations
+
+from math import hypot
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.kernels.carriers.coherency import is_physical
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+from optipath.light.mueller import cloude
+from optipath.values.arrays.jax_values import is_traced, namespace
+
+if TYPE_CHECKING:
+    from optipath.values.roundings import Array
+
+_AT_ONCE = 8192
+"""How many matrices are looked at together, so that they stay in the cache."""
+
+_FEW = 4
+"""How many are quicker looked at one after the other."""
+
+
+def gain(matrix: Array) -> Array:
+    """Return by how much the light that is let through best is brighter behind, shape (...).
+
+    M00 + abs((M01, M02, M03)), the intensity of what fully polarised light becomes (Gil and
+    Ossikovski, Polarized Light and the Mueller Matrix Approach, sec. 5.4).
+
+    Examples
+    --------
+    >>> print(gain(np.array([[0.5, 0.5, 0, 0], [0.5, 0.5, 0, 0], [0] * 4, [0] * 4])))
+    1.0
+    """
+    # Cut off, so that squares of what is far too much do not overflow.
+    xp = namespace(matrix)
+    across = xp.linalg.norm(xp.clip(matrix[..., 0, 1:], -1e9, 1e9), axis=-1)
+    return matrix[..., 0, 0] + across  # type: ignore[no-any-return]
+
+
+def are_passive(matrix: Array, tolerance: float) -> Array:
+    """Tell which matrices a passive element can have, as far as their rounding lets one say.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., 4, 4)
+        JAX's as well.
+    tolerance : float
+        What is put down to rounding, as a share, see `cloude.tolerance_of`.
+
+    Returns
+    -------
+    ndarray of bool, shape (...)
+
+    Examples
+    --------
+    >>> one, flipped = np.eye(4), np.diag([1.0, 1.0, 1.0, -1.0])
+    >>> print(are_passive(np.array([one, 2.0 * one, flipped]), 1e-9))
+    [ True False False]
+    """
+    if is_traced(matrix):
+        xp: Any = namespace(matrix)
+        numbers = [matrix[..., row, column] for row in range(4) for column in range(4)]
+        return is_physical(xp, numbers, 0.25 * tolerance) & (gain(matrix) <= 1.0 + tolerance)  # type: ignore[no-any-return]
+    flat = np.asarray(matrix).reshape(-1, 4, 4)
+    if len(flat) <= _FEW and all(
+        _is_passive(one, tolerance) for one in flat.reshape(-1, 16).tolist()
+    ):
+        return np.ones(matrix.shape[:-2], bool)
+    found = np.empty(len(flat), bool)
+    for start in range(0, len(flat), _AT_ONCE):
+        some = slice(start, start + _AT_ONCE)
+        found[some] = _surely_passive(flat[some], tolerance)
+    doubtful = ~found
+    if doubtful.any():
+        left = flat[doubtful]
+        found[doubtful] = (cloude.lack(left) <= tolerance) & (gain(left) <= 1.0 + tolerance)
+    return found.reshape(matrix.shape[:-2])
+
+
+def problem_of(matrix: Array, tolerance: float) -> str:
+    """Return why no passive element has a matrix, as a sentence goes on with it.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (4, 4)
+        One that is not among `are_passive`.
+    tolerance : float
+        As there.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> problem_of(2.0 * np.eye(4), 1e-9)[:37]
+    'makes light up to 2 times as bright ('
+    """
+    lacks = cloude.lack(matrix)
+    if lacks <= tolerance:
+        times = _text(float(gain(matrix)))
+        return (
+            f"makes light up to {times} times as bright (M00 + |(M01, M02, M03)|), as no passive "
+            f"element does"
+        )
+    return (
+        f"is unphysical, having a coherency eigenvalue of {-lacks:.3g} times the largest (Cloude's "
+        f"criterion), so that light could be polarised by more than 100 %"
+    )
+
+
+def cure_of(matrices: Array, tolerance: float) -> str:
+    """Return what is to be given in place of matrices, so that all `are_passive`.
+
+    Parameters
+    ----------
+    matrices : ndarray, shape (..., 4, 4)
+        All that were given, of which some are not.
+    tolerance : float
+        As there.
+
+    Returns
+    -------
+    str
+        With the divisor that is enough for the brightest.
+
+    Examples
+    --------
+    >>> cure_of(2.0 * np.eye(4), 1e-9)
+    'matrix / 2'
+    """
+    found = "matrix"
+    if np.any(cloude.lack(matrices) > tolerance):
+        found = "op.Mueller(matrix).nearest_physical().matrix"
+        matrices = cloude.nearest_physical(matrices)
+    most = np.max(gain(matrices))
+    return f"{found} / {_rounded_up(most)}" if most > 1.0 else found
+
+
+def _text(number: float) -> str:
+    """Write a number with six digits, or ten where it is 1 otherwise."""
+    text = f"{number:.6g}"
+    return text if float(text) > 1.0 else _rounded_up(number)
+
+
+def _rounded_up(number: float) -> str:
+    """Write a number with ten digits, or somewhat more than it."""
+    text = f"{number:.10g}"
+    return text if float(text) >= number else f"{number * (1.0 + 1e-9):.10g}"
+
+
+def _is_passive(numbers: list[float], tolerance: float) -> bool:
+    """Tell of one matrix what `_surely_passive` tells of many."""
+    dim = numbers[0] + hypot(*numbers[1:4]) <= 1.0 + tolerance
+    return dim and bool(is_physical(FLOAT, numbers, 0.25 * tolerance))
+
+
+def _surely_passive(matrices: Array, spare: float) -> Array:
+    """Tell of which matrices elimination says so, which is quick."""
+    numbers = np.ascontiguousarray(matrices.reshape(-1, 16).T)
+    m00, m01, m02, m03 = numbers[:4]
+    with np.errstate(all="ignore"):
+        room = 1.0 + spare - m00
+        dim = (room >= 0.0) & (m01 * m01 + m02 * m02 + m03 * m03 <= room * room)
+        # No eigenvalue is less than a quarter of their sum M00 where it is the largest.
+        return np.asarray(is_physical(NUMPY, [*numbers], 0.25 * spare) & dim)

@@ -1,0 +1,139 @@
+"""Editing: nodes and links put into a graph of elements, and taken out of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from optipath.composer.placement import placement_faults
+from optipath.composer.wiring import Wiring, link_text
+from optipath.elements.element import Element
+from optipath.errors import PathError, did_you_mean, shown, there_are
+from optipath.light.frames import Frame
+from optipath.paths.port_names import check_port, find_port
+from optipath.values.domains.quantities import ANGLE
+from optipath.values.made import kept_value
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import networkx as nx
+
+    from optipath.composer.wiring import Link
+
+
+def edit(graph: nx.MultiDiGraph, change: Callable[[nx.MultiDiGraph], None]) -> None:
+    """Change a graph in place, or raise and leave it as it was.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    change : callable
+        What is done to it.
+
+    Raises
+    ------
+    PathError
+        If the change raises, or brings frames that do not fit.
+    """
+    trial = graph.copy()
+    change(trial)
+    known = placement_faults(Wiring(graph))
+    if faults := [fault for fault in placement_faults(Wiring(trial)) if fault not in known]:
+        raise PathError(*faults)
+    change(graph)
+
+
+def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
+    """Add a node, as `PathGraph.add` does.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links, changed in place.
+    name, element, frames
+        As that takes them.
+    """
+    if not isinstance(name, str) or not name or "." in name:
+        raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
+    if name in graph:
+        raise PathError(f"node '{name}' is there already; choose another name")
+    check_element(name, element)
+    frames = {} if frames is None else frames
+    if not isinstance(frames, Mapping) or not all(
+        isinstance(frame, Frame) for frame in frames.values()
+    ):
+        raise PathError(
+            f"frames of '{name}' must be a Frame for each port, such as "
+            f"{{'in': Frame()}}, not {shown(frames)}"
+        )
+    frames = dict(frames)
+    for port in frames:
+        check_port(element, name, port, (*element.inputs, *element.outputs))
+    graph.add_node(name, element=element, frames=frames)
+
+
+def connect(graph: nx.MultiDiGraph, leaves: Any, enters: Any, azimuth: Any, tap: Any) -> None:
+    """Add a link, as `PathGraph.connect` does.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links, changed in place.
+    leaves, enters, azimuth, tap
+        As that takes them.
+    """
+    faults = [] if isinstance(tap, bool) else [f"tap must be True or False, not {shown(tap)}"]
+    link = _link_of(graph, leaves, enters, faults)
+    if graph.has_edge(*link):
+        raise PathError(f"link '{link_text(link)}' is there already; remove the second one")
+    turn = kept_value(f"link '{leaves} -> {enters}' azimuth", azimuth, ANGLE)
+    graph.add_edge(*link, azimuth=turn, tap=tap)
+
+
+def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:
+    """Take a link out, as `PathGraph.disconnect` does.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links, changed in place.
+    leaves, enters
+        As that takes them.
+    """
+    link = _link_of(graph, leaves, enters, [])
+    if not graph.has_edge(*link):
+        near = {*graph.out_edges(link[0], keys=True), *graph.in_edges(link[1], keys=True)}
+        cure = did_you_mean(link_text(link), sorted(map(link_text, near)))
+        cure = cure if near else there_are(sorted(map(link_text, graph.edges(keys=True))))
+        raise PathError(f"there is no link '{link_text(link)}'{cure}")
+    graph.remove_edge(*link)
+
+
+def check_element(name: Any, element: Any) -> None:
+    """Raise unless what is given for a node is an element.
+
+    Parameters
+    ----------
+    name, element
+        The name of the node, and what it is to hold.
+    """
+    if not isinstance(element, Element):
+        raise PathError(
+            f"node '{name}' must be an element such as Polarizer(), not {shown(element)}"
+        )
+
+
+def _link_of(graph: nx.MultiDiGraph, leaves: Any, enters: Any, faults: list[str]) -> Link:
+    """Return the link between two ports, or raise with these faults and those of the ports."""
+    ends = []
+    for text, out in ((leaves, True), (enters, False)):
+        try:
+            ends.append(find_port(graph, text, out=out))
+        except PathError as fault:
+            faults += fault.faults
+    if faults:
+        raise PathError(*faults)
+    (start, out_port), (end, in_port) = ends
+    return start, end, (out_port, in_port)

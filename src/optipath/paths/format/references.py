@@ -1,0 +1,75 @@
+"""Texts that refer to a parameter: ``"$name"`` and ``"-$name"``, and what is meant for one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import OptipathError, PresetError, did_you_mean
+from optipath.paths.format.formula_texts import is_arithmetic, table_for
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.domains.domain import Domain
+    from optipath.values.parameters import Parameter
+
+
+def named(raw: str, domain: Domain) -> Any:
+    """Return what a word stands for that is the name of a parameter, too.
+
+    Parameters
+    ----------
+    raw : str
+        What stands in the file.
+    domain : Domain
+        What the field may be.
+
+    Returns
+    -------
+    Any
+        What its domain reads.
+
+    Raises
+    ------
+    PresetError
+        If it is no word of the domain: how a parameter is written.
+    """
+    try:
+        return domain.parse(raw)
+    except OptipathError:
+        raise PresetError(
+            f"'{raw}' is no number; write \"${raw.strip()}\" for the parameter"
+        ) from None
+
+
+def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
+    """Return the parameter that ``"$name"`` or ``"-$name"`` stands for.
+
+    Parameters
+    ----------
+    raw : str
+        What stands in the file.
+    parameters : mapping of str to Parameter
+        What is declared.
+
+    Returns
+    -------
+    Parameter
+
+    Raises
+    ------
+    PresetError
+        If it is not declared, or the text is a formula.
+    """
+    sign, _, name = raw.partition("$")
+    if sign in ("", "-") and name in parameters:
+        return -parameters[name] if sign else parameters[name]
+    if raw.count("$") > 1:
+        raise PresetError(
+            f"'{raw}' is of several parameters, but a value takes one; declare a parameter for "
+            f"the whole"
+        )
+    if is_arithmetic(raw):
+        raise PresetError(f"'{raw}' is no name of a parameter; write {table_for(raw)}")
+    known = [f"${parameter}" for parameter in parameters]
+    raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")

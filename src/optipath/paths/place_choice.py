@@ -1,0 +1,130 @@
+"""PlaceChoice: the places of which a node may take one, before the path is composed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from optipath.composer.placement import goes_straight
+from optipath.errors import PathError, shown, unknown
+from optipath.paths.port_names import element_at, find_port, natural_port
+from optipath.paths.splicing import insert, remove
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+@dataclass(frozen=True)
+class PlaceChoice:
+    """Behind which port a node stands, by word.
+
+    Parameters
+    ----------
+    node : str
+        The node that is moved.
+    behind : mapping of str to str
+        The port for each word, as ``"node.port"``.
+    help : str, optional
+        What is chosen.
+
+    Raises
+    ------
+    PathError
+        If they are not of these types, or there are no words.
+    """
+
+    node: str
+    behind: Mapping[str, str] = field(default_factory=dict)
+    help: str = ""
+
+    def __post_init__(self) -> None:
+        pairs = self.behind.items() if isinstance(self.behind, Mapping) else ()
+        texts = [text for pair in pairs for text in pair]
+        if not texts or not all(isinstance(text, str) for text in [self.node, self.help, *texts]):
+            raise PathError(
+                f"a choice of places is a node and a port for each word, such as "
+                f"{{'light': 'L.out'}}, not {shown(self.node)} and {shown(self.behind)}"
+            )
+        object.__setattr__(self, "behind", dict(self.behind))
+
+    def renamed(self, names: Mapping[str, str]) -> PlaceChoice:
+        """Return the same choice where nodes are called otherwise."""
+        ports = {word: port.partition(".") for word, port in self.behind.items()}
+        behind = {
+            word: names.get(name, name) + dot + way for word, (name, dot, way) in ports.items()
+        }
+        return replace(self, node=names[self.node], behind=behind)
+
+    def place(self, graph: nx.MultiDiGraph) -> str:
+        """Return the word of the place where the node stands; empty if it is none of them."""
+        before = [(start, leaves) for start, _, (leaves, _) in graph.in_edges(self.node, keys=True)]
+        ports = {word: find_port(graph, port, out=True) for word, port in self.behind.items()}
+        return next((word for word, port in ports.items() if [port] == before), "")
+
+
+def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
+    """Move the node of a choice, in place.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements, links and choices.
+    name : str
+        That of the choice.
+    word : str
+        That of the place.
+
+    Raises
+    ------
+    PathError
+        If there is no such word, or the node cannot be moved there.
+    """
+    choice: PlaceChoice = graph.graph["choices"][name]
+    if faults := unknown(f"{name}", word, choice.behind):
+        raise PathError(*faults)
+    element = element_at(graph, choice.node)
+    if choice.place(graph) != word:
+        try:
+            remove(graph, choice.node)
+            insert(graph, choice.node, element, choice.behind[word])
+        except PathError as fault:
+            wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}: "
+            raise PathError(*(wrong + sentence for sentence in fault.faults)) from None
+
+
+def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
+    """Return why the node of a choice cannot be put in its places, a sentence each.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    choice : PlaceChoice
+        The choice.
+
+    Returns
+    -------
+    list of str
+        Empty where it can.
+    """
+    node, found = choice.node, []
+    try:
+        element = element_at(graph, node)
+        enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
+    except PathError as fault:
+        return list(fault.faults)
+    if not goes_straight(element, enters, leaves):
+        found.append(f"light does not go straight through '{node}', so it has no other place")
+    for word, port in choice.behind.items():
+        try:
+            start, way = find_port(graph, port, out=True)
+        except PathError as fault:
+            found += [f"place '{word}': {sentence}" for sentence in fault.faults]
+            continue
+        links = graph.out_edges(start, keys=True, data="tap")
+        if start == node or [tap for *_, (out, _), tap in links if out == way].count(False) != 1:
+            found.append(
+                f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
+            )
+    return found

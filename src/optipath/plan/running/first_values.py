@@ -1,0 +1,94 @@
+"""First values: what elements of a user's own do to light is looked at for those of each kind."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ParameterError
+from optipath.kernels.numbers.primitives import NUMPY
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Hashable
+
+    from optipath.elements.own_ways import OwnWay
+    from optipath.plan.running.reading import ResolvedInputs
+    from optipath.values.operands import InputKey, Operand
+
+_LOOKED_AT = 16
+"""How many paths of a batch."""
+
+_MOST = 64
+"""How many kinds are remembered."""
+
+
+class FirstValues:
+    """Looks at ways through elements of a user's own, once for each kind of values.
+
+    Parameters
+    ----------
+    ways : tuple of OwnWay
+        Those whose values are given when a plan runs.
+    """
+
+    def __init__(self, ways: tuple[OwnWay, ...]) -> None:
+        self.ways = ways
+        self._seen: set[Hashable] = set()
+
+    def check(self, kind: Hashable, read: Callable[[], ResolvedInputs]) -> None:
+        """Refuse what no light can do, found with some of the values that are given.
+
+        Parameters
+        ----------
+        kind : hashable
+            What values have in common that are looked at once.
+        read : callable
+            Gives them.
+
+        Raises
+        ------
+        ParameterError
+            Naming the element, its class, the matrix and the values.
+        """
+        if not self.ways or kind in self._seen:
+            return
+        given = read()
+        faults = [fault for way in self.ways for fault in _faults(way, given)]
+        if faults:
+            raise ParameterError(*faults)
+        if len(self._seen) >= _MOST:
+            self._seen.clear()
+        self._seen.add(kind)
+
+
+def _faults(way: OwnWay, given: ResolvedInputs) -> list[str]:
+    """Return what is wrong with a way for a few of the paths, the first and the last among them."""
+    names = {operand.value.name for operand in way.operands if not operand.known}
+    some = np.unique(np.linspace(0.0, given.paths - 1.0, min(_LOOKED_AT, given.paths)).astype(int))
+    where = np.unravel_index(some, given.batch) if given.batch else ()
+
+    def few(number: Any) -> Any:
+        several = np.broadcast_to(number, given.batch)[where]
+        return several if several.dtype == bool else several.astype(np.float64)
+
+    mine = {key: few(n) for key, n in given.numbers.items() if key.name in names}
+    if any(key.part == "present" and not np.all(number) for key, number in mine.items()):
+        return []  # The element is not everywhere there.
+
+    def read(operand: Operand) -> Any:
+        if operand.known:
+            return few(given.cut(operand.numbers()))
+        return operand.evaluated(NUMPY, operand.given_in(mine, np.asarray))
+
+    try:
+        found = way.faults(read)
+    except KeyError:
+        return []  # Not all of its values are of use to what is read.
+    return [f"at {_values(mine, place)}: {fault}" for place, fault in found]
+
+
+def _values(numbers: dict[InputKey, Any], place: int) -> str:
+    """Write the numbers of one path."""
+    names = {key: key.name if key.part == "value" else str(key) for key in numbers}
+    return ", ".join(f"{names[key]} = {np.ravel(n)[place]:.6g}" for key, n in numbers.items())

@@ -1,0 +1,218 @@
+"""Agreement: values of a path that must fit to each other, once all of them are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.values.angles import CosSin
+from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.operands import NOTHING, Operand
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from optipath.values.resolved import Resolved
+
+_AT_ONCE = 8192
+"""How many paths are looked at at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Agreement:
+    """Numbers that must fit to each other.
+
+    Attributes
+    ----------
+    operands : tuple of Operand
+        The numbers, in the order in which `fits` takes them.
+    """
+
+    operands: tuple[Operand, ...]
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        """Return for which paths numbers fit, with the functions of NumPy or of JAX.
+
+        Parameters
+        ----------
+        xp : module
+            ``numpy`` or ``jax.numpy``.
+        *numbers : array_like
+            One for each operand; they broadcast together.
+
+        Returns
+        -------
+        array_like of bool
+            True where a number is NaN, which is told elsewhere.
+        """
+        raise NotImplementedError
+
+    def sentence(self, *numbers: float) -> str:
+        """Say of numbers of one path that they do not fit, and the cure."""
+        raise NotImplementedError
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """What must be right for a fault of it to say something."""
+        return ()
+
+    @property
+    def spoils(self) -> tuple[str, ...]:
+        """What is not right where it has a fault."""
+        return ()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a number is only known when the path runs."""
+        return any(not operand.known or operand.traced for operand in self.operands)
+
+    def fault(self, given: Mapping[str, Resolved] = NOTHING) -> str:
+        """Say what does not fit; nothing where all does, or cannot be compared.
+
+        Parameters
+        ----------
+        given : mapping of str to Resolved, optional
+            The open parameters.
+
+        Returns
+        -------
+        str
+            A sentence, of the first path where it is so.
+        """
+        try:
+            numbers = [_number(operand, given) for operand in self.operands]
+        except (OptipathError, ArithmeticError, TypeError, ValueError):
+            return ""  # What is no number is a fault of its own.
+        if any(map(is_traced, numbers)):
+            return ""
+        arrays = [np.asarray(number) for number in numbers]
+        shapes = {str(place): array.shape for place, array in enumerate(arrays)}
+        if any(array.dtype.kind not in "iuf" for array in arrays) or broadcast_fault(shapes):
+            return ""
+        # A grid is never laid out as a whole.
+        cut: Any = np.nditer(
+            arrays,
+            ["external_loop", "buffered", "zerosize_ok"],
+            op_dtypes=[np.float64] * len(arrays),
+            casting="same_kind",
+            buffersize=_AT_ONCE,
+        )
+        with np.errstate(all="ignore"):
+            for part in cut:
+                bad = ~self.fits(np, *part)
+                if np.any(bad):
+                    return self.sentence(*(float(column[bad][0]) for column in part))
+        return ""
+
+    def inside(self, given: Mapping[str, Resolved]) -> Any:
+        """Return for which paths numbers fit that JAX traces; True where it traces none.
+
+        Parameters
+        ----------
+        given : mapping of str to Resolved
+            The open parameters.
+
+        Returns
+        -------
+        bool or Array of bool
+        """
+        numbers = [_number(operand, given) for operand in self.operands]
+        traced = [number for number in numbers if is_traced(number)]
+        return self.fits(namespace(traced[0]), *numbers) if traced else True
+
+
+def first_faults(
+    agreements: Iterable[Agreement], given: Mapping[str, Resolved] = NOTHING
+) -> list[str]:
+    """Say what does not fit, but for what may only follow from another of these faults.
+
+    Parameters
+    ----------
+    agreements : iterable of Agreement
+        What must fit.
+    given : mapping of str to Resolved, optional
+        The open parameters.
+
+    Returns
+    -------
+    list of str
+        A sentence for each.
+    """
+    found = [(law, fault) for law in agreements if (fault := law.fault(given))]
+    spoilt = {what for law, _ in found for what in law.spoils}
+    first = [fault for law, fault in found if spoilt.isdisjoint(law.rests_on)]
+    # In a ring, each may follow from the one before.
+    return first or [fault for _, fault in found[:1]]
+
+
+def _number(operand: Operand, given: Mapping[str, Resolved]) -> Any:
+    """Return what an operand comes to; an angle that is given by its cosine and sine, as one."""
+    value: Any = operand.value
+    if isinstance(value, Parameter) and not value.bound:
+        angle: Any = given[value.name].value
+        if type(angle) is CosSin:
+            given = {value.name: given[value.name]._replace(value=angle.angle)}
+    return operand.evaluated(NUMPY, operand.raw(given))
+
+
+def text_of(operand: Operand, number: float, unit: str = "") -> str:
+    """Write a number, and whose value it is.
+
+    Parameters
+    ----------
+    operand : Operand
+        Where it stands.
+    number : float
+        What it is.
+    unit : str, optional
+        What stands behind it.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> text_of(Operand(Parameter("n")), 1.5)
+    "1.5 (parameter 'n')"
+    >>> text_of(Operand(2 * Parameter("n")), 1.5)
+    '2 * n = 1.5'
+    """
+    value: Any = operand.value
+    number_text = f"{number:.{10 if unit else 12}g}{unit}"
+    if not isinstance(value, Parameter):
+        return number_text
+    if value.formula != value.name:
+        return f"{value.formula} = {number_text}"
+    return f"{number_text} (parameter '{value.name}')"
+
+
+def is_single(xp: Any, numbers: Any) -> Any:
+    """Tell of numbers whether they have been rounded to single precision.
+
+    Parameters
+    ----------
+    xp : module
+        ``numpy`` or ``jax.numpy``.
+    numbers : array_like
+        As doubles.
+
+    Returns
+    -------
+    array_like of bool
+        False of short numbers, such as 1.5, which any precision has.
+
+    Examples
+    --------
+    >>> is_single(np, np.array([1.33, np.float32(1.33), 1.5]))
+    array([False,  True, False])
+    """
+    grains = numbers * 4096.0
+    rounded = xp.asarray(numbers).astype(np.float32)
+    return (rounded == numbers) & (grains != xp.floor(grains))

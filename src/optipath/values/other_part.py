@@ -1,0 +1,70 @@
+"""The other part of a complex index, where the two are parameters or numbers of their own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from optipath.values.use import Use
+
+_OTHER = {"n": "k", "k": "n"}
+
+
+def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) -> str:
+    """Say how the other part of a complex index is given; nothing where there is none.
+
+    Parameters
+    ----------
+    uses : iterable of Use
+        The numbers of a path.
+    name : str
+        The parameter that is the one part.
+    how : callable, optional
+        Writes down the name by which a parameter is given.
+
+    Returns
+    -------
+    str
+        Such as ``"give k by k1"``.
+    """
+    values = {use.owner: use.value for use in uses}
+    for owner, value in values.items():
+        place, _, part = owner.rpartition(".")
+        if isinstance(value, Parameter) and value.name == name and part in _OTHER:
+            other = _OTHER[part]
+            found = values.get(f"{place}.{other}")
+            if isinstance(found, Parameter):
+                return f"give {other} by {how(found.name)}"
+            if isinstance(found, (int, float)):
+                return f"{other} is {found:g} where the path is built; make it a parameter there"
+    return ""
+
+
+def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any) -> list[str]:
+    """Return sentences on a value; those on a complex one with how its other part is given.
+
+    Parameters
+    ----------
+    faults : iterable of str
+        What is wrong with the value.
+    uses : iterable of Use
+        The numbers of a path.
+    name : str
+        The parameter that the value was given for.
+    value : Any
+        What was given.
+
+    Returns
+    -------
+    list of str
+    """
+    several = isinstance(value, np.ndarray) and value.dtype.kind == "c"
+    is_complex = several or isinstance(value, (complex, np.complexfloating))
+    cure = other_part(uses, name) if is_complex else ""
+    return [f"{fault}; {cure}" if cure else fault for fault in faults]

@@ -1,0 +1,131 @@
+"""What a parameter is specified by, where texts with units stand for its numbers."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import ParameterError, shown
+from optipath.values.degrees import is_within_a_turn, warn_of_degrees
+from optipath.values.texts import numbers_for
+from optipath.values.units import dimension_of, parse_quantity, unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+def checked_name(name: Any) -> str:
+    """Return the name of a parameter.
+
+    Raises
+    ------
+    ParameterError
+        If it is no identifier.
+    """
+    if isinstance(name, str) and name.isidentifier():
+        return name
+    raise ParameterError(
+        f"parameter name {shown(name)} must be letters, digits and underscores, "
+        f"not starting with a digit"
+    )
+
+
+def read_specification(parameter: Any) -> dict[str, Any]:
+    """Return the unit, the limits and the words of a parameter, numbers in place of texts.
+
+    The unit is that of the first text that has one, where none is given. A default stays a text,
+    which may be a word.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        As it was given.
+
+    Returns
+    -------
+    dict of str to Any
+        The fields that are read.
+
+    Raises
+    ------
+    UnitError
+        If the unit is unknown.
+    ParameterError
+        With a sentence for each text that stands for no number.
+
+    Warns
+    -----
+    AngleWarning
+        If the default, a limit or a word is an angle beyond a whole turn, given as a plain number.
+    """
+    name, words = parameter.name, parameter.words
+    named = words if isinstance(words, dict) else {}
+    limits = {"minimum": parameter.minimum, "maximum": parameter.maximum}
+    unit = parameter.unit
+    if isinstance(unit, str) and not unit:
+        unit = _first_unit([parameter.default, *limits.values(), *named.values()])
+    dimension = dimension_of(unit)
+    faults: list[str] = []
+    places: dict[str, tuple[Any, str]] = {
+        f"the {end} of parameter '{name}'": (limits, end)
+        for end, limit in limits.items()
+        if type(limit) is not float
+    }
+    if named:
+        places |= {f"the word '{word}' of parameter '{name}'": (words, word) for word in named}
+    found = {"unit": unit, **limits, "words": {**named} if named else words}
+    parse = partial(parse_quantity, dimension=dimension)
+    for what, (several, key) in places.items():
+        try:
+            number = numbers_for(what, several[key], parse, ParameterError)
+        except ParameterError as fault:
+            faults += fault.faults
+        else:
+            (found if several is limits else found["words"])[key] = number
+    if faults:
+        raise ParameterError(*faults)
+    if dimension == "angle":
+        _warn_of(name, limits)
+        # Whoever binds a value looks at it where it stands.
+        if parameter.bound is not True:
+            _warn_of(name, _by_phrase(named))
+            if not is_within_a_turn(found["minimum"], found["maximum"]):
+                warn_of_degrees(f"parameter '{name}'", parameter.default)
+    return found
+
+
+def warn_where_it_stands(parameter: Any) -> None:
+    """Warn of limits and words of a parameter that is an angle since it stands for one.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        Without a unit, so that all its numbers are plain ones.
+
+    Warns
+    -----
+    AngleWarning
+        For each number beyond a whole turn.
+    """
+    _warn_of(parameter.name, {end: getattr(parameter, end) for end in ("minimum", "maximum")})
+    _warn_of(parameter.name, _by_phrase(parameter.words))
+
+
+def _warn_of(name: str, numbers: Mapping[str, Any]) -> None:
+    """Warn of each number beyond a whole turn, by what it is of an angle of this name."""
+    for what, number in numbers.items():
+        warn_of_degrees(f"the {what} of parameter '{name}'", number)
+
+
+def _by_phrase(words: Mapping[str, Any]) -> dict[str, Any]:
+    return {f"word '{word}'": number for word, number in words.items()}
+
+
+def _first_unit(values: list[Any]) -> str:
+    """Return the unit of the first text that has one; none where there is none."""
+    for value in values:
+        several = value if isinstance(value, (list, tuple)) else [value]
+        for text in several:
+            if isinstance(text, str) and (unit := unit_of(text)):
+                return unit
+    return ""

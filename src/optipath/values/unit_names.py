@@ -1,0 +1,70 @@
+"""How units are called elsewhere, so that who writes them so is told how they are called here."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from optipath.errors import did_you_mean
+from optipath.spelling import closest
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+_LENGTHS = {"nano": "nm", "micro": "um", "milli": "mm", "centi": "cm", "deci": "dm", "": "m"}
+_ANGLES = {"radian": "rad", "milliradian": "mrad", "arcminute": "arcmin", "arcsecond": "arcsec"}
+
+_SINGULAR = {
+    **{f"{prefix}{metre}": u for prefix, u in _LENGTHS.items() for metre in ("meter", "metre")},
+    **_ANGLES,
+    "degree": "deg",
+    "micron": "um",
+    "arc minute": "arcmin",
+    "arc second": "arcsec",
+}
+_SIGNS = {"°": "deg", "º": "deg", "'": "arcmin", '"': "arcsec", "µm": "um", "μm": "um", "µ": "um"}
+_NAMES = {**_SINGULAR, **{f"{name}s": unit for name, unit in _SINGULAR.items()}, **_SIGNS}
+_NAMES |= {"degs": "deg", "rads": "rad", "mic": "um", "mu": "um"}
+
+
+def usual_name(word: str) -> str:
+    """Return a unit as it is called here; the word itself where it has no other name.
+
+    Examples
+    --------
+    >>> usual_name("degrees/Millimeter"), usual_name("cm^-1"), usual_name("°"), usual_name("nm")
+    ('deg/mm', '1/cm', 'deg', 'nm')
+    """
+    for power in ("^-1", "**-1", "-1", "⁻¹"):
+        if word.endswith(power):
+            word = f"1/{word.removesuffix(power)}"
+    if word.startswith("per "):
+        word = f"1/{word.removeprefix('per ')}"
+    parts = word.replace(" per ", "/").split("/")
+    return "/".join(_NAMES.get(part.strip().lower(), part.strip()) for part in parts)
+
+
+def unit_meant(word: str, units: Collection[str], examples: Collection[str]) -> str:
+    """Return the cure for an unknown unit, ready to be put behind the fault.
+
+    Parameters
+    ----------
+    word : str
+        What was written.
+    units : collection of str
+        What could have been meant.
+    examples : collection of str
+        What is listed where nothing is near.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> unit_meant("degrees", ["deg", "rad"], ["deg"]), unit_meant("pints", ["deg"], ["deg"])
+    ("; did you mean 'deg'?", '; there are: deg')
+    """
+    name = usual_name(word)
+    if name in units:
+        return f"; did you mean '{name}'?"
+    return did_you_mean(word, units if closest(word, units) is not None else examples)

@@ -1,0 +1,149 @@
+"""Use: a value where it stands, and the check of what it may be there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import reduce
+from operator import and_
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ValueFault
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.parameters import Parameter
+from optipath.values.resolved import THERE
+from optipath.values.units import dimension_of
+from optipath.values.written_units import units_are_written
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.domains.domain import Domain
+    from optipath.values.resolved import Resolved
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """A value where it stands.
+
+    Attributes
+    ----------
+    owner : str
+        The node and the field, such as ``X1.incidence``.
+    value : Any
+        A number, an array, or a `Parameter`.
+    domain : Domain
+        Which values are allowed there.
+    checked : bool
+        Whether it is known that this one is.
+    """
+
+    owner: str
+    value: Any
+    domain: Domain
+    checked: bool = False
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the value is a parameter that is given when the plan runs."""
+        return isinstance(self.value, Parameter) and not self.value.bound
+
+    @property
+    def is_traced(self) -> bool:
+        """Whether the value is known, but to JAX alone, which traces it."""
+        value = self.value
+        known = value.default if isinstance(value, Parameter) and value.bound else value
+        return is_traced(known)
+
+    def batch_shape(self, numbers: Any) -> tuple[int, ...]:
+        """Return the shape of numbers for this place, the axes of one value left out."""
+        if type(numbers) is float:
+            return ()
+        if is_traced(numbers):
+            shape: tuple[int, ...] = numbers.shape
+        else:
+            try:
+                shape = as_given("", numbers).shape
+            except OptipathError:
+                return ()  # What is no array is a fault of its own.
+        return shape[: len(shape) - len(self.domain.tail)]
+
+    def known_shape(self) -> tuple[int, ...]:
+        """Return the batch shape of a value that is known."""
+        value = self.value
+        return self.batch_shape(value.default if isinstance(value, Parameter) else value)
+
+    def inside(self, resolved: Mapping[str, Resolved]) -> Any:
+        """Return for which paths a value that JAX traces is allowed; True for any other."""
+        value: Any = self.value
+        parameter = isinstance(value, Parameter)
+        numbers: Any = resolved[value.name].value if self.is_open else value
+        numbers = numbers.default if parameter and value.bound else numbers
+        if not is_traced(numbers):
+            return True
+        placed = value.placed(numbers) if parameter else numbers
+        found = [self.domain.allows(placed), *([value.allows(numbers)] if parameter else [])]
+        batch = len(self.batch_shape(numbers))
+        return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
+
+    def check(self) -> None:
+        """Check what is known of the value: all of it, or a parameter's unit and default.
+
+        Raises
+        ------
+        ValueFault
+            Naming the owner, the value and what is asked for.
+        """
+        if self.checked:
+            return
+        if not isinstance(self.value, Parameter):
+            self.domain.check(self.owner, self.value)
+            return
+        self.domain.check_parameter(self.owner, self.value)
+        unit, name = self.value.unit, self.value.name
+        if unit and dimension_of(unit) != self.domain.dimension:
+            raise ValueFault(
+                f"parameter '{name}' is in {unit}, but {self.owner} takes "
+                f"{self.domain.described()}; change its unit or where it is used"
+            )
+        self.value.check_place(self.owner, self.domain)
+        default = self.value.default
+        if type(default) is float:
+            # Whether a number is in the range was asked when the parameter was made.
+            self.check_given(default)
+        elif default is not None:
+            self.check_given(*self.value.resolve(default))
+
+    def check_given(
+        self, numbers: float | np.ndarray[Any, Any], present: np.ndarray[Any, Any] = THERE
+    ) -> None:
+        """Check numbers given for the parameter that stands here.
+
+        Parameters
+        ----------
+        numbers : float or ndarray
+            The values of the parameter.
+        present : ndarray, optional
+            Where an optional one is there at all.
+
+        Raises
+        ------
+        ValueFault
+            Naming the parameter, the place and the value.
+        """
+        value = self.value
+        if value.is_signed:
+            negative = value.scale < 0.0
+            placed = -numbers if negative else numbers
+            what = f"{self.owner}, as {value.formula}" if negative else self.owner
+            self.domain.check(f"parameter '{value.name}' (at {what})", placed)
+            return
+        placed = value.placed(numbers, self.domain.interval)
+        if not np.all(present):
+            placed = np.where(present, placed, 0.0)
+        # What arithmetic has made of a number is not what somebody has written.
+        with units_are_written():
+            what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
+            self.domain.check(what, placed)

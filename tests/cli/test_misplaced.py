@@ -1,0 +1,37 @@
+"""Words that stand where nothing takes them are told where they belong."""
+
+import shlex
+
+import pytest
+
+from optipath.cli import main
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        (
+            "run npgr026 --filter 30 deg",
+            "'deg' is cut off from its number; quote them: --filter '30 deg'",
+        ),
+        ("run npgr026 --filter=30 degrees", "quote them: --filter '30 deg'"),
+        ("run npgr026 --case 1 2", "give each case its own: --case 1 --case 2"),
+        ("run npgr026 --delta 30 malus", "'malus' belongs to no option; leave it out, or quote"),
+        ("show npgr026 malus", "'malus' belongs to no option; leave it out, or quote"),
+        ("run --case 8 npgr026", "write it at the end: optipath run PRESET --case ..."),
+        ("--json run npgr026", "write it at the end: optipath COMMAND --json ..."),
+        ("run --hepl", "option '--hepl' is unknown; did you mean '--help'?"),
+        ("run npgr026 -delta 30", "option '-delta' is unknown; did you mean '--delta'?"),
+        ("run npgr026 -delta=30", "option '-delta' is unknown; did you mean '--delta'?"),
+        ("run npgr026 --n1 0,17", "'0,17' is not a quantity; did you mean '0.17'?"),
+        (
+            "run npgr026 --delta '30,5 deg'",
+            "'30,5 deg' is not a quantity; did you mean '30.5 deg'?",
+        ),
+    ],
+)
+def test_a_word_without_a_place_is_told_what_it_was_meant_for(capsys, line, told):
+    assert main(shlex.split(line)) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("optipath: ")
+    assert told in error

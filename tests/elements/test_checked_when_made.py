@@ -1,0 +1,180 @@
+"""Constant values are checked when an element is made, in words that name class and field."""
+
+import copy
+import dataclasses
+import pickle
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.elements.vertices.vertex_domain import VerticesDomain
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: op.Detector("S0"), "Detector reads is 'S0'; there are: stokes, linear, intensity"),
+        (lambda: op.Polarizer("S0"), "Polarizer angle: axis 'S0' is unknown; there are: hor"),
+        (lambda: op.Attenuator(1.5), "Attenuator transmittance is 1.5; give a real fraction with"),
+        (lambda: op.Attenuator(50), "real fraction within 0 .. 1; did you mean 0.5?"),
+        (lambda: op.Attenuator("50 %"), "transmittance: '50 %' is in per cent; give a fraction"),
+        (lambda: op.BeamSplitter(30), "BeamSplitter reflectance is 30; .* did you mean 0.3?"),
+        (lambda: op.Depolarizer(-0.1), "Depolarizer depolarization is -0.1; give"),
+        (
+            lambda: op.Interface(1.5, 2.0),
+            "Interface incidence is 2 rad, which is 114.592 deg; give",
+        ),
+        (lambda: op.Interface(1.5, 56), "within 0 deg .. 90 deg; did you mean '56 deg' or np.rad"),
+        (lambda: op.Interface(1.5 - 2j, 0.1), "Interface index is .*: k > 0 absorbs"),
+        (lambda: op.Interface(np.nan, 0.1), "Interface index is nan; give a finite index"),
+        (
+            lambda: op.Interface("gold", 0.1),
+            "give n and k as numbers, such as Material\\(0.18, 3.4",
+        ),
+        (lambda: op.Source(-1.0), "Source intensity is -1; give a real number of 0 or more"),
+        (lambda: op.Source(stokes=[1, 1, 1, 0]), "Source stokes is .* by more than 100 %"),
+        (lambda: op.Retarder(None), "Retarder retardance must be a real angle, not None"),
+        (lambda: op.MuellerElement(np.eye(3)), "MuellerElement matrix must have shape"),
+        (lambda: op.Medium(-1.0), "Medium length is -1000 mm; give a real length of 0 mm or more"),
+        (lambda: op.LayerStack([1.5], 0.1), "LayerStack indices is .* give a list of two"),
+        (lambda: op.LayerStack([1.0, -1.5, 1], 0.1), "LayerStack indices\\[1\\] is -1.5; give"),
+        (lambda: op.Material("gold"), "Material n: 'gold' is no number; give n and k as numbers"),
+        (lambda: op.Material(0.2 + 3.4j), "Material n is complex; give n and k apart, such as"),
+        (lambda: op.Material(0.2, -3.4), "Material k is -3.4; give a real extinction coefficient"),
+        (
+            lambda: op.Attenuator(op.Parameter("t", 50)),
+            "'t' \\(at Attenuator transmittance\\) is 50",
+        ),
+        (lambda: op.Attenuator(op.Parameter("t", unit="deg")), "'t' is in deg, but Attenuator tra"),
+    ],
+)
+def test_a_value_that_cannot_be_is_refused_where_it_is_written(make, sentence):
+    with pytest.raises(op.ValueFault, match=sentence):
+        make()
+
+
+def test_all_faults_of_an_element_are_told_at_once():
+    with pytest.raises(op.ValueFault) as error:
+        op.Polarizer("up", transmittance=1.5, leakage=-1.0)
+    fields = ("Polarizer angle", "Polarizer transmittance", "Polarizer leakage")
+    assert [fault.startswith(f) for fault, f in zip(error.value.faults, fields, strict=True)]
+
+
+def test_an_element_of_ones_own_is_checked_by_its_class_name():
+    class Foil(op.Element):
+        share: op.Fraction
+
+        @staticmethod
+        def mueller_rows(xp, share):
+            del xp
+            return [[share * (row == column) for column in range(4)] for row in range(4)]
+
+    with pytest.raises(op.ValueFault, match=r"^Foil share is 30; .* did you mean 0\.3"):
+        Foil(30)
+    assert Foil("0.3") == Foil(0.3)
+
+
+def test_a_copy_with_another_value_is_checked_as_well():
+    polarizer = op.Polarizer(0.3)
+    with pytest.raises(op.ValueFault, match="Polarizer leakage is 2"):
+        dataclasses.replace(polarizer, leakage=2)
+    assert copy.deepcopy(polarizer) == pickle.loads(pickle.dumps(polarizer)) == polarizer
+
+
+def test_a_bound_value_is_named_by_its_parameter():
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("grey", op.Attenuator(op.Parameter("t")))
+    path["grey"] >> path.add("eye", op.Detector())
+    with pytest.raises(op.ParameterError, match=r"^parameter 't' \(at grey.transmittance\) is 50"):
+        path.bind(t=50)
+
+
+def test_a_file_tells_all_faults_at_once_by_the_names_of_its_nodes(tmp_path):
+    file = tmp_path / "faulty.toml"
+    file.write_text(
+        """
+        format = 1
+        [elements.lamp]
+        kind = "source"
+        intensity = -1
+        [elements.grey]
+        kind = "attenuator"
+        transmittance = 50
+        [elements.gold]
+        kind = "interface"
+        index = { n = -0.2, k = 3 }
+        incidence = "95 deg"
+        [elements.eye]
+        kind = "detector"
+        [[links]]
+        from = "lamp.out"
+        to = "grey.in"
+        [[links]]
+        from = "grey.out"
+        to = "gold.in"
+        [[links]]
+        from = "gold.reflected"
+        to = "eye.in"
+        """
+    )
+    with pytest.raises(op.PathError) as error:
+        op.load_preset(file)
+    places = ("lamp.intensity", "grey.transmittance", "gold.index.n", "gold.incidence")
+    found = [
+        fault.partition(" is ")[0].removeprefix("faulty.toml: ") for fault in error.value.faults
+    ]
+    assert found == [*places]
+    assert "radians" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: op.Interface((0.2, 3.4), 0.1), r"Material\(0.2, 3.4\) or 0.2\+3.4j .* np.array"),
+        (lambda: op.Interface([0.2, 3.4], 0.1), r"Material\(0.2, 3.4\) or 0.2\+3.4j .* np.array"),
+        (lambda: op.LayerStack([1.0, [0.2, 3.4]], 0.1), r"LayerStack indices\[1\] is \[0.2, 3.4\]"),
+        (lambda: op.Mirror([-0.9, 0.1]), r"write complex\(-0.9, 0.1\) for the one"),
+        (lambda: op.LayerStack([1.0, (0.2, 3.4)], 0.1), r"LayerStack indices\[1\] is \(0.2, 3.4\)"),
+        (lambda: op.Mirror((-0.9, 0.1)), r"write complex\(-0.9, 0.1\) for the one"),
+        (lambda: op.fresnel_reflection((0.2, 3.4), 0.6, 0.8), "index is .* may be n and k"),
+        (lambda: op.Source((1, 0, 0, 0)), r"Source intensity .* give stokes=\(1, 0, 0, 0\)"),
+        (lambda: op.Source([1, 0.6, 0, 0.3]), r"give stokes=\[1, 0.6, 0, 0.3\]"),
+        (lambda: op.LayerStack(1.5, 0.1), r"indices is 1.5; give a list of two .* \[1, 1.5, 1.33"),
+    ],
+)
+def test_what_may_mean_two_things_is_asked(make, sentence):
+    with pytest.raises(op.ValueFault, match=sentence):
+        make()
+
+
+def test_a_pair_that_is_given_for_an_index_is_asked_about_as_well():
+    path = op.load_preset("npgr026")
+    slab = op.Interface(op.Parameter("m", 1.5), 0.1)
+    one = op.PathGraph()
+    one.add("lamp", op.Source()) >> one.add("slab", slab) >> one.add("eye", op.Detector())
+    for give in (one.trace, one.bind):
+        for pair in ((0.2, 3.4), [0.2, 3.4]):
+            with pytest.raises(op.ParameterError, match=r"'m' \(at slab.index\) is .0.2, 3.4."):
+                give(m=pair)
+    assert one.trace(m=np.array([1.5, 1.6])).stokes.shape == (2, 4)
+    # Beside a k of its own, n is but one number.
+    assert path.trace(n1=(1.5, 1.6)).stokes.shape == path.trace(n1=[1.5, 1.6]).stokes.shape
+
+
+def test_several_paths_are_given_by_arrays_and_lists():
+    assert op.Interface([1.5, 1.6, 1.7], 0.1).index.shape == (3,)
+    assert op.Interface(np.array([0.2, 3.4]), 0.1).index.shape == (2,)
+    assert op.Source([1.0, 2.0, 3.0, 4.0]).intensity.shape == (4,)
+    assert op.Source(np.array([1.0, 0.0, 0.0, 0.0])).intensity.shape == (4,)
+
+
+def test_the_vertices_of_a_chain_are_looked_at_once(monkeypatch):
+    seen = []
+    check = VerticesDomain.check
+    monkeypatch.setattr(
+        VerticesDomain, "check", lambda *given: seen.append(given[1]) or check(*given)
+    )
+    points = np.cumsum(np.random.default_rng(1).normal(size=(5, 6, 3)), axis=1)
+    op.path_from_vertices(points, [1.5] * 4)
+    assert seen == ["vertex1.vertices"]

@@ -1,0 +1,487 @@
+"""Elements of a user's own: what they may compute with, what is looked at, and what is told."""
+
+import math
+import re
+import warnings
+from importlib.util import find_spec
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.structures import FULL
+from paths import chain
+
+STATE = [1.0, 0.5, 0.4, 0.3]
+NO_JAX = pytest.mark.skipif(find_spec("jax") is None, reason="an extra")
+ENGINES = ["auto", "numpy", "numba", pytest.param("jax", marks=NO_JAX)]
+EYE = ((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1))
+GIVEN = [0.3, np.linspace(0.1, 1.0, 3), np.linspace(0.1, 1.0, 3000)]
+
+
+class Phase(op.Element):
+    """A retarder, by the complex amplitudes that it lets through."""
+
+    delta: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, delta):
+        p, q = xp.exp(0.5j * delta), xp.exp(-0.5j * delta)
+        even, odd = p * p.conjugate(), xp.sqrt(-1.0 + 0.0j) * xp.sin(1j * delta) * 0.0
+        c, s = 0.5 * (p / q + q / p), (p / q - q / p) / 2j
+        return (even, odd, 0, 0), (odd, even, 0, 0), (0, 0, c, -s), (0, 0, s, c)
+
+
+class Array(op.Element):
+    share: op.Fraction = 0.5
+
+    @staticmethod
+    def mueller_rows(xp, share):
+        return np.array([[1, 0, 0, 0], [0, share, 0, 0], [0, 0, share, 0], [0, 0, 0, share]])
+
+
+class OneMatrix(op.Element):
+    share: op.Fraction = 0.5
+
+    @staticmethod
+    def mueller_rows(xp, share):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", PendingDeprecationWarning)
+            return np.matrix(np.diag([1.0, 0.5, 0.5, 0.5]))
+
+
+class Branch(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return EYE if angle > 0.0 else [[0] * 4] * 4
+
+
+class Maths(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        c = math.cos(angle)
+        return (1, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
+
+
+class Misspelt(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return (xp.coss(angle), 0, 0, 0), *EYE[1:]
+
+
+class Divides(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return (1 / 0, 0, 0, 0), *EYE[1:]
+
+
+class ThreeRows(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return EYE[:3]
+
+
+class Words(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return ("1", 0, 0, 0), *EYE[1:]
+
+
+class Imaginary(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return (1, 0, 0, 0), (0, xp.exp(1j * angle), 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)
+
+
+class Missing(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return {}["rows"]
+
+
+class WrongCouplings(op.Element):
+    angle: op.Angle = 0.0
+
+    def couplings(self):
+        return self.angel
+
+
+class NoCouplings(op.Element):
+    angle: op.Angle = 0.0
+
+    def couplings(self):
+        return [1.5]
+
+
+class Amplifier(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        return (3, 0, 0, 0), (0, 3, 0, 0), (0, 0, 4, 0), (0, 0, 0, 5)
+
+
+class Growing(op.Element):
+    share: float = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, share):
+        return [[xp.exp(share) * (row == column) for column in range(4)] for row in range(4)]
+
+
+class Measured(op.Element):
+    physical: ClassVar[bool] = False
+    angle: op.Angle = 0.0
+    mueller_rows = Amplifier.mueller_rows
+
+
+class OwnKernel(op.Element):
+    share: float = 0.5
+
+    def couplings(self):
+        def factory(_):
+            return lambda share: [share * (n % 5 == 0) for n in range(16)]
+
+        return (
+            op.Coupling("in", "out", (op.Operation(Kernel("own", FULL, factory), (self.share,)),)),
+        )
+
+
+class BrokenKernel(op.Element):
+    share: float = 0.5
+
+    def couplings(self):
+        def factory(_):
+            return lambda share: [share.no_such_thing] * 16
+
+        return (
+            op.Coupling("in", "out", (op.Operation(Kernel("own", FULL, factory), (self.share,)),)),
+        )
+
+
+def asked(element_class, value, engine="auto"):
+    """What a path gives for one value, known beforehand and given."""
+    known = op.Composer(engine=engine).compose(chain([element_class(value)], STATE))
+    name = next(iter(element_class.domains()))
+    path = chain([element_class(op.Parameter("x"))], STATE)
+    given = op.Composer(engine=engine).compose(path)
+    assert name
+    return known.run().stokes, given.run(x=value).stokes
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("value", GIVEN)
+def test_complex_numbers_inside_rows_work_for_one_path_as_for_arrays(value, engine):
+    expected = chain([op.Retarder(value)], STATE).trace().stokes
+    for found in asked(Phase, value, engine):
+        np.testing.assert_allclose(found, expected, atol=1e-15)
+
+
+def test_every_run_of_complex_rows_gives_the_same():
+    path = chain([Phase(op.Parameter("x"))], STATE)
+    first, *others = [path.trace(x=0.3).stokes for _ in range(8)]
+    np.testing.assert_array_equal(others, [first] * 7)
+
+
+def test_matrices_and_certificates_know_complex_rows():
+    path = chain([Phase(op.Parameter("x"))], STATE)
+    expected = op.Retarder(0.3).mueller().matrix
+    np.testing.assert_allclose(path.mueller(x=0.3).matrix, expected, atol=1e-15)
+    np.testing.assert_allclose(Phase(0.3).mueller().matrix, expected, atol=1e-15)
+
+
+@pytest.mark.parametrize("engine", ["auto", "numpy", "numba"])
+@pytest.mark.parametrize("element_class", [Array, OneMatrix])
+def test_rows_may_be_a_matrix_of_numpy_for_one_path(element_class, engine):
+    for found in asked(element_class, 0.5, engine):
+        np.testing.assert_allclose(found, [1.0, 0.25, 0.2, 0.15])
+
+
+@pytest.mark.parametrize(
+    ("element_class", "expected"),
+    [
+        (Array, "Array raises ValueError: .*return four rows, tuples of four entries each"),
+        (Branch, r"Branch raises ValueError: .*choose by xp.where\(condition, yes, no\) in place"),
+        (Maths, r"Maths raises TypeError: .*call xp.cos, xp.sqrt, ... in place of the functions"),
+        (Imaginary, r"Imaginary gives the complex entry \[1\]\[1\]"),
+    ],
+)
+def test_what_is_not_for_arrays_is_told_with_its_class_and_the_cure(element_class, expected):
+    for path, given in (
+        (chain([element_class(GIVEN[1])], STATE), {}),
+        (chain([element_class(op.Parameter("x"))], STATE), {"x": GIVEN[1]}),
+    ):
+        with pytest.raises(op.PathError, match=f"^mueller_rows of element class {expected}"):
+            path.trace(**given)
+
+
+@pytest.mark.parametrize("element_class", [Branch, Maths])
+def test_what_is_not_for_values_that_jax_traces_is_told_with_its_class(element_class):
+    pytest.importorskip("jax")
+    plan = op.Composer(engine="jax").compose(chain([element_class(op.Parameter("x"))]))
+    with pytest.raises(
+        op.PathError, match=rf"class {element_class.__name__} raises .*; (choose|call)"
+    ):
+        plan.run(x=0.3)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("value", GIVEN)
+@pytest.mark.parametrize(
+    ("element_class", "expected", "cause"),
+    [
+        (Misspelt, "calls xp.coss, which does not exist; did you mean 'cos'", AttributeError),
+        (Divides, "raises ZeroDivisionError: division by zero", ZeroDivisionError),
+        (ThreeRows, "must return four rows of four entries, not", None),
+        (Words, "gives the entry '1'; give numbers", None),
+        (Missing, "raises KeyError: 'rows'", KeyError),
+    ],
+)
+def test_whatever_rows_raise_is_an_error_of_the_library(
+    element_class, expected, cause, value, engine
+):
+    what = f"mueller_rows of element class {element_class.__name__} {expected}"
+    for element, given in (
+        (element_class(value), {}),
+        (element_class(op.Parameter("x")), {"x": value}),
+    ):
+        with pytest.raises(op.PathError, match=what) as told:
+            op.Composer(engine=engine).compose(chain([element])).run(**given)
+        assert isinstance(told.value.__cause__, cause or type(None))
+
+
+@pytest.mark.parametrize(
+    ("element_class", "expected"),
+    [
+        (WrongCouplings, r"couplings\(\) of element class WrongCouplings raises AttributeError: "),
+        (
+            NoCouplings,
+            r"couplings\(\) of element class NoCouplings gives 1.5; return a tuple of op",
+        ),
+        (BrokenKernel, "kernel 'own' raises AttributeError: .*no_such_thing"),
+    ],
+)
+def test_whatever_couplings_and_their_kernels_raise_is_an_error_of_the_library(
+    element_class, expected
+):
+    for act in (lambda: chain([element_class()]).trace(), lambda: element_class().mueller()):
+        with pytest.raises(op.PathError, match=expected):
+            act()
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, MemoryError])
+def test_an_interruption_stays_what_it_is(error):
+    class Interrupted(op.Element):
+        angle: op.Angle = 0.0
+
+        @staticmethod
+        def mueller_rows(xp, angle):
+            raise error
+
+        def couplings(self):
+            return super().couplings()
+
+    with pytest.raises(error):
+        chain([Interrupted(0.3)]).trace()
+
+
+def test_an_own_element_that_amplifies_is_found_when_its_path_is_checked():
+    with pytest.raises(op.PathError) as told:
+        chain([Amplifier(0.3)]).check()
+    for part in (
+        "'e0'",
+        "class Amplifier",
+        "angle=0.3",
+        "(3, 0, 0, 0)",
+        "physical: ClassVar[bool]",
+    ):
+        assert part in str(told.value)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("value", GIVEN)
+def test_an_own_element_that_amplifies_is_found_with_its_first_values(value, engine):
+    plan = op.Composer(engine=engine).compose(chain([Amplifier(op.Parameter("x"))]))
+    ask = [lambda: plan.run(x=value), lambda: plan.mueller(x=value)]
+    for act in ask if engine == "jax" else [*ask, lambda: list(plan.stream(100, x=value))]:
+        with pytest.raises(
+            op.ParameterError, match=r"^at x = .*: 'e0' \(element class Amplifier\)"
+        ):
+            act()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_the_first_and_the_last_path_of_an_array_are_looked_at(engine):
+    plan = op.Composer(engine=engine).compose(chain([Growing(op.Parameter("x"))]))
+    plan.run(x=np.linspace(-1.0, 0.0, 1000))
+    with pytest.raises(op.ParameterError, match=r"at x = 0\.1: 'e0'"):
+        plan.run(x=np.linspace(-50.0, 0.1, 1001))
+
+
+def test_every_known_value_of_an_own_element_is_looked_at():
+    shares = np.full(1000, -0.1)
+    shares[567] = 0.7
+    with pytest.raises(op.PathError, match=r"makes light up to 2\.01375 times as bright"):
+        chain([Growing(shares)]).check()
+
+
+def test_a_kernel_of_ones_own_is_looked_at():
+    assert chain([OwnKernel(0.5)]).trace().intensity == 0.5
+    with pytest.raises(op.PathError, match=r"class OwnKernel, .* 2 times as bright"):
+        chain([OwnKernel(2.0)]).check()
+    with pytest.raises(op.ParameterError, match=r"at x = 2: .*class OwnKernel.* 2 times as bright"):
+        chain([OwnKernel(op.Parameter("x"))]).trace(x=2.0)
+
+
+def test_a_class_that_says_physical_is_false_is_taken_as_it_is():
+    np.testing.assert_allclose(chain([Measured(0.3)], STATE).trace().stokes, [3.0, 1.5, 1.6, 1.5])
+    light = chain([Measured(op.Parameter("x"))], STATE).trace(x=GIVEN[2])
+    np.testing.assert_allclose(light.stokes, np.tile([3.0, 1.5, 1.6, 1.5], (3000, 1)))
+
+
+def test_values_that_jax_traces_are_not_looked_at():
+    jax = pytest.importorskip("jax")
+    plan = op.Composer(dtype="float32").compose(chain([Amplifier(op.Parameter("x"))], STATE))
+    found = jax.jit(lambda x: plan.run(x=x).stokes)(0.3)
+    np.testing.assert_allclose(found, [3.0, 1.5, 1.6, 1.5], rtol=1e-6)
+
+
+def test_the_elements_of_the_library_are_not_looked_at():
+    assert chain([op.Polarizer(op.Parameter("x"))]).compose().own_ways == ()
+    assert len(chain([Growing(op.Parameter("x"))]).compose().own_ways) == 1
+
+
+@pytest.mark.parametrize(
+    ("name", "written"),
+    [("tan", "xp.sin(x) / xp.cos(x)"), ("abs", "xp.absolute(x)"), ("arctan2", "xp.atan2(y, x)")],
+)
+def test_what_xp_lacks_is_written_by_what_it_has(name, written):
+    class Lacking(op.Element):
+        angle: op.Angle = 0.3
+
+        @staticmethod
+        def mueller_rows(xp, angle):
+            return getattr(xp, name)(angle)
+
+    with pytest.raises(op.PathError, match=re.escape(f"does not exist; write {written}")):
+        Lacking().mueller()
+
+
+def test_rows_that_take_self_are_told_when_the_class_is_made():
+    with pytest.raises(op.PathError, match="mueller_rows of element class Own takes self; put @st"):
+
+        class Own(op.Element):
+            angle: op.Angle = 0.3
+
+            def mueller_rows(self, xp, angle):
+                return xp, angle
+
+
+class InPlace(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        angle += 1.0
+        c = xp.cos(angle)
+        return (1, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
+
+
+def test_arguments_are_the_callers_and_cannot_be_written_into():
+    path = op.Source(stokes=[1, 1, 0, 0]) >> InPlace(op.Parameter("a")) >> op.Detector()
+    angles = np.zeros(100)
+    with pytest.raises(op.PathError, match=r"InPlace raises .* a = a \+ 1, in place of a \+= 1"):
+        path.trace(a=angles)
+    assert not angles.any()
+    assert pytest.approx(math.cos(1.0)) == path.trace(a=0.0).S1
+
+
+class Rounded(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        c = 0.5 + 0 * round(angle)
+        return (c, 0, 0, 0), (0, c, 0, 0), (0, 0, c, 0), (0, 0, 0, c)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "auto"])
+def test_one_path_is_given_plain_numbers(engine):
+    path = op.Source() >> Rounded(op.Parameter("a")) >> op.Detector()
+    plan = op.Composer(engine=engine).compose(path)
+    for angle in (0.3, np.float64(0.3), np.array(0.3)):
+        assert plan.run(a=angle).S0 == 0.5
+
+
+class Longer(op.Element):
+    angle: op.Angle = 0.0
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        one = np.ones(3)
+        return (1, 0, 0, 0), (0, one, 0, 0), (0, 0, one, 0), (0, 0, 0, one)
+
+
+def test_entries_of_another_length_than_the_paths_are_refused():
+    path = op.Source() >> Longer(op.Parameter("a")) >> op.Detector()
+    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for one path; compute each"):
+        path.trace(a=0.1)
+    with pytest.raises(op.PathError, match=r"an entry of shape \(3,\) for paths of shape \(5,\)"):
+        path.trace(a=np.zeros(5))
+    with pytest.raises(op.PathError, match="for one path"):
+        Longer().mueller()
+
+
+class Gain(op.Element):
+    """Amplifies, circular light most."""
+
+    circular: float = 5.0
+
+    @staticmethod
+    def mueller_rows(xp, circular):
+        return (3, 0, 0, 0), (0, 3, 0, 0), (0, 0, 3, 0), (0, 0, 0, circular)
+
+
+class DeclaredGain(Gain):
+    """One that says so."""
+
+    physical: ClassVar[bool] = False
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda gain: gain @ op.Light(STATE),
+        lambda gain: gain @ op.Polarizer(),
+        lambda gain: op.Polarizer() @ gain,
+        lambda gain: gain.mueller(),
+    ],
+)
+@pytest.mark.parametrize("circular", [5.0, [5.0, 3.0], op.Parameter("c", 5.0, bound=True)])
+def test_what_no_light_can_do_is_refused_of_an_element_alone_too(use, circular):
+    with pytest.raises(op.PathError, match=r"class Gain.* is unphysical.*physical.*= False"):
+        use(Gain(circular))
+    use(DeclaredGain(circular))
+
+
+def test_a_measured_matrix_acts_on_light_whatever_it_is():
+    light = op.Mueller(np.diag([3.0, 3.0, 3.0, 5.0])) @ op.Light(STATE)
+    np.testing.assert_allclose(light.stokes, [3.0, 1.5, 1.2, 1.5])

@@ -1,0 +1,141 @@
+"""Light and Mueller matrices in the conventions of others: the maps themselves.
+
+What the software computes is held in tests/peers.
+"""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.light.conventions import CONVENTIONS, changed_delta
+from random_matrices import jones, of_jones
+
+STOKES = np.array([[2.0, 0.7, -0.4, 1.1], [1.0, 0.0, 0.0, -1.0]])
+every_convention = pytest.mark.parametrize("name", sorted(CONVENTIONS))
+
+
+def test_the_signs_are_those_of_the_page():
+    # docs/other-software.md
+    found = {name: op.Light([2.0, 1.0, 1.0, 1.0]).to(name) for name in CONVENTIONS}
+    expected = {
+        "mitsuba": [2, 1, 1, -1],
+        "hecht": [2, 1, 1, -1],
+        "py_pol": [2, 1, 1, -1],
+        "ellipsometry": [2, -1, -1, -1],
+        "pypolar": [2, -1, -1, -1],
+        "pyelli": [2, -1, -1, 1],
+        "scatmech": [2, 1, 1, 1],
+        "tmm": [2, 1, -1, -1],
+    }
+    assert {name: stokes.tolist() for name, stokes in found.items()} == expected
+
+
+@every_convention
+def test_light_comes_back_as_it_was(name):
+    light = op.Light(STOKES, op.Frame().turned(0.3))
+    assert op.Light.from_(name, light.to(name), light.frame) == light
+
+
+def test_faint_light_is_taken_with_its_exponent():
+    light = op.Light.from_("hecht", [1.0, 0.6, 0.0, 0.8], exponent=-5000)
+    assert light == op.Light([1.0, 0.6, 0.0, -0.8], exponent=-5000)
+
+
+def test_what_no_light_can_be_is_refused_unless_it_is_measured_noise():
+    noisy = [1.0, 0.9, 0.0, 0.6]
+    with pytest.raises(op.OptipathError, match="physical=False"):
+        op.Light.from_("mitsuba", noisy)
+    light = op.Light.from_("mitsuba", noisy, physical=False)
+    np.testing.assert_array_equal(light.to("mitsuba"), noisy)
+
+
+def test_an_undefined_delta_stays_undefined():
+    assert np.isnan(changed_delta("tmm", np.array([np.nan]))).all()
+    assert np.isnan(changed_delta("scatmech", np.array([np.nan]))).all()
+
+
+@every_convention
+def test_a_matrix_comes_back_as_it_was(name):
+    frames = op.Frame().turned(0.3), op.Frame().turned(-0.2)
+    matrix = op.Mueller(of_jones(jones(np.random.default_rng(1))), *frames)
+    assert op.Mueller.from_(name, matrix.to(name), *frames) == matrix
+
+
+@every_convention
+def test_matrices_act_on_light_and_on_each_other_in_every_convention(name):
+    rng = np.random.default_rng(2)
+    one, two = (op.Mueller(of_jones(jones(rng))) for _ in range(2))
+    light = op.Light(STOKES)
+    apart = two.to(name) @ one.to(name)
+    np.testing.assert_allclose((two @ one).to(name), apart, rtol=0, atol=1e-13)
+    after = light.to(name) @ apart.T
+    np.testing.assert_allclose((two @ one @ light).to(name), after, rtol=0, atol=1e-12)
+
+
+def test_a_name_that_there_is_not_is_refused_with_the_nearest_one():
+    light, matrix = op.Light([1.0, 0.0, 0.0, 0.0]), op.Polarizer(0.1).mueller()
+    for act in (
+        light.to,
+        matrix.to,
+        light.ellipsometric_angles,
+        lambda name: op.Light.from_(name, [1.0, 0.0, 0.0, 0.0]),
+        lambda name: op.Mueller.from_(name, np.eye(4)),
+    ):
+        with pytest.raises(
+            op.OptipathError, match="convention 'mitsuba3' is unknown; did you mean 'mitsuba'"
+        ):
+            act("mitsuba3")
+        with pytest.raises(op.OptipathError, match="convention None is unknown"):
+            act(None)
+
+
+def test_what_has_no_delta_is_refused_with_those_that_have():
+    with pytest.raises(op.OptipathError, match="'hecht' has no psi and Delta; there are: ellips"):
+        op.Light([1.0, 0.0, 1.0, 0.0]).ellipsometric_angles("hecht")
+
+
+def test_stokes_vectors_of_another_shape_are_refused():
+    with pytest.raises(op.OptipathError, match=r"of shape \(\.\.\., 4\)"):
+        op.Light.from_("hecht", [1.0, 0.0, 0.0])
+    with pytest.raises(op.OptipathError, match=r"of shape \(\.\.\., 4, 4\)"):
+        op.Mueller.from_("hecht", np.eye(3))
+
+
+def test_no_zero_becomes_minus_zero():
+    light = op.Light([1.0, 0.0, 0.0, 0.0])
+    assert not np.signbit(light.to("ellipsometry")).any()
+    assert not np.signbit(op.Polarizer(0.0).mueller().to("mitsuba")).any()
+
+
+def test_single_precision_stays_single():
+    light = op.Light(STOKES.astype(np.float32))
+    assert light.to("mitsuba").dtype == np.float32
+    assert op.Light.from_("mitsuba", light.to("mitsuba")).stokes.dtype == np.float32
+    assert op.Mueller(np.eye(4, dtype=np.float32)).to("tmm").dtype == np.float32
+
+
+def test_what_is_given_is_not_changed():
+    light = op.Light(STOKES)
+    light.to("scatmech")[...] = 0.0
+    assert light == op.Light(STOKES)
+
+
+@pytest.mark.parametrize("delta", [-np.pi / 2, -0.3, 0.0, 0.3, np.pi / 2, np.pi])
+def test_delta_of_tmm_is_180_degrees_minus_ours(delta):
+    # The phase of E_p over E_s is Delta in exp(+i w t), and so -Delta in our field.
+    light = op.Light([1.0, 0.0, np.cos(delta), -np.sin(delta)])
+    psi, found = light.ellipsometric_angles("tmm")
+    assert psi == pytest.approx(np.pi / 4)
+    assert found == pytest.approx(np.angle(-np.exp(-1j * delta)))
+    assert -np.pi < found <= np.pi
+
+
+def test_jax_takes_slopes_through_a_convention():
+    jax = pytest.importorskip("jax")
+
+    def s3(x):
+        light = op.Light.from_("hecht", jax.numpy.stack([1.0 + 0 * x, 0 * x, 0 * x, 0.5 * x]))
+        return light.to("mitsuba")[3] + 2.0 * light.stokes[3]
+
+    # theirs + 2 * (minus theirs)
+    assert jax.grad(s3)(0.3) == pytest.approx(-0.5)

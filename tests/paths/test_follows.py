@@ -1,0 +1,176 @@
+"""op.FOLLOWS: a boundary takes its medium in front and its angle over from the one before."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.lab.accuracy.path_reference import exact_lights
+
+SECOND = op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)
+
+
+def stack_of(*boundaries, loops="sum"):
+    """Boundaries one behind the other; with loops, light goes to and fro between them."""
+    path = op.PathGraph(loops=loops)
+    path.add("lamp", op.Source())
+    light = "lamp.out"
+    for number, boundary in enumerate(boundaries):
+        path.add(f"b{number}", boundary)
+        path.connect(light, f"b{number}.in")
+        if number and loops == "sum":
+            path.connect(f"b{number}.reflected", f"b{number - 1}.back")
+        light = f"b{number}.transmitted"
+    path.add("T", op.Detector())
+    path.connect(light, "T.in")
+    return path
+
+
+def faults_of(path):
+    with pytest.raises(op.PathError) as error:
+        path.check()
+    return error.value.faults
+
+
+def test_chains_in_loops_take_over_from_face_to_face():
+    indices = [1.5, 1.2, 1.7, 1.0]
+    faces = [op.Interface(n, op.FOLLOWS, outside=op.FOLLOWS) for n in indices[1:]]
+    path = stack_of(op.Interface(indices[0], 0.7), *faces)
+    whole = op.LayerStack([1.0, *indices], 0.7).mueller("in", "transmitted").matrix[:, 0]
+    np.testing.assert_allclose(path.trace().stokes, whole, rtol=0, atol=1e-15)
+    exact = [float(part) for part in exact_lights(path)["T"].stokes]
+    np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=1e-15)
+
+
+def test_it_is_what_one_would_write():
+    n, theta = op.Parameter("n"), op.Parameter("theta")
+    written = op.Interface(1.0, theta, outside=n, incidence_in=1.0)
+    paths = [stack_of(op.Interface(n, theta), back) for back in (SECOND, written)]
+    given = {"n": np.array([1.3, 1.5]), "theta": 0.6}
+    first, second = (path.trace(**given).stokes for path in paths)
+    assert np.array_equal(first, second)
+    assert paths[0].compose().whole == paths[1].compose().whole
+    assert np.array_equal(paths[0].bind(n=1.3, theta=0.6).trace().stokes, first[0])
+
+
+def test_a_medium_is_taken_over_through_what_light_goes_straight_through():
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    path.add("first", op.Interface(1.5, 0.4, outside=1.33))
+    path.add("filter", op.Polarizer(0.2))
+    path.add("second", op.Interface(1.5, 0.4, outside=op.FOLLOWS))
+    path.add("eye", op.Detector())
+    path["lamp"] >> path["first"] >> path["filter"] >> path["second"] >> path["eye"]
+    written = op.PathGraph()
+    for name, element in path.graph.nodes(data="element"):
+        written.add(name, op.Interface(1.5, 0.4, outside=1.33) if name == "second" else element)
+    written["lamp"] >> written["first"] >> written["filter"] >> written["second"] >> written["eye"]
+    assert np.array_equal(path.trace().stokes, written.trace().stokes)
+
+
+def test_a_stack_and_a_vertex_take_over_too():
+    stack = stack_of(op.Interface(1.5, 0.7), op.LayerStack([op.FOLLOWS, 1.2, 1.0], op.FOLLOWS))
+    whole = op.LayerStack([1.0, 1.5, 1.2, 1.0], 0.7).mueller("in", "transmitted").matrix[:, 0]
+    np.testing.assert_allclose(stack.trace().stokes, whole, rtol=0, atol=1e-15)
+    exact = [float(part) for part in exact_lights(stack)["T"].stokes]
+    np.testing.assert_allclose(stack.trace().stokes, exact, rtol=0, atol=1e-15)
+    points = [[0, 0, 0], [0, 0, 3], [0, 2, 3], [1, 2, 3]]
+
+    def vertices(outside):
+        path = op.PathGraph()
+        path.add("lamp", op.Source())
+        path.add("a", op.SpecularVertex(1.5, points, 1, outside=1.2))
+        path.add("b", op.SpecularVertex(1.5, points, 2, outside=outside))
+        path.add("eye", op.Detector())
+        path["lamp"] >> path["a"] >> path["b"] >> path["eye"]
+        return path.trace().stokes
+
+    assert np.array_equal(vertices(op.FOLLOWS), vertices(1.2))
+
+
+@pytest.mark.parametrize(
+    ("boundaries", "words"),
+    [
+        (
+            [SECOND],
+            [
+                "'b0' takes its outside over (FOLLOWS), but no boundary before it sends",
+                "'b0' takes its incidence over (FOLLOWS), but no parallel boundary before",
+            ],
+        ),
+        ([op.Interface(1.5, op.FOLLOWS)], ["'b0' takes its incidence over (FOLLOWS), but no"]),
+        (
+            [op.Interface(1.5, 0.3), op.Interface(1.0, op.FOLLOWS, 1.5, parallel=False)],
+            ["is not parallel to what is before it; give the angle"],
+        ),
+        (
+            [op.Interface(1.5, 0.3), op.Interface(1.0, op.FOLLOWS, 1.5, incidence_in=1.0)],
+            ["has an incidence_in of its own, which comes with it; leave that out"],
+        ),
+        ([op.Interface(1.5 + 1j, 0.3), SECOND], ["the medium before 'b1.in' absorbs"]),
+        ([op.Interface(1.5, 0.3, outside=op.FOLLOWS), SECOND], ["'b0' takes its outside over"]),
+    ],
+)
+def test_where_nothing_can_be_taken_over_a_fault_says_so_once(boundaries, words):
+    faults = faults_of(stack_of(*boundaries, loops="refuse"))
+    assert len(faults) == len(words)
+    assert all(word in fault for word, fault in zip(words, faults, strict=True))
+
+
+def test_what_cannot_be_taken_over_is_refused_when_the_element_is_made():
+    with pytest.raises(op.ValueFault, match="index must be an index of refraction"):
+        op.Interface(op.FOLLOWS, 0.3)
+
+
+def test_light_of_several_media_gives_none():
+    path = op.PathGraph()
+    path.add("both", op.Combiner())
+    for index in (1.5, 1.6):
+        path.add(f"lamp {index:.0%}", op.Source())
+        path.add(f"glass {index:.0%}", op.Interface(index, 0.3))
+        path.connect(f"lamp {index:.0%}.out", f"glass {index:.0%}.in")
+        path.connect(f"glass {index:.0%}.transmitted", "both.in")
+    path.add("face", SECOND)
+    path.add("eye", op.Detector())
+    path.connect("both.out", "face.in")
+    path.connect("face.transmitted", "eye.in")
+    (fault,) = faults_of(path)
+    assert "light of several media comes to 'face.in'" in fault
+
+
+def test_boundaries_that_only_take_over_from_each_other_have_nothing():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source())
+    path.add("half", op.BeamSplitter())
+    path.add("a", op.Interface(1.0, 0.3, outside=op.FOLLOWS))
+    path.add("b", op.Interface(1.0, 0.3, outside=op.FOLLOWS))
+    path.add("eye", op.Detector())
+    for link in (("lamp.out", "half.in"), ("half.transmitted", "a.in"), ("a.reflected", "b.in")):
+        path.connect(*link)
+    path.connect("b.reflected", "half.back")
+    path.connect("half.reflected", "eye.in")
+    assert all("give it at one of them" in fault for fault in faults_of(path))
+
+
+def test_an_element_alone_says_that_it_has_nothing_to_take_over():
+    with pytest.raises(op.PathError, match="interface takes its outside and incidence over from"):
+        SECOND.mueller()
+
+
+def test_files_copies_and_texts_know_it(tmp_path):
+    assert repr(SECOND).startswith("Interface(index=1.0, incidence=FOLLOWS, outside=FOLLOWS")
+    assert pickle.loads(pickle.dumps(SECOND)) == SECOND == copy.deepcopy(SECOND)
+    assert pickle.loads(pickle.dumps(op.FOLLOWS)) is op.FOLLOWS is copy.copy(op.FOLLOWS)
+    assert op.Interface(1.0, 0.3, outside=1.5) != op.Interface(1.0, 0.3, outside=op.FOLLOWS)
+    stack = op.LayerStack([op.FOLLOWS, 1.2, 1.0], op.FOLLOWS)
+    assert stack != op.LayerStack([1.5, 1.2, 1.0], op.FOLLOWS)
+    for second in (SECOND, stack, op.Interface(1.0, 0.1, outside=1.5, parallel=False)):
+        loops = "sum" if second.parallel else "refuse"
+        path = stack_of(op.Interface(1.5, op.Parameter("theta")), second, loops=loops)
+        text = path.to_toml()
+        assert 'incidence = "follows"' in text or "parallel = false" in text
+        file = tmp_path / "path.toml"
+        file.write_text(text)
+        assert op.load_preset(str(file)) == path

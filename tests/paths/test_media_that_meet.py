@@ -1,0 +1,307 @@
+"""Where light goes from boundary to boundary, media and Snell's law agree on both sides."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+THETA = np.radians(40.0)
+INSIDE = np.arcsin(np.sin(THETA) / 1.5)
+
+
+class Window(op.Element):
+    """An element of one's own that light goes straight through."""
+
+    loss: op.Fraction = 0.1
+
+    @staticmethod
+    def mueller_rows(xp, loss):
+        del xp
+        t = 1.0 - loss
+        return (t, 0, 0, 0), (0, t, 0, 0), (0, 0, t, 0), (0, 0, 0, t)
+
+
+def faces(*chain, back="in"):
+    """A lamp, boundaries and what stands between, each lit by what passes the one before."""
+    path, light = op.PathGraph(loops="sum"), "lamp.out"
+    path.add("lamp", op.Source())
+    for number, element in enumerate(chain):
+        name = ("front", *["between"] * (len(chain) - 2), "back")[number]
+        path.add(name, element)
+        path.connect(light, f"{name}.{back if name == 'back' else 'in'}")
+        ways = [out for out in ("out", "transmitted", "reflected") if out in element.outputs]
+        light = f"{name}.{ways[0]}"
+    path.add("T", op.Detector())
+    path.connect(light, "T.in")
+    return path
+
+
+def faults_of(path, **parameters):
+    with pytest.raises(op.PathError) as error:
+        path.trace(**parameters)
+    return error.value.faults
+
+
+GLASS = op.Interface(1.5, THETA)
+
+
+def test_a_second_face_that_forgets_its_medium_is_refused_and_the_cure_is_told():
+    (fault,) = faults_of(faces(GLASS, op.Interface(1.0, THETA, incidence_in=1.0)))
+    assert fault == (
+        "'back.in' is lit from n = 1.5 behind 'front' (by 'front.transmitted'), but its outside "
+        "is 1; give outside = 1.5, or op.FOLLOWS for outside"
+    )
+
+
+def test_a_second_face_that_forgets_where_its_angle_is_measured_is_refused():
+    (fault,) = faults_of(faces(GLASS, op.Interface(1.0, THETA, outside=1.5)))
+    assert "'front.transmitted' enters 'back.in'" in fault
+    assert "n sin(incidence) is 0.6427876097 at 'front' and 0.9641814145 at 'back'" in fault
+    assert f"incidence of {np.degrees(INSIDE):.10g} deg in n = 1.5, or" in fault
+    assert "40 deg with incidence_in = 1, or op.FOLLOWS" in fault
+    assert "parallel=False" in fault
+
+
+@pytest.mark.parametrize(
+    "back",
+    [
+        op.Interface(1.0, THETA, outside=1.5, incidence_in=1.0),
+        op.Interface(1.0, INSIDE, outside=1.5),
+        op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS),
+        op.Interface(1.0, op.FOLLOWS, outside=op.Material(1.5)),
+        op.LayerStack([1.5, 1.5, 1.0], THETA, incidence_in=1.0),
+        op.LayerStack([op.FOLLOWS, 1.5, 1.0], op.FOLLOWS),
+    ],
+)
+def test_a_slab_lets_through_0_912_however_its_second_face_is_written_rightly(back):
+    # T_s and T_p of the two faces by Fresnel's printed formulas.
+    sines = [
+        (np.sin(2 * THETA) * np.sin(2 * INSIDE) / np.sin(THETA + INSIDE) ** 2 / c) ** 2
+        for c in (1.0, np.cos(THETA - INSIDE) ** 2)
+    ]
+    light = faces(GLASS, back).trace()
+    assert light.intensity == pytest.approx(np.mean(sines), rel=1e-14)
+    assert f"{light.intensity:.3f}" == "0.912"
+
+
+BETWEEN = [
+    op.Medium(0.1, 1.0),
+    op.Polarizer(0.3),
+    op.Attenuator(0.5),
+    op.Rotator(0.2),
+    op.Retarder(0.3),
+    op.Depolarizer(0.1),
+    op.BeamSplitter(0.3),
+    op.Combiner(),
+    op.MuellerElement(np.eye(4)),
+    Window(),
+]
+
+
+@pytest.mark.parametrize("between", BETWEEN, ids=lambda element: type(element).__name__)
+def test_what_light_goes_straight_through_stands_in_the_same_medium(between):
+    (fault,) = faults_of(faces(GLASS, between, op.Interface(1.0, THETA, incidence_in=1.0)))
+    assert "outside is 1; give outside = 1.5" in fault
+    (fault,) = faults_of(faces(GLASS, between, op.Interface(1.0, THETA, outside=1.5)))
+    assert "n sin(incidence)" in fault
+    faces(GLASS, between, op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS)).check()
+
+
+def test_a_mirror_turns_light_but_keeps_it_in_its_medium():
+    (fault,) = faults_of(faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7)))
+    assert "outside is 1; give outside = 1.5" in fault
+    faces(GLASS, op.Mirror(), op.Interface(1.0, 0.7, outside=1.5)).check()
+
+
+def test_reflected_light_enters_the_next_front_in_its_medium_at_any_angle():
+    path = op.PathGraph()
+    nodes = [
+        path.add("lamp", op.Source()),
+        path.add("first", op.Interface(1.5, 0.3)),
+        path.add("second", op.Interface(1.5, 0.9, outside=1.33)),
+        path.add("eye", op.Detector()),
+    ]
+    nodes[0] >> nodes[1] >> nodes[2] >> nodes[3]
+    (fault,) = faults_of(path)
+    assert "'second.in' is lit from n = 1 in front of 'first' (by 'first.reflected')" in fault
+
+
+def test_light_from_behind_is_in_the_medium_behind():
+    (fault,) = faults_of(faces(GLASS, op.Interface(1.6, THETA, incidence_in=1.0), back="back"))
+    assert "'back.back' is lit from n = 1.5 behind 'front'" in fault
+    assert "its index is 1.6; give index = 1.5" in fault
+
+
+def test_light_that_stays_between_two_faces_is_looked_at_too():
+    def unfolded(index, incidence, **about):
+        path = faces(GLASS, op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS))
+        path.add("again", op.Interface(index, incidence, **about))
+        path.add("R", op.Dump())
+        path.connect("back.reflected", "again.back")
+        path.connect("again.reflected", "R.in")
+        return path
+
+    unfolded(1.5, THETA).check()
+    unfolded(1.5, 0.1, parallel=False).check()
+    assert "its index is 1.6" in faults_of(unfolded(1.6, THETA))[0]
+    assert "'back.reflected' enters 'again.back'" in faults_of(unfolded(1.5, 0.1))[0]
+
+
+def test_two_faces_of_one_gap_are_parallel_whichever_side_they_turn_to_it():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source())
+    path.add("a", op.Interface(1.5, 0.3))
+    path.add("b", op.Interface(1.5, 0.4))
+    path.add("eye", op.Detector())
+    path.connect("lamp.out", "a.back")
+    path.connect("a.reflected", "b.in")
+    path.connect("b.reflected", "a.in")
+    path.connect("b.transmitted", "eye.in")
+    (fault,) = faults_of(path)
+    assert "n sin(incidence)" in fault
+
+
+def test_the_faces_of_a_prism_have_angles_of_their_own():
+    def prism(**about):
+        path = op.PathGraph()
+        path.add("lamp", op.Source())
+        path.add("entry", op.Interface(1.5, 0.0))
+        path.add("base", op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS, **about))
+        path.add("exit", op.Interface(1.0, 0.0, outside=op.FOLLOWS))
+        path.add("eye", op.Detector())
+        path.connect("lamp.out", "entry.in")
+        path.connect("entry.transmitted", "base.in")
+        path.connect("base.reflected", "exit.in")
+        path.connect("exit.transmitted", "eye.in")
+        return path
+
+    # Total reflection at the base, and 4 % lost at either face.
+    light = prism(parallel=False).trace()
+    assert light.intensity == pytest.approx(0.96**2, rel=1e-14)
+    assert prism(parallel=False) != prism()
+    assert "'entry.transmitted' enters 'base.in'" in faults_of(prism())[0]
+
+
+@pytest.mark.parametrize(
+    ("turn", "is_parallel"), [(0.0, True), (np.pi, True), (-np.pi, True), (0.5, False)]
+)
+def test_a_face_turned_about_the_light_has_another_plane_of_incidence(turn, is_parallel):
+    path = faces(GLASS, op.Interface(1.0, THETA, outside=1.5, azimuth=turn))
+    if is_parallel:
+        assert "n sin(incidence)" in faults_of(path)[0]
+    else:
+        path.check()
+    # The turn may be given when the path runs, and turns add up along the way.
+    turned = op.Interface(1.0, THETA, outside=1.5, azimuth=op.Parameter("turn"))
+    for late in (faces(GLASS, turned), faces(GLASS, op.Polarizer(0, azimuth=0.5), turned)):
+        extra = -0.5 if "between" in late.graph else 0.0
+        if is_parallel:
+            with pytest.raises(op.ParameterError, match=r"n sin\(incidence\)"):
+                late.trace(turn=turn + extra)
+        else:
+            late.trace(turn=turn + extra)
+
+
+def test_faces_that_stand_in_space_have_their_directions_by_their_frames():
+    # A prism: the second face is not parallel, and its frames say so.
+    along = op.Frame.from_direction(z=(0, 0, 1), x=(1, 0, 0))
+    mirrored = op.Frame.from_direction(z=(0, 1, 0), x=(1, 0, 0))
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), {"out": along})
+    path.add("front", op.Interface(1.5, 0.0), {"in": along, "transmitted": along})
+    base = op.Interface(1.0, np.pi / 4, outside=op.FOLLOWS)
+    path.add("base", base, {"in": along, "reflected": mirrored})
+    path.add("eye", op.Detector(), {"in": mirrored})
+    path.connect("lamp.out", "front.in")
+    path.connect("front.transmitted", "base.in")
+    path.connect("base.reflected", "eye.in")
+    assert path.trace().intensity == pytest.approx(0.96, rel=1e-14)
+
+
+def test_no_boundary_is_lit_from_a_medium_that_absorbs():
+    back = op.Interface(1.0, 0.1, outside=0.6, parallel=False)
+    for index in (0.6 + 2j, op.Material(0.6, 2.0)):
+        (fault,) = faults_of(faces(op.Interface(index, THETA), back))
+        assert "'back.in' is lit from a medium that absorbs, with k = 2 behind 'front'" in fault
+    metal = op.Interface(op.Material(0.6, op.Parameter("k")), THETA)
+    with pytest.raises(op.ParameterError, match=r"k = 2 \(parameter 'k'\)"):
+        faces(metal, back).trace(k=2.0)
+
+
+OPEN = (
+    op.Interface(op.Parameter("n"), op.Parameter("theta")),
+    op.Interface(1.0, op.Parameter("phi"), outside=op.Parameter("m")),
+)
+
+
+def test_parameters_are_looked_at_whenever_they_are_given():
+    path = faces(*OPEN)
+    path.check()
+    good = {"n": 1.5, "m": 1.5, "theta": THETA, "phi": INSIDE}
+    for _ in range(8):  # Long enough for functions and recipes to be made.
+        path.trace(**good)
+        path.trace(**{name: np.full(5, value) for name, value in good.items()})
+    with pytest.raises(op.ParameterError) as error:
+        path.trace(**good | {"m": 1.6})
+    # An angle in a medium that is wrong itself says nothing.
+    (media,) = error.value.faults
+    assert "n = 1.5 (parameter 'n')" in media
+    assert "outside is 1.6 (parameter 'm'); give m = 1.5" in media
+    with pytest.raises(op.ParameterError, match=r"\(parameter 'phi'\)"):
+        path.trace(**good | {"phi": 0.1})
+    with pytest.raises(op.ParameterError, match="but its outside is"):
+        path.trace(**good | {"n": np.full(5, 1.5), "m": [1.5, 1.5, 1.5, 1.6, 1.5]})
+    with pytest.raises(op.ParameterError, match="parameter 'n' is nan"):
+        path.trace(**good | {"n": np.nan})
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba", "jax"])
+def test_every_engine_refuses_media_that_do_not_meet(engine):
+    plan = op.Composer(engine=engine).compose(faces(*OPEN))
+    n = np.linspace(1.2, 1.8, 50)
+    theta = np.linspace(0.0, 1.5, 50)
+    phi = np.arcsin(np.sin(theta) / n)
+    assert plan.run(n=n, m=n, theta=theta, phi=phi).stokes.shape == (50, 4)
+    with pytest.raises(op.ParameterError, match="is lit from n"):
+        plan.run(n=n, m=n[::-1], theta=theta, phi=phi)
+    for question in (plan.run_all, plan.mueller, plan.paths):
+        with pytest.raises(op.ParameterError, match="n sin"):
+            question(n=1.5, m=1.5, theta=0.3, phi=0.3)
+
+
+def test_values_that_jax_traces_give_nan_where_media_do_not_meet():
+    jax = pytest.importorskip("jax")
+    plan = op.Composer(dtype="float32").compose(faces(*OPEN))
+
+    @jax.jit
+    def intensity(n, m, phi):
+        return plan.run(n=n, m=m, theta=THETA, phi=phi).intensity
+
+    assert float(intensity(1.5, 1.5, INSIDE)) == pytest.approx(0.9116117533, rel=1e-6)
+    assert np.isnan(float(intensity(1.5, 1.6, INSIDE)))
+    assert np.isnan(float(intensity(1.5, 1.5, THETA)))
+
+
+def test_angles_rounded_as_their_numbers_are_pass_and_those_cut_short_do_not():
+    single = np.float32
+    n, theta = single(1.33), np.linspace(0.0, 1.5, 7, dtype=single)
+    faces(*OPEN).trace(n=n, m=1.33, theta=theta, phi=np.arcsin(np.sin(theta) / n))
+    faces(GLASS, op.Interface(1.0, single(INSIDE), outside=single(1.5))).check()
+    for digits in (3, 5, 7):
+        short = round(INSIDE, digits)
+        assert faults_of(faces(GLASS, op.Interface(1.0, short, outside=1.5)))
+    # Next to grazing incidence, where a sine hardly changes.
+    grazing = np.radians(89.999)
+    fault = faults_of(faces(op.Interface(1.0, grazing), op.Interface(1.0, np.pi / 2)))[0]
+    assert "n sin(incidence)" in fault
+
+
+def test_one_parameter_on_both_sides_needs_no_look_at_its_values():
+    for preset in op.preset_names():
+        assert op.load_preset(preset).compose().inputs.agreements == ()
+    n, minus = op.Parameter("n"), -op.Parameter("theta")
+    back = op.Interface(1.0, minus, outside=n, incidence_in=1.0)
+    assert faces(op.Interface(n, minus), back).compose().inputs.agreements == ()
+    other = op.Interface(1.0, op.Parameter("theta"), outside=n, incidence_in=1.0)
+    # The other sign is another angle.
+    assert len(faces(op.Interface(n, minus), other).compose().inputs.agreements) == 1

@@ -1,0 +1,230 @@
+"""Which faces are parallel: what they say, what turns the way between, and where light returns."""
+
+import itertools
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+THETA = np.radians(40.0)
+INSIDE = np.arcsin(np.sin(THETA) / 1.5)
+F = op.FOLLOWS
+
+
+def slab(front, back, *, between=None, to="front.back", azimuth=None, before=None):
+    """Two faces; light goes to and fro between them where it has a way back."""
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source())
+    path.add("front", front)
+    path.add("back", back)
+    path.add("T", op.Detector())
+    light = "lamp.out"
+    if before is not None:
+        path.add("before", before)
+        path.connect(light, "before.in")
+        light = "before.transmitted"
+    path.connect(light, "front.in")
+    light = "front.transmitted"
+    if between is not None:
+        path.add("between", between)
+        path.connect(light, "between.in")
+        light = "between.out"
+    path.connect(light, "back.in")
+    if to:
+        path.connect("back.reflected", to, azimuth=azimuth)
+    path.connect("back.transmitted", "T.in")
+    return path
+
+
+def fault_of(path, **parameters):
+    with pytest.raises(op.OptipathError) as error:
+        path.trace(**parameters)
+    (fault,) = error.value.faults
+    return fault
+
+
+GLASS = op.Interface(1.5, THETA)
+WRONG = op.Interface(1.0, THETA, outside=1.5)
+RIGHT = op.Interface(1.0, THETA, outside=1.5, incidence_in=1.0)
+TAKING = op.Interface(1.0, F, outside=F)
+
+
+def fresnel_slab():
+    s = (np.sin(THETA - INSIDE) / np.sin(THETA + INSIDE)) ** 2
+    p = (np.tan(THETA - INSIDE) / np.tan(THETA + INSIDE)) ** 2
+    return sum((1 - r) / (1 + r) / 2 for r in (s, p))
+
+
+@pytest.mark.parametrize("before", [None, op.LayerStack([1, 1.5, 1], "10 deg")])
+@pytest.mark.parametrize("back", [RIGHT, TAKING])
+def test_a_front_that_is_not_parallel_to_what_is_before_it_is_parallel_to_its_back(before, back):
+    front = op.Interface(1.5, THETA, parallel=False)
+    light = slab(front, back, before=before).trace()
+    if before is None:
+        assert light.intensity == pytest.approx(fresnel_slab(), rel=1e-12)
+        assert f"{light.intensity:.6f}" == "0.914261"
+    assert "n sin(incidence)" in fault_of(slab(front, WRONG, before=before))
+
+
+@pytest.mark.parametrize("azimuth", [0.3, 1e-6, np.pi / 2])
+def test_no_azimuth_in_a_loop_switches_the_look_at_angles_off(azimuth):
+    turned = op.Interface(1.0, THETA, outside=1.5, azimuth=azimuth)
+    filtered = slab(GLASS, WRONG, between=op.Polarizer(0.0, azimuth=azimuth))
+    for path in (slab(GLASS, WRONG, azimuth=azimuth), slab(GLASS, turned), filtered):
+        with pytest.raises(op.PathError, match=r"n sin\(incidence\)"):
+            path.trace()
+
+
+def test_faces_between_which_light_goes_to_and_fro_have_one_plane_of_incidence():
+    words = "light goes to and fro between 'back' and 'front', which are parallel then, but"
+    assert words in fault_of(slab(GLASS, RIGHT, azimuth=0.3))
+    assert "turns the plane of incidence by 17.18873385 deg" in fault_of(
+        slab(GLASS, RIGHT, between=op.Polarizer(0.0, azimuth=0.3))
+    )
+    turned = op.Interface(1.0, THETA, outside=1.5, incidence_in=1.0, azimuth=op.Parameter("a"))
+    path = slab(GLASS, turned)
+    assert path.trace(a=0.0).intensity == pytest.approx(fresnel_slab(), rel=1e-12)
+    assert path.trace(a=np.pi).intensity == pytest.approx(fresnel_slab(), rel=1e-12)
+    assert "40.10704566 deg (parameter 'a')" in fault_of(path, a=0.7)
+    # Turns add up along the way.
+    undone = slab(GLASS, turned, between=op.Polarizer(0.0, azimuth=0.3))
+    undone.trace(a=-0.3)
+    assert "let the azimuths on the way add up to 0" in fault_of(undone, a=0.0)
+
+
+def test_a_turn_of_a_thousandth_is_none():
+    turned = op.Interface(1.0, THETA, outside=1.5, azimuth=1e-4)
+    assert "n sin(incidence)" in fault_of(slab(GLASS, turned, to=None))
+
+
+def test_a_face_that_takes_its_incidence_over_is_not_turned():
+    constant = slab(GLASS, op.Interface(1.0, F, outside=F, azimuth=0.7), to=None)
+    assert "'back' takes its incidence over (FOLLOWS), as a face parallel" in fault_of(constant)
+    path = slab(GLASS, op.Interface(1.0, F, outside=F, azimuth=op.Parameter("a")), to=None)
+    path.trace(a=0.0)
+    for a in (0.7, [0.0, 0.7]):
+        assert "by 40.10704566 deg (parameter 'a')" in fault_of(path, a=a)
+
+
+def test_at_normal_incidence_any_azimuth_will_do():
+    for azimuth in (0.7, op.Parameter("a", 0.7)):
+        back = op.Interface(1.0, F, outside=F, azimuth=azimuth)
+        for to in (None, "front.back"):
+            light = slab(op.Interface(1.5, 0.0), back, to=to).trace()
+            loss = 2 * 1.5 / (1 + 1.5**2) if to else 0.96**2
+            assert light.intensity == pytest.approx(loss, rel=1e-12)
+
+
+def test_light_does_not_come_back_from_a_face_at_an_angle():
+    front = op.Interface(1.5, "48.59 deg")
+    back = op.Interface(1.0, "20 deg", outside=1.5, parallel=False)
+    slab(front, back, to=None).check()
+    fault = fault_of(slab(front, back))
+    assert "between 'front' and 'back', which says parallel=False: what comes back" in fault
+
+
+@pytest.mark.parametrize("turned_first", [True, False])
+def test_every_route_to_a_face_is_looked_at(turned_first):
+    path = op.PathGraph()
+    names = ["a", "b"] if turned_first else ["b", "a"]
+    path.add("lamp", op.Source())
+    path.add("front", GLASS)
+    path.add("half", op.BeamSplitter())
+    path.add(names[0], op.Polarizer(0.0, azimuth=0.5))
+    path.add(names[1], op.Polarizer(0.0))
+    path.add("both", op.Combiner())
+    path.add("back", WRONG)
+    path.add("T", op.Detector())
+    path.connect("lamp.out", "front.in")
+    path.connect("front.transmitted", "half.in")
+    path.connect("half.transmitted", "a.in")
+    path.connect("half.transmitted", "b.in", tap=True)
+    path.connect("a.out", "both.in")
+    path.connect("b.out", "both.in")
+    path.connect("both.out", "back.in")
+    path.connect("back.transmitted", "T.in")
+    with pytest.raises(op.PathError) as error:
+        path.check()
+    assert any("n sin(incidence)" in fault for fault in error.value.faults)
+
+
+def test_beyond_the_critical_angle_the_one_behind_is_a_right_angle():
+    t = np.radians(np.arange(90.0))
+    u = op.refraction_angle(1.0, t, 1.5)
+    gap = op.Interface(1.0, op.Parameter("t"), outside=1.5)
+    beyond = op.Interface(1.5, op.Parameter("u"), outside=1.0)
+    for to in (None, "front.back"):
+        light = slab(gap, beyond, to=to).trace(t=t, u=u)
+        assert np.all(light.intensity[np.sin(t) > 1 / 1.5] == pytest.approx(0.0, abs=1e-12))
+        assert light.intensity[0] > 0.9
+        # A right angle for light that does get there is wrong.
+        with pytest.raises(op.ParameterError, match=r"n sin\(incidence\)"):
+            slab(gap, beyond, to=to).trace(t=t, u=np.pi / 2)
+    outside = op.Interface(1.0, np.pi / 2, outside=1.5, incidence_in=1.0)
+    dense = op.Interface(1.5, "60 deg", outside=1.5)
+    assert "n sin(incidence)" in fault_of(slab(dense, outside, to=None))
+
+
+def test_plates_in_air_are_told_what_is_taken_for_granted():
+    def plates(**about):
+        plate = op.LayerStack([1, 1.5, 1], "30 deg")
+        return slab(plate, op.LayerStack([1, 1.5, 1], "60 deg", **about), to=None)
+
+    assert fault_of(plates()).endswith(
+        "(60 deg in n = 1); give 'back' an incidence of 30 deg in n = 1, or op.FOLLOWS (faces are "
+        "taken as parallel behind one that refracts; "
+        "if 'back' stands at an angle to 'front', as those of a prism do, say parallel=False)"
+    )
+    plates(parallel=False).check()
+    turning = plates(azimuth=op.Parameter("turn"))
+    assert turning.trace(turn=[0.1, 0.5]).shape == (2,)
+    where = "planes of incidence are one where azimuths come to 0 deg (parameter 'turn')"
+    assert where in fault_of(turning, turn=[0.0, 0.1, 0.5])
+
+
+def test_a_multiple_of_a_parameter_is_named_where_it_stands():
+    n, m = op.Parameter("n"), op.Parameter("m")
+    twice = op.Interface(1.0, F, outside=2 * m)
+    path = slab(op.Interface(1.5, THETA), twice, to=None)
+    assert "but its outside is 2 * m = 1.6; give 2 * m = 1.5, or op.FOLLOWS" in fault_of(
+        path, m=0.8
+    )
+    path.trace(m=0.75)
+    # No value of a parameter makes it the same as its double.
+    path = slab(op.Interface(n, THETA), op.Interface(1.0, F, outside=2 * n), to=None)
+    fault = fault_of(path, n=1.5)
+    assert "is lit from n = 1.5 (parameter 'n')" in fault
+    assert fault.endswith("but its outside is 2 * n = 3; give op.FOLLOWS for outside")
+    path = slab(op.Interface(2 * n, THETA), op.Interface(1.0, F, outside=1.5), to=None)
+    assert "'back.in' is lit from 2 * n = 1.6 behind 'front'" in fault_of(path, n=0.8)
+
+
+@pytest.mark.parametrize("late", [False, True])
+def test_of_a_row_of_faults_only_the_first_is_told(late):
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    light = "lamp.out"
+    indices = [1.0, 1.5, 1.4, 1.6, 1.3, 1.7, 1.0]
+    for number, (outside, index) in enumerate(itertools.pairwise(indices)):
+        given = op.Parameter("t", THETA) if late and number == 2 else THETA
+        face = op.Interface(index, given, outside, incidence_in=None if number == 2 else 1.0)
+        path.add(f"f{number}", face)
+        path.connect(light, f"f{number}.in")
+        light = f"f{number}.transmitted"
+    path.add("T", op.Detector())
+    path.connect(light, "T.in")
+    assert "enters 'f2.in'" in fault_of(path)
+
+
+def test_an_absorption_that_is_open_is_told_of_the_boundary_that_has_it():
+    front = op.Interface(op.Material(op.Parameter("n"), op.Parameter("k")), 0.3)
+    path = slab(front, op.Interface(1.0, 0.1, outside=F, parallel=False), to=None)
+    path.trace(n=1.5, k=0.0)
+    fault = fault_of(path, n=1.5, k=0.1)
+    assert "with k = 0.1 (parameter 'k') behind 'front' (by 'front.transmitted')" in fault
+
+
+def test_only_the_first_medium_of_a_stack_is_taken_over():
+    with pytest.raises(op.ValueFault, match=r"indices\[1\] cannot be FOLLOWS; only"):
+        op.LayerStack([1, F, 1], 0.3)

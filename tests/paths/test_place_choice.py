@@ -1,0 +1,203 @@
+"""A node that takes one of several places, chosen by word before the path is composed."""
+
+import copy
+import json
+import pickle
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.cli.command import main
+
+
+def built(place, angle):
+    """Case 8 of the two reflections, with the filter at a place, element by element."""
+    lamp = op.Source(100.0)
+    second = op.Interface(0.608 + 2.12j, np.radians(20.0))
+    first = op.Interface(1.12 + 2.16j, np.radians(48.0), azimuth=np.radians(-34.0))
+    row = [lamp, second, first, op.Detector()]
+    row.insert({"light": 1, "between": 2, "eye": 3}[place], op.Polarizer(angle))
+    path = row[0]
+    for element in row[1:]:
+        path = path >> element
+    return path
+
+
+@pytest.mark.parametrize("place", ["light", "between", "eye"])
+@pytest.mark.parametrize("angle", [0.0, 0.7])
+def test_the_filter_stands_at_the_light_between_the_surfaces_or_before_the_eye(place, angle):
+    path = op.load_preset("npgr026", case=8, place=place, filter=angle)
+    expected = built(place, angle).trace().stokes
+    np.testing.assert_allclose(path.trace().stokes, expected, rtol=1e-14, atol=1e-14)
+
+
+def test_before_the_eye_the_unfiltered_light_is_filtered_by_malus_law():
+    lit = op.load_preset("npgr026", case=7).trace()
+    angles = np.linspace(0.0, np.pi, 7)
+    eye = op.load_preset("npgr026", case=7).bind(place="eye", filter=angles).trace()
+    s0, s1, s2, _ = lit.stokes
+    expected = 0.5 * (s0 + s1 * np.cos(2 * angles) + s2 * np.sin(2 * angles))
+    np.testing.assert_allclose(eye.intensity, expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("place", "chain"),
+    [
+        ("light", "L >> P >> X2 >> X1 >> E"),
+        ("between", "L >> X2 >> P >> X1 >> E"),
+        ("eye", "L >> X2 >> X1 >> P >> E"),
+    ],
+)
+def test_a_path_shows_where_the_filter_stands(place, chain):
+    assert repr(op.load_preset("npgr026", place=place)) == f"<PathGraph: {chain}>"
+
+
+def test_nothing_chosen_is_the_filter_at_the_light():
+    path = op.load_preset("npgr026")
+    assert path == op.load_preset("npgr026", place="light")
+    assert list(path.parameters) == [
+        *("delta", "rho", "phi", "n1", "k1", "n2", "k2", "filter", "intensity")
+    ]
+    assert path.choices["place"].place(path.graph) == "light"
+
+
+def test_a_place_may_be_chosen_again():
+    path = op.load_preset("npgr026", place="eye").bind(place="between").bind(place="light")
+    assert path == op.load_preset("npgr026")
+
+
+def test_the_filter_is_open_wherever_it_stands():
+    path = op.load_preset("npgr026", case=7, place="eye")
+    whole = op.load_preset("npgr026", case=7)
+    assert path.trace().intensity == whole.trace().intensity
+    assert path.trace(filter="horizontal").dop == pytest.approx(1.0)
+
+
+def test_every_fault_of_what_is_chosen_is_told_at_once():
+    with pytest.raises(op.OptipathError) as error:
+        op.load_preset("npgr026", place="eyes", delta="steep")
+    told = str(error.value)
+    assert "place 'eyes' is unknown; did you mean 'eye'?" in told
+    assert "delta" in told
+    with pytest.raises(op.OptipathError, match="did you mean 'place'"):
+        op.load_preset("npgr026", plce="eye")
+
+
+def test_a_place_is_not_given_while_a_path_runs():
+    with pytest.raises(op.ParameterError, match=r"path\.bind\(place=\.\.\.\)"):
+        op.load_preset("npgr026").trace(place="eye")
+    with pytest.raises(op.ParameterError, match=r"path\.bind\(place=\.\.\.\)"):
+        op.load_preset("npgr026").compose().run(delta=np.array([0.1, 0.2]), place="eye")
+
+
+def test_choices_are_written_and_read_back(tmp_path):
+    file = tmp_path / "copy.toml"
+    for place in ("light", "eye"):
+        path = op.load_preset("npgr026", place=place)
+        file.write_text(path.to_toml(), "utf-8")
+        again = op.load_preset(file)
+        assert again == path
+        assert again.choices == path.choices
+        assert again.bind(place="between") == path.bind(place="between")
+
+
+def test_copies_keep_their_choices():
+    path = op.load_preset("npgr026")
+    for again in (copy.copy(path), copy.deepcopy(path), pickle.loads(pickle.dumps(path))):
+        assert again == path
+        assert repr(again.bind(place="eye")) == "<PathGraph: L >> X2 >> X1 >> P >> E>"
+    assert path.reading("intensity").choices == path.choices
+
+
+def test_paths_that_offer_other_choices_are_not_equal():
+    path = op.Source() >> op.Polarizer() >> op.Mirror() >> op.Detector()
+    other = copy.copy(path)
+    other.offer("place", "polarizer", {"light": "source", "eye": "mirror"})
+    assert path != other
+    assert "place" not in path.choices
+    assert other.bind(place="eye").choices == other.choices
+
+
+def test_choices_go_along_in_a_chain():
+    tail = op.Polarizer() >> op.Mirror() >> op.Polarizer().named("last") >> op.Detector()
+    tail.offer("place", "last", {"before": "polarizer.out", "behind": "mirror.reflected"})
+    path = op.Source() >> op.Polarizer() >> tail
+    moved = "source >> polarizer >> polarizer-2 >> last >> mirror >> detector"
+    assert repr(path.bind(place="before")) == f"<PathGraph: {moved}>"
+    twice = op.Source() >> op.Polarizer().named("a") >> op.Mirror()
+    twice.offer("place", "a", {"light": "source"})
+    with pytest.raises(op.PathError, match="choice 'place' stands on both sides"):
+        twice >> tail
+
+
+@pytest.mark.parametrize(
+    ("offered", "told"),
+    [
+        (("place", "Q", {"light": "L.out"}), "'Q' does not exist"),
+        (("place", "X1", {"light": "L.out"}), "not go straight through 'X1'"),
+        (("place", "P", {"light": "L.ou"}), "did you mean 'L.out'"),
+        (("place", "P", {"out": "X1.transmitted"}), "feeds no one link"),
+        (("place", "P", {}), "a port for each word"),
+        (("place", "P", ["L.out"]), "a port for each word"),
+        (("place", "E", {"light": "L.out"}), "'E' has no way out"),
+        (("place", "P", {"own": "P.out"}), "feeds no one link"),
+        (("a b", "P", {"light": "L.out"}), "letters, digits and underscores"),
+    ],
+)
+def test_places_that_cannot_be_taken_are_told_when_they_are_offered(offered, told):
+    path = op.load_preset("npgr026")
+    path._graph.graph.pop("choices")
+    with pytest.raises(op.PathError, match=told):
+        path.offer(*offered)
+    assert not path.choices
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('"X1.reflected" }', '"X1.refl" }', "choices.place: place 'eye': port 'X1.refl' does not"),
+        ('element = "P"', 'elemnt = "P"', "choices.place: key 'elemnt' is unknown"),
+        ('element = "P"', "", "choices.place: 'element' is missing"),
+        ("[choices.place]", "[choices.rho]", "'rho' is a parameter and a choice"),
+    ],
+)
+def test_faults_of_choices_in_a_file_have_their_place(old, new, told, tmp_path):
+    text = op.load_preset("npgr026").to_toml()
+    file = tmp_path / "faulty.toml"
+    file.write_text(text.replace(old, new, 1), "utf-8")
+    with pytest.raises(op.PathError, match=told):
+        op.load_preset(file)
+
+
+def test_a_node_that_is_removed_has_no_choice_of_places():
+    path = op.load_preset("npgr026")
+    path.cases.clear()
+    path.remove("P")
+    assert not path.choices
+    assert "choices" not in path.to_toml()
+    assert "place" in op.load_preset("npgr026").choices
+
+
+def test_a_choice_whose_ports_are_gone_is_not_written():
+    path = op.load_preset("npgr026")
+    path.disconnect("X1", "E")
+    with pytest.raises(op.PathError, match=r"choice 'place': place 'eye': 'X1\.reflected' feeds"):
+        path.to_toml()
+
+
+def test_the_command_line_takes_the_place(capsys):
+    assert main(["run", "npgr026", "--case", "8", "--place", "eye", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["choices"] == {"place": "eye"}
+    expected = built("eye", 0.0).trace().stokes
+    assert found["detectors"]["E"]["stokes"] == pytest.approx(expected, abs=1e-12)
+    assert main(["run", "npgr026", "--case", "8", "--json"]) == 0
+    assert "choices" not in json.loads(capsys.readouterr().out)
+
+
+def test_the_command_line_tells_of_places(capsys):
+    assert main(["run", "npgr026", "--place", "eyes"]) == 2
+    assert "place 'eyes' is unknown; did you mean 'eye'?" in capsys.readouterr().err
+    assert main(["show", "npgr026"]) == 0
+    assert "light, between, eye" in " ".join(capsys.readouterr().out.split())

@@ -1,0 +1,79 @@
+"""What every software is asked for, and how its answers are written.
+
+Angles are in degrees, azimuths from the x axis of the software towards its y axis. `clockwise`
+is as seen by who looks at the source.
+"""
+
+import json
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+FIGURES = Path(__file__).parents[1] / "figures"
+
+INTERFACES = (
+    {"name": "dielectric below Brewster's angle", "n": 1.5, "k": 0.0, "incidence": 30.0},
+    {"name": "dielectric above Brewster's angle", "n": 1.5, "k": 0.0, "incidence": 75.0},
+    {"name": "metal", "n": 0.2, "k": 3.4, "incidence": 50.0},
+    {"name": "metal near grazing", "n": 1.12, "k": 2.16, "incidence": 85.0},
+    {"name": "total reflection", "n": 1.0, "k": 0.0, "incidence": 60.0, "outside": 1.5},
+    {"name": "from glass into air", "n": 1.0, "k": 0.0, "incidence": 20.0, "outside": 1.5},
+)
+TRANSPARENT = tuple(s for s in INTERFACES if not s["k"] and s["name"] != "total reflection")
+POLARIZERS = ({"angle": 30.0}, {"angle": -70.0})
+RETARDERS = (
+    {"retardance": 90.0, "angle": 20.0},
+    {"retardance": 90.0, "angle": 0.0},
+    {"retardance": 35.0, "angle": -50.0},
+)
+CIRCULAR = ({"clockwise": True}, {"clockwise": False})
+ELLIPSES = (
+    {"azimuth": 25.0, "ellipticity": 15.0, "clockwise": True},
+    {"azimuth": -60.0, "ellipticity": 35.0, "clockwise": False},
+)
+
+
+def incidence(setup):
+    """Return (n, k, n of the medium in front, angle of incidence in radians)."""
+    return setup["n"], setup["k"], setup.get("outside", 1.0), np.radians(setup["incidence"])
+
+
+def asked(setups, answer, what="mueller"):
+    """Return the setups, each with what the software answers."""
+    return [{**setup, what: plain(answer(setup))} for setup in setups]
+
+
+def plain(value):
+    return value if isinstance(value, float) else np.asarray(value, np.float64).tolist()
+
+
+def write(convention, package, script, *, precision, **answers):
+    """Write the figures of a convention, with how they were made."""
+    made = {
+        "software": f"{package} {version(package)}",
+        "made by": f"python tests/peers/computing/{Path(script).name}",
+        "precision": precision,
+    }
+    text = json.dumps({**made, **answers}, indent=1)
+    # One row of a matrix in a line.
+    text = _rows_joined(text)
+    (FIGURES / f"{convention}.json").write_text(text + "\n", encoding="utf-8")
+
+
+def _rows_joined(text):
+    lines, row = [], None
+    for line in text.splitlines():
+        stripped = line.strip()
+        if row is None and stripped.endswith("["):
+            row = [line]
+        elif row is not None and (stripped[:1].isdigit() or stripped[:1] == "-"):
+            row.append(stripped)
+        elif row is not None and stripped.startswith("]") and len(row) > 1:
+            lines.append(row[0] + " ".join(row[1:]) + stripped)
+            row = None
+        else:
+            lines += row or []
+            row = [line] if stripped.endswith("[") else None
+            lines += [] if row else [line]
+    return "\n".join([*lines, *(row or [])])

@@ -1,0 +1,172 @@
+"""Degrees given for radians are told: by a warning, or where they are refused."""
+
+import warnings
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.cli.command import main
+from paths import chain
+
+
+def warned(action):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        action()
+    return [str(one.message) for one in told]
+
+
+@pytest.mark.parametrize(
+    ("action", "what"),
+    [
+        (
+            lambda: op.Polarizer(45),
+            "Polarizer angle is 45 rad, which is 2578.31 deg; did you mean ",
+        ),
+        (lambda: op.Retarder(90.0), "Retarder retardance is 90 rad, which is 5156.62 deg"),
+        (lambda: op.Rotator(np.linspace(0, 180, 7)), "Rotator angle has a value of 180 rad"),
+        (lambda: op.Rotator([30.0, "1 deg"]), "Rotator angle has a value of 30 rad"),
+        (lambda: op.Rotator(np.float32(-45)), "Rotator angle is -45 rad"),
+        (lambda: op.Interface(1.5, 0.1, azimuth=30), "Interface azimuth is 30 rad"),
+        (lambda: op.Medium(1.0, angle=45), "Medium angle is 45 rad"),
+        (lambda: op.VerticesByAngles((0.1, 0.2), (45,)), r"turns\[0\] is 45 rad"),
+        (lambda: op.Parameter("t", 45, unit="deg"), "parameter 't' is 45 rad"),
+        (lambda: op.Parameter("t", unit="deg", maximum=180), "the maximum of parameter 't' is 180"),
+        (lambda: op.Rotator(op.Parameter("t", 45)), "Rotator angle is 45 rad"),
+        (
+            lambda: op.Parameter("f", words={"up": 90}, unit="deg"),
+            "the word 'up' of parameter 'f' is 90 rad, which is 5156.62 deg; did you mean '90 deg'",
+        ),
+        (lambda: op.Polarizer(op.Parameter("f", words={"up": 90})), "the word 'up' of .* is 90"),
+        (lambda: op.Polarizer(op.Parameter("d", maximum=90)), "the maximum of parameter 'd' is 90"),
+        (lambda: op.Interface(1.5, op.Parameter("d", 0.5, maximum=90)), "the maximum of .* 'd'"),
+        (
+            lambda: op.Medium("10 cm", dextrorotation=66.5),
+            r"is 66.5 rad/m, which over 0.1 m is .* 381.017 deg; did you mean '66.5 deg/dm'\?",
+        ),
+        (lambda: op.Medium("10 cm", retardance=90), "Medium retardance is 90 rad/m"),
+        (lambda: op.Frame().turned(90), "the angle of a turn is 90 rad"),
+    ],
+)
+def test_an_angle_beyond_a_whole_turn_is_warned_of(action, what):
+    with pytest.warns(op.AngleWarning, match=what):
+        action()
+
+
+def test_the_warning_has_both_readings_and_the_line_of_who_wrote_it():
+    with pytest.warns(op.AngleWarning) as told:
+        op.Polarizer(45)
+    (warning,) = told
+    assert str(warning.message) == (
+        "Polarizer angle is 45 rad, which is 2578.31 deg; did you mean '45 deg' or np.radians(45)?"
+    )
+    assert warning.filename == __file__
+    with pytest.warns(op.AngleWarning) as told:
+        chain([op.Rotator(op.Parameter("turn"))]).trace(turn=45)
+    assert told[0].filename == __file__
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        lambda: op.Polarizer("720 deg"),
+        lambda: op.Rotator(["720 deg", "45 rad"]),
+        lambda: op.Rotator(2.0 * np.pi),
+        lambda: op.Rotator(np.linspace(-2.0 * np.pi, 2.0 * np.pi, 9, dtype=np.float32)),
+        lambda: op.Rotator(np.radians(720.0)),
+        lambda: op.Medium(1.0, rotation="500 rad/m"),
+        lambda: op.Medium(op.Parameter("length"), rotation=500.0),
+        lambda: op.Medium(0.001, retardance=2.0 * np.pi * 0.009 / 589e-9),
+        lambda: chain([op.Medium(op.Parameter("l"), rotation="500 rad/m")]).bind(l=1.0).trace(),
+        lambda: op.Polarizer(op.Parameter("f", words={"up": "400 deg"}, maximum="720 deg")),
+        lambda: chain([op.Polarizer(op.Parameter("f", words={"up": "400 deg"}))]).bind(f="up"),
+        lambda: op.Parameter("t", "720 deg"),
+        lambda: op.Parameter("t", 45.0),
+        lambda: chain([op.Rotator(op.Parameter("t"))]).trace(t="720 deg"),
+        lambda: chain([op.Rotator(op.Parameter("t"))]).trace(t=["720 deg", 0.5]),
+        lambda: chain([op.Rotator(op.Parameter("t"))]).trace(t=op.CosSin(0.6, 0.8)),
+        lambda: op.load_preset("malus", angle="340 deg").trace(),
+        lambda: op.Polarizer(azimuth="45 rad") @ op.Light([1.0, 1.0, 0.0, 0.0]),
+    ],
+)
+def test_what_is_said_to_be_in_degrees_or_is_in_radians_is_no_reason_to_warn(action):
+    assert warned(action) == []
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda path, angle: path.trace(turn=angle),
+        lambda path, angle: path.trace_all(turn=angle),
+        lambda path, angle: path.trace(keep="all", turn=angle),
+        lambda path, angle: path.mueller(turn=angle),
+        lambda path, angle: path.paths(turn=angle),
+        lambda path, angle: list(path.compose().stream(10, turn=angle)),
+        lambda path, angle: path.compose().certificate(turn=angle),
+        lambda path, angle: path.bind(turn=angle),
+        lambda path, angle: op.Composer(engine="numpy").compose(path).run(turn=angle),
+    ],
+)
+@pytest.mark.parametrize("angle", [45, 45.0, np.linspace(0.0, 180.0, 4)])
+def test_what_is_given_to_a_run_is_warned_of_once(ask, angle):
+    path = chain([op.Rotator(op.Parameter("turn"))])
+    (sentence,) = warned(lambda: ask(path, angle))
+    assert sentence.startswith("parameter 'turn' ")
+
+
+@pytest.mark.parametrize("first", [0.1, np.linspace(0.0, 1.0, 5)])
+def test_a_path_that_has_been_run_often_warns_of_degrees_all_the_same(first):
+    path = chain([op.Rotator(op.Parameter("turn"))])
+    for _ in range(10):
+        path.trace(turn=first)
+    assert len(warned(lambda: path.trace(turn=first * 100.0 + 50.0))) == 1
+    # Once for each parameter of a path.
+    assert warned(lambda: path.trace(turn=first * 100.0 + 50.0)) == []
+    again = chain([op.Rotator(op.Parameter("turn"))])
+    assert len(warned(lambda: again.trace(turn=first * 100.0 + 50.0))) == 1
+
+
+def test_large_arrays_are_looked_at_in_many_places():
+    angles = np.zeros(10**6)
+    angles[300_000:700_000] = 90.0
+    path = chain([op.Rotator(op.Parameter("turn"))])
+    assert len(warned(lambda: path.trace(turn=angles))) == 1
+
+
+@pytest.mark.parametrize(
+    "action",
+    [
+        lambda: op.load_preset("npgr026").trace(delta=48),
+        lambda: op.load_preset("npgr026").trace(delta=[0.1, 48.0]),
+        lambda: op.load_preset("npgr026", delta=48),
+        lambda: op.load_preset("npgr026").bind(delta=48),
+        lambda: op.Interface(1.5, 48),
+        lambda: op.Parameter("t", 48, "deg", 0.0, 1.5),
+        lambda: chain([op.Interface(1.5, op.Parameter("t"))]).trace(t=48),
+        lambda: chain([op.Interface(1.5, op.Parameter("t"))]).bind(t=48),
+        lambda: op.Interface(1.5, op.Parameter("t", 48)),
+        lambda: op.refraction_angle(1.5, 48),
+    ],
+)
+def test_degrees_that_are_refused_are_offered_with_their_unit(action):
+    with pytest.raises(op.OptipathError) as error:
+        action()
+    assert "48 rad, which is 2750.2 deg" in str(error.value)
+    assert str(error.value).endswith("; did you mean '48 deg' or np.radians(48)?")
+
+
+@pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])
+def test_a_slip_of_radians_and_what_was_in_degrees_already_are_not(delta):
+    with pytest.raises(op.ParameterError) as error:
+        op.load_preset("npgr026").trace(delta=delta)
+    assert "did you mean" not in str(error.value)
+
+
+@pytest.mark.parametrize("delta", ["100", "48 rad", "100 deg"])
+def test_the_command_line_reads_degrees_and_speaks_of_no_radians(delta, capsys):
+    assert main(["run", "npgr026", "--delta", delta]) == 2
+    said = capsys.readouterr().err
+    assert "outside its range; give 0 deg .. 90 deg" in said
+    assert "did you mean" not in said
+    assert "np." not in said
