@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from chains import ENGINES
 
 THETA = np.radians(40.0)
 INSIDE = np.arcsin(np.sin(THETA) / 1.5)
@@ -255,7 +256,7 @@ def test_parameters_are_looked_at_whenever_they_are_given():
         path.trace(**good | {"n": np.nan})
 
 
-@pytest.mark.parametrize("engine", ["numpy", "numba", "jax"])
+@pytest.mark.parametrize("engine", ENGINES)
 def test_every_engine_refuses_media_that_do_not_meet(engine):
     plan = op.Composer(engine=engine).compose(faces(*OPEN))
     n = np.linspace(1.2, 1.8, 50)
