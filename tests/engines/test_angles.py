@@ -112,3 +112,14 @@ def test_parts_of_a_grid_next_to_grazing_incidence_are_like_the_whole(engine):
     theta[2] = 2.0
     with pytest.raises(op.ParameterError, match="theta"):
         list(plan.stream(1100, theta=theta, n=n))
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_one_angle_beside_a_grid_of_others_is_like_a_single_run_in_single_precision(engine):
+    angles = [op.Parameter(name) for name in ("a", "b", "u")]
+    turned = op.Interface(1.5, angles[2], azimuth=angles[1])
+    path = op.Source() >> op.Polarizer(angles[0]) >> turned >> op.Detector()
+    x = np.linspace(0.1, 1.0, 33)  # Enough to be computed in stages.
+    light = op.Composer(engine=engine, dtype="float32").compose(path).run(a=x[:, None], b=x, u=0.4)
+    wanted = [[path.trace(a=a, b=b, u=0.4).stokes for b in x[::8]] for a in x[::8]]
+    np.testing.assert_allclose(light.stokes[::8, ::8], wanted, atol=3e-7)

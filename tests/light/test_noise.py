@@ -116,6 +116,17 @@ def test_light_that_hardly_is_reflected_keeps_all_its_figures():
     assert light.dop == pytest.approx(1.0)
 
 
+@pytest.mark.parametrize("index", [1.33, 1.5, 1.6, 1.7, 2.4, 4.0, 0.66])
+def test_what_is_left_at_brewsters_angle_itself_has_no_figures(index):
+    # Exactly there nothing is; the angle is rounded, and so are the waves that cancel.
+    assert_dark(chain(op.Interface(index, np.arctan(index)), stokes=(1.0, -1.0, 0.0, 0.0)).trace())
+    off = 1e-12  # r_p changes by (n^4 - 1) / (4 n^3) a radian there.
+    light = chain(op.Interface(index, np.arctan(index) + off), stokes=(1.0, -1.0, 0.0, 0.0)).trace()
+    slope = (index**4 - 1.0) / (4.0 * index**3)
+    assert pytest.approx((off * slope) ** 2, rel=2e-3) == light.S0
+    assert light.dop == pytest.approx(1.0)
+
+
 def test_light_that_nearly_crossed_polarisers_let_through_keeps_its_figures():
     light = chain(op.Polarizer(0.3), op.Polarizer(0.3 + np.pi / 2 - 1e-6)).trace()
     assert pytest.approx(0.5e-12, rel=1e-3) == light.S0

@@ -10,6 +10,7 @@ from optipath.elements.coupling import numbers_of
 from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
+from optipath.values.domains.indices import INDEX, INDICES
 from optipath.values.domains.quantities import REAL
 
 if TYPE_CHECKING:
@@ -58,8 +59,12 @@ def same_value(first: Any, second: Any, domain: Domain) -> bool:
     Returns
     -------
     bool
-        Also true of a complex number and the `Material` with the same two parts.
+        Also true of a complex number and the `Material` with the same two parts, in a list, too.
     """
+    if domain is INDICES and isinstance(first, tuple) and isinstance(second, tuple):
+        return len(first) == len(second) and all(
+            same_value(one, other, INDEX) for one, other in zip(first, second, strict=True)
+        )
     if same(first, second) or not domain.complex_parts:
         return same(first, second)
     pairs = zip(numbers_of(first, domain), numbers_of(second, domain), strict=True)

@@ -13,6 +13,7 @@ ELEMENTS = [
     op.Mirror(np.array([-0.9, 0.3]), op.Parameter("r", np.array([0.5, 0.25]))),
     op.Interface(np.array([0.17, 3.15]), 0.3),
     op.LayerStack([1.0, np.array([1.5, 1.6]), np.array([0.17, 3.15])], 0.3),
+    op.LayerStack([1.0, 1.5, 0.2 + 3.0j], 0.3),
     op.Diattenuator(0.9, op.Parameter("least"), angle=0.2, azimuth=0.1),
     op.Depolarizer(0.3),
     op.Medium(0.2, 0.7, rotation=-np.radians(66.5)),

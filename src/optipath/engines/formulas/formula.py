@@ -102,7 +102,9 @@ class Formula:
 
     def whole_of(self, left: Symbol) -> Symbol:
         """Return the input of which something is left."""
-        return next(symbol for symbol in self.inputs if symbol.operands == left.operands)
+        # Symbols of earlier stages are no texts, and record what they are compared with.
+        given = (symbol for symbol in self.inputs if symbol.operation == "input")
+        return next(symbol for symbol in given if symbol.operands == left.operands)
 
     @cached_property
     def steps(self) -> tuple[Symbol, ...]:

@@ -5,7 +5,8 @@ crossed polarisers they are all that there is. A rounding is light of unknown po
 each element that follows dims it by its mean, M00, and adds roundings of its own. Where an
 element acts on the intensities along x and along y by themselves, each has its own roundings: what
 is faint since it was weak from the start, as behind two grey filters or near Brewster's angle,
-keeps its digits.
+keeps its digits. What waves that cancel at Brewster's angle itself leave is rounding: its
+amplitude is, and so its share of the intensity is the square of one.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from optipath.kernels.carriers.carried import along_axes, stokes_of
 from optipath.kernels.carriers.carrier import Carrier
 from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
+from optipath.kernels.carriers.structures import BLOCK, DEPOLARIZING_BLOCK, POWERS
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -25,6 +27,13 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.scaled_carrier import ScaledState
     from optipath.kernels.carriers.structures import Numbers, Structure
     from optipath.kernels.numbers.primitives import Primitives
+
+
+_OF_WAVES = BLOCK, DEPOLARIZING_BLOCK, POWERS
+"""Where the amplitudes of waves are added up."""
+
+_ROUNDINGS = 4.0
+"""How many roundings each of them has."""
 
 
 class Noisy(NamedTuple):
@@ -80,6 +89,10 @@ class NoiseCarrier(Carrier):
         across = [entry for row in rows[:2] for entry in row[2:]]
         if all(isinstance(entry, float) and entry == 0.0 for entry in across):
             x, y = self._through(rows, state)
+            if structure in _OF_WAVES:
+                share = (_ROUNDINGS * self.eps) ** 2
+                before_x, before_y = along_axes(self.xp, state.light[0])
+                x, y = x + share * before_x, y + share * before_y
             x, y = self._moved((x, y), state.light, light)
             more_x, more_y = self._rounded(light)
             return Noisy(light, x + more_x, y + more_y)
