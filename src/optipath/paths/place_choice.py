@@ -14,6 +14,8 @@ from optipath.paths.splicing import insert, remove
 if TYPE_CHECKING:
     import networkx as nx
 
+    from optipath.composer.travel import Port
+
 
 @dataclass(frozen=True)
 class PlaceChoice:
@@ -87,13 +89,13 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
     if choice.place(graph) != word:
         try:
             remove(graph, choice.node)
-            insert(graph, choice.node, element, choice.behind[word])
+            insert(graph, choice.node, element, choice.behind[word], None)
         except PathError as fault:
             wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}: "
             raise PathError(*(wrong + sentence for sentence in fault.faults)) from None
 
 
-def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
+def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool = True) -> list[str]:
     """Return why the node of a choice cannot be put in its places, a sentence each.
 
     Parameters
@@ -102,29 +104,39 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
         Elements and links.
     choice : PlaceChoice
         The choice.
+    linked : bool, optional
+        Whether the links are looked at, too; those of a path that has faults tell nothing.
 
     Returns
     -------
     list of str
         Empty where it can.
     """
-    node, found = choice.node, []
+    node, found, ports = choice.node, [], {}
     try:
         element = element_at(graph, node)
         enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
+        if not goes_straight(element, enters, leaves):
+            found.append(f"light does not go straight through '{node}', so it has no other place")
     except PathError as fault:
-        return list(fault.faults)
-    if not goes_straight(element, enters, leaves):
-        found.append(f"light does not go straight through '{node}', so it has no other place")
+        found += fault.faults
     for word, port in choice.behind.items():
         try:
-            start, way = find_port(graph, port, out=True)
+            ports[word] = find_port(graph, port, out=True)
         except PathError as fault:
             found += [f"place '{word}': {sentence}" for sentence in fault.faults]
-            continue
-        links = graph.out_edges(start, keys=True, data="tap")
-        if start == node or [tap for *_, (out, _), tap in links if out == way].count(False) != 1:
-            found.append(
-                f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
-            )
-    return found
+    # Where the node has no place at all, the links say nothing of it.
+    return found if found or not linked else _link_faults(graph, node, ports)
+
+
+def _link_faults(graph: nx.MultiDiGraph, node: str, ports: Mapping[str, Port]) -> list[str]:
+    """Return a sentence for each place where there is no one link to put a node into."""
+    return [
+        f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
+        for word, (start, way) in ports.items()
+        if start == node
+        or [
+            tap for *_, (out, _), tap in graph.out_edges(start, keys=True, data="tap") if out == way
+        ].count(False)
+        != 1
+    ]
