@@ -7,14 +7,13 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.placement import goes_straight
+from optipath.composer.wiring import Wiring
 from optipath.errors import PathError, shown, unknown
 from optipath.paths.port_names import element_at, find_port, natural_port
 from optipath.paths.splicing import insert, remove
 
 if TYPE_CHECKING:
     import networkx as nx
-
-    from optipath.composer.travel import Port
 
 
 @dataclass(frozen=True)
@@ -112,31 +111,24 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool =
     list of str
         Empty where it can.
     """
-    node, found, ports = choice.node, [], {}
+    node, of_node, of_places = choice.node, [], []
     try:
         element = element_at(graph, node)
         enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
         if not goes_straight(element, enters, leaves):
-            found.append(f"light does not go straight through '{node}', so it has no other place")
+            of_node.append(f"light does not go straight through '{node}', so it has no other place")
     except PathError as fault:
-        found += fault.faults
+        of_node += fault.faults
+    # What has no place at all says nothing of links.
+    links = Wiring(graph).links_from if linked and not of_node else None
     for word, port in choice.behind.items():
         try:
-            ports[word] = find_port(graph, port, out=True)
+            start, way = find_port(graph, port, out=True)
         except PathError as fault:
-            found += [f"place '{word}': {sentence}" for sentence in fault.faults]
-    # Where the node has no place at all, the links say nothing of it.
-    return found if found or not linked else _link_faults(graph, node, ports)
-
-
-def _link_faults(graph: nx.MultiDiGraph, node: str, ports: Mapping[str, Port]) -> list[str]:
-    """Return a sentence for each place where there is no one link to put a node into."""
-    return [
-        f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
-        for word, (start, way) in ports.items()
-        if start == node
-        or [
-            tap for *_, (out, _), tap in graph.out_edges(start, keys=True, data="tap") if out == way
-        ].count(False)
-        != 1
-    ]
+            of_places += [f"place '{word}': {sentence}" for sentence in fault.faults]
+            continue
+        if links is not None and (start == node or len(links.get((start, way), [])) != 1):
+            of_places.append(
+                f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
+            )
+    return [*of_node, *of_places]
