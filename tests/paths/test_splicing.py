@@ -1,5 +1,7 @@
 """Elements put into the links of a path, taken out of it, and exchanged."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -63,13 +65,6 @@ def test_an_azimuth_that_is_open_is_taken_back_as_well():
     assert path.trace(turn=0.2).intensity == pytest.approx(expected)
 
 
-def test_two_azimuths_that_do_not_make_one_are_refused():
-    path = two_reflections()
-    with pytest.raises(op.PathError, match="'X1' behind it, and no one azimuth does for both"):
-        path.insert("P2", op.Polarizer(azimuth=0.3), behind="X2")
-    assert path == two_reflections()
-
-
 def test_taps_stay_with_the_port_in_front_of_what_is_inserted():
     path = op.load_preset("ellipsometer-pcsa")
     state = path.trace().stokes
@@ -103,6 +98,36 @@ def test_nothing_is_inserted_between_points_in_space():
         path.insert("more", op.Polarizer(), behind="X2")
 
 
+@pytest.mark.parametrize(
+    "where", [{"before": "E"}, {"before": "E.in"}, {"behind": "X1", "before": "E.in"}]
+)
+def test_an_element_is_inserted_before_a_port_as_behind_the_other_of_the_link(where):
+    path, other = two_reflections(), two_reflections()
+    path.insert("P2", op.Polarizer(0.3), **where)
+    other.insert("P2", op.Polarizer(0.3), behind="X1")
+    assert path == other
+
+
+def test_what_is_inserted_before_a_port_that_a_tap_leads_to_stands_in_the_tap():
+    path = op.load_preset("ellipsometer-pcsa")
+    state, whole = (path.trace_all()[name].intensity for name in ("state", "photometer"))
+    path.insert("grey", op.Attenuator(0.5), before="state")
+    assert path.compose().taps == ("S.reflected -> grey.in",)
+    assert path.trace_all()["state"].intensity == pytest.approx(state / 2)
+    assert path.trace_all()["photometer"].intensity == pytest.approx(whole)
+
+
+def test_a_port_that_several_links_lead_to_asks_for_the_other_end():
+    path = op.PathGraph()
+    path.add("eye", op.Detector())
+    for name, intensity in (("lamp", 1.0), ("other", 3.0)):
+        path.add(name, op.Source(intensity)) >> path["eye"]
+    with pytest.raises(op.PathError, match=r"'eye\.in' is fed by .*, such as behind='lamp\.out'"):
+        path.insert("grey", op.Attenuator(0.5), before="eye")
+    path.insert("grey", op.Attenuator(0.5), behind="lamp.out", before="eye")
+    assert path.trace().intensity == 3.5
+
+
 def test_a_mirror_is_inserted_by_its_natural_way():
     path = op.Source() >> op.Detector()
     path.insert("mirror", op.Mirror(r_s=-0.5, r_p=0.5), behind="source")
@@ -126,6 +151,24 @@ def test_what_cannot_be_inserted_is_told_and_leaves_the_path_as_it_was(element, 
     path = two_reflections()
     with pytest.raises(op.PathError, match=told):
         path.insert("new", element, behind=behind)
+    assert path == two_reflections()
+
+
+@pytest.mark.parametrize(
+    ("where", "told"),
+    [
+        ({}, r"is told no link; give it behind='node\.port'"),
+        (
+            {"before": "X1.back"},
+            r"write path\.add\('new', \.\.\.\) and path\.connect\('new', 'X",
+        ),
+        ({"behind": "X2", "before": "E"}, r"no link 'X2\.reflected -> E\.in'; did you mean 'X1"),
+    ],
+)
+def test_where_nothing_can_be_inserted_is_told(where, told):
+    path = two_reflections()
+    with pytest.raises(op.PathError, match=told):
+        path.insert("new", op.Polarizer(), **where)
     assert path == two_reflections()
 
 
@@ -255,11 +298,14 @@ def test_a_replacement_without_the_azimuth_of_the_old_element_is_refused():
     np.testing.assert_array_equal(stokes(unturned), path.trace(rho=0.0).stokes)
 
 
-def test_a_replacement_that_has_no_azimuth_is_refused_where_the_old_one_has():
-    path = op.Source() >> op.Polarizer() >> op.Polarizer(azimuth=0.3) >> op.Detector()
-    with pytest.raises(op.PathError, match=r"azimuth 0\.3, and the new element is not; give an az"):
-        path.replace("polarizer-2", op.Attenuator(0.5))
-    path.replace("polarizer-2", op.Polarizer(azimuth=0.1))
+def test_the_cure_for_a_lost_azimuth_names_the_link_that_it_turned():
+    path, azimuth = op.load_preset("glass-slab"), 0.3
+    path.disconnect("lamp")
+    path.connect("lamp", "front")  # Behind the one to front.back.
+    front = path.element("front")
+    path.replace("front", dataclasses.replace(front, azimuth=azimuth))
+    with pytest.raises(op.PathError, match=r"path\.disconnect\('lamp\.out', 'front\.in'\)"):
+        path.replace("front", front)
 
 
 def test_a_second_link_of_a_port_is_mended_by_the_call_that_the_sentence_names():
@@ -333,6 +379,29 @@ def test_a_link_is_taken_out_and_another_put_in():
     other = op.load_preset("npgr026")
     other.insert("P2", op.Polarizer(0.3), behind="X1")
     assert path == other
+
+
+def test_the_one_link_of_a_port_is_taken_out_by_the_port_alone():
+    path, other = two_reflections(), two_reflections()
+    path.disconnect("X1.reflected")
+    other.disconnect("X1.reflected", "E.in")
+    assert path == other
+    with pytest.raises(op.PathError, match=r"'X1\.reflected' feeds no link; there are: L\.out"):
+        path.disconnect("X1")
+
+
+def test_a_port_that_feeds_several_links_is_asked_which_is_taken_out():
+    path = op.load_preset("ellipsometer-pcsa")
+    with pytest.raises(op.PathError) as told:
+        path.disconnect("S")
+    assert str(told.value).endswith("such as path.disconnect('S.reflected', 'A.in')")
+    path.disconnect("S.reflected", "A.in")
+    assert not path.graph.has_edge("S", "A")
+
+
+def test_an_element_without_a_name_is_told_how_to_add_it():
+    with pytest.raises(op.PathError, match=r"path\.add\('rotator', Rotator\(angle=0\.2\)\)$"):
+        op.PathGraph().add(op.Rotator(0.2))
 
 
 def test_a_link_that_is_not_there_is_not_taken_out():

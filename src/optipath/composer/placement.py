@@ -8,9 +8,10 @@ import numpy as np
 
 from optipath.composer.wiring import link_text
 from optipath.elements.coupling import Operation
-from optipath.errors import OptipathError
+from optipath.errors import OptipathError, shown
 from optipath.kernels.catalogue import GIVEN_TURN, TURN
 from optipath.light.frames import Frame
+from optipath.values.affine import Affine
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.operands import Operand
 
@@ -174,7 +175,8 @@ def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     own, element_turn = wiring.graph.edges[link]["azimuth"], _element_turn(wiring, link)
     text = f"link '{link_text(link)}'"
     if own is not None and not is_zero(element_turn):
-        return [f"{text} and '{end}' both give an azimuth; give it in one place"]
+        turns = f"{turn_text(own)} and {turn_text(element_turn)}"
+        return [f"{text} and '{end}' both give an azimuth, {turns}; give it in one place"]
     ends = ((start, leaves, arriving), (end, enters, expected))
     for name, port, frame in ends:
         if frame is None and wiring.graph.nodes[name]["frames"]:
@@ -226,3 +228,15 @@ def _meeting_faults(wiring: Wiring, name: str, element: Any) -> list[str]:
 def is_zero(azimuth: Any) -> bool:
     """Tell whether a turn is known to be none."""
     return isinstance(azimuth, (int, float)) and azimuth == 0.0
+
+
+def turn_text(turn: Any) -> str:
+    """Return a turn as people write it.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> turn_text(0.5), turn_text(-2 * Parameter("rho"))
+    ('0.5', '-2 * rho')
+    """
+    return turn.formula if isinstance(turn, Affine) else shown(turn)

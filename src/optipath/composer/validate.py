@@ -12,7 +12,7 @@ from optipath.composer.path_values import Values
 from optipath.composer.placement import placement_faults
 from optipath.composer.taps import sharing_faults, tap_faults
 from optipath.composer.travel import among, cycles
-from optipath.composer.wiring import Wiring, link_text
+from optipath.composer.wiring import LOOPS, Wiring, link_text
 from optipath.errors import PathError
 from optipath.values.cures import cure
 from optipath.values.made import remember_sound
@@ -102,15 +102,15 @@ def partial_faults(
 def _faults(
     values: Values, wiring: Wiring, media: Media, unsure: set[str], *, whole: bool
 ) -> list[str]:
-    found = [*values.faults(), *placement_faults(wiring), *media.faults()]
+    # In a cycle by mistake, light meets media and misses ends in consequence.
+    cyclic = [] if wiring.loops == LOOPS[1] else list(_loop_faults(wiring.untapped))
+    found = [*values.faults(), *placement_faults(wiring), *([] if cyclic else media.faults())]
     found += [*_feeding_faults(wiring), *sharing_faults(wiring), *tap_faults(wiring)]
-    found += _dark_link_faults(wiring)
-    if wiring.loops != "sum":
-        found += _loop_faults(wiring.untapped)
+    found += [*_dark_link_faults(wiring), *cyclic]
     if whole:
         found += _missing_end_faults(wiring)
     found += [] if found else _own_faults(wiring)
-    if wiring.starts and wiring.ends:
+    if wiring.starts and wiring.ends and not cyclic:
         found += _reach_faults(wiring, unsure)
     return found
 

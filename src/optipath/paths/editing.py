@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.placement import placement_faults
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.element import Element
-from optipath.errors import PathError, did_you_mean, shown, there_are
+from optipath.errors import PathError, did_you_mean, listed, shown, there_are
 from optipath.light.frames import Frame
+from optipath.paths.joining import name_by_kind
 from optipath.paths.port_names import check_port, find_port
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.made import kept_value
@@ -55,6 +56,10 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     name, element, frames
         As that takes them.
     """
+    if isinstance(name, Element):
+        raise PathError(
+            f"an element is added by a name: path.add('{name_by_kind(name)}', {shown(name)})"
+        )
     if not isinstance(name, str) or not name or "." in name:
         raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")
     if name in graph:
@@ -102,13 +107,54 @@ def disconnect(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> None:
     leaves, enters
         As that takes them.
     """
+    link = _only_link(graph, leaves) if enters is None else find_link(graph, leaves, enters)
+    graph.remove_edge(*link)
+
+
+def find_link(graph: nx.MultiDiGraph, leaves: Any, enters: Any) -> Link:
+    """Return the link between two ports.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    leaves, enters
+        The ports, as `PathGraph.connect` takes them.
+
+    Returns
+    -------
+    tuple
+
+    Raises
+    ------
+    PathError
+        If there is none, with those that there are.
+    """
     link = _link_of(graph, leaves, enters, [])
     if not graph.has_edge(*link):
         near = {*graph.out_edges(link[0], keys=True), *graph.in_edges(link[1], keys=True)}
         cure = did_you_mean(link_text(link), sorted(map(link_text, near)))
         cure = cure if near else there_are(sorted(map(link_text, graph.edges(keys=True))))
         raise PathError(f"there is no link '{link_text(link)}'{cure}")
-    graph.remove_edge(*link)
+    return link
+
+
+def _only_link(graph: nx.MultiDiGraph, leaves: Any) -> Link:
+    """Return the link from a port that has no other, taps included."""
+    port = find_port(graph, leaves, out=True)
+    found = graph.out_edges(port[0], keys=True)
+    links: list[Link] = [link for link in found if link[2][0] == port[1]]
+    if len(links) == 1:
+        return links[0]
+    text = ".".join(port)
+    if not links:
+        every = sorted(map(link_text, graph.edges(keys=True)))
+        raise PathError(f"'{text}' feeds no link{there_are(every)}")
+    ends = [f"'{end}.{enters}'" for _, end, (_, enters) in sorted(links)]
+    raise PathError(
+        f"'{text}' feeds {listed(ends)}; say which is taken out, such as "
+        f"path.disconnect('{text}', {ends[0]})"
+    )
 
 
 def check_element(name: Any, element: Any) -> None:

@@ -13,8 +13,8 @@ from optipath.composer.wiring import LOOPS
 from optipath.elements.chaining import Chainable, begun
 from optipath.errors import PathError, shown, unknown
 from optipath.paths.editing import add, connect, disconnect, edit
-from optipath.paths.joining import as_chain, join
-from optipath.paths.port_names import check_port, element_at, find_port
+from optipath.paths.joining import append, as_chain
+from optipath.paths.port_names import check_port, element_at
 from optipath.paths.splicing import insert, remove, replace
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.read_only import same
@@ -104,7 +104,12 @@ class ElementGraph(Chainable):
         """The parameters of all elements and links, by name, bound ones included."""
         return parameters_of(self._graph)
 
-    def add(self, name: str, element: Element, frames: Mapping[str, Frame] | None = None) -> Node:
+    def add(
+        self,
+        name: str,
+        element: Element | None = None,
+        frames: Mapping[str, Frame] | None = None,
+    ) -> Node:
         """Add a named element.
 
         Parameters
@@ -157,35 +162,40 @@ class ElementGraph(Chainable):
         connect(self._graph, leaves, enters, azimuth, tap)
         self._plans.clear()
 
-    def disconnect(self, leaves: str, enters: str) -> None:
+    def disconnect(self, leaves: str, enters: str | None = None) -> None:
         """Take a link out.
 
         Parameters
         ----------
         leaves, enters : str
-            The ports that it links, as `connect` takes them.
+            The ports that it links, as `connect` takes them; the first will do where it feeds
+            one link, taps included.
 
         Raises
         ------
         PathError
-            If there is no such link.
+            If there is no such link, or there are several.
         """
         disconnect(self._graph, leaves, enters)
         self._plans.clear()
 
-    def insert(self, name: str, element: Element, behind: str) -> Node:
-        """Put an element into the link that leads from a port.
+    def insert(
+        self, name: str, element: Element, behind: str | None = None, *, before: str | None = None
+    ) -> Node:
+        """Put an element into a link, which is named by a port or by both.
 
-        It stands in the frame of that port, turned by its own azimuth. What stands behind
-        keeps its azimuth, and is not turned by that of an element that light goes straight
-        through. Taps of the port stay, and read the light in front of the element.
+        It stands in the frame of the port that light comes from, turned by its own azimuth. What
+        stands behind is not turned by an element that light goes straight through; where it has
+        an azimuth of its own, its link takes that over. Taps of the port stay, and read the light
+        in front of the element.
 
         Parameters
         ----------
         name, element
             As `add` takes them. The element has one natural way through.
-        behind : str
-            The port, as ``"node.port"``, or ``"node"`` for its natural one.
+        behind, before : str, optional
+            The port that the link leaves, or leads to, as ``"node.port"``, or ``"node"`` for its
+            natural one.
 
         Returns
         -------
@@ -195,7 +205,7 @@ class ElementGraph(Chainable):
         Raises
         ------
         PathError
-            If the port feeds no link, the element has no natural way through, or frames
+            If the port has no one link, the element has no natural way through, or frames
             would not fit; the path is as it was then.
 
         Examples
@@ -207,7 +217,7 @@ class ElementGraph(Chainable):
         >>> path
         <PathGraph: L >> P >> X2 >> X1 >> P2 >> E>
         """
-        self._edit(insert, name, element, behind)
+        self._edit(insert, name, element, behind, before)
         return Node(self, name)
 
     def remove(self, name: str) -> None:
@@ -228,7 +238,8 @@ class ElementGraph(Chainable):
     def replace(self, name: str, element: Element) -> Node:
         """Put another element in the place of one; its links and world frames stay.
 
-        Its own azimuth turns it, as that of the old one did.
+        Its own azimuth turns it, as that of the old one did. Where light goes straight through
+        both, nothing behind it is turned, as by `insert` and `remove`.
 
         Parameters
         ----------
@@ -245,8 +256,8 @@ class ElementGraph(Chainable):
         Raises
         ------
         PathError
-            If a port is missing, frames would not fit, or the old element has an azimuth and
-            the new one none; the path is as it was then.
+            If a port is missing, frames would not fit, or the new element lacks the azimuth of
+            one that light does not go straight through; the path is as it was then.
         """
         self._edit(replace, name, element)
         return Node(self, name)
@@ -257,14 +268,9 @@ class ElementGraph(Chainable):
 
     def _append(self, port: str, others: ElementGraph) -> str:
         """Add other elements behind a port, and return the name of the last of them."""
-        if others is self:
-            raise PathError(
-                f"what is put behind '{port}' is the path that it stands in; use a copy"
-            )
-        leaves = find_port(self._graph, port, out=True)
-        names = join(self._graph, others._graph, leaves)
+        last = append(self._graph, port, others._graph)
         self._plans.clear()
-        return list(names.values())[-1]
+        return last
 
     def element(self, name: str) -> Element:
         """Return the element of a node.
@@ -296,16 +302,11 @@ class ElementGraph(Chainable):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, ElementGraph):
             return NotImplemented
-        mine, theirs = dict(self._graph.edges.items()), dict(other._graph.edges.items())
+        mine, theirs = self._graph, other._graph
         return (
             self.loops == other.loops
-            and dict(self._graph.nodes(data=True)) == dict(other._graph.nodes(data=True))
-            and mine.keys() == theirs.keys()
-            and all(
-                same(about["azimuth"], theirs[link]["azimuth"])
-                and about["tap"] == theirs[link]["tap"]
-                for link, about in mine.items()
-            )
+            and same(dict(mine.nodes.items()), dict(theirs.nodes.items()))
+            and same(dict(mine.edges.items()), dict(theirs.edges.items()))
         )
 
     __hash__ = None  # type: ignore[assignment]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.wiring import LOOPS, Wiring
 from optipath.errors import PathError
-from optipath.paths.port_names import element_at, natural_of, natural_port
+from optipath.paths.port_names import element_at, find_port, natural_of, natural_port
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -84,6 +84,31 @@ def join(
     (start, out_port), (end, in_port) = link
     first.add_edge(start, names[end], key=(out_port, in_port), azimuth=None, tap=False)
     return names
+
+
+def append(graph: nx.MultiDiGraph, port: str, others: nx.MultiDiGraph) -> str:
+    """Put other elements behind a port, in place, and return what the last of them is called.
+
+    Parameters
+    ----------
+    graph, others : networkx.MultiDiGraph
+        As `join` takes the first and the second.
+    port : str
+        Where light leaves the first, as ``"node.port"`` or ``"node"``.
+
+    Returns
+    -------
+    str
+
+    Raises
+    ------
+    PathError
+        If both are one, there is no such port, or they cannot be joined.
+    """
+    if others is graph:
+        raise PathError(f"what is put behind '{port}' is the path that it stands in; use a copy")
+    names = join(graph, others, find_port(graph, port, out=True))
+    return list(names.values())[-1]
 
 
 def as_chain(graph: nx.MultiDiGraph) -> list[str]:

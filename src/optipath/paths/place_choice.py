@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.placement import goes_straight
+from optipath.composer.wiring import Wiring
 from optipath.errors import PathError, shown, unknown
 from optipath.paths.port_names import element_at, find_port, natural_port
 from optipath.paths.splicing import insert, remove
@@ -87,13 +88,13 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
     if choice.place(graph) != word:
         try:
             remove(graph, choice.node)
-            insert(graph, choice.node, element, choice.behind[word])
+            insert(graph, choice.node, element, choice.behind[word], None)
         except PathError as fault:
             wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}: "
             raise PathError(*(wrong + sentence for sentence in fault.faults)) from None
 
 
-def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
+def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice, *, linked: bool = True) -> list[str]:
     """Return why the node of a choice cannot be put in its places, a sentence each.
 
     Parameters
@@ -102,29 +103,32 @@ def choice_faults(graph: nx.MultiDiGraph, choice: PlaceChoice) -> list[str]:
         Elements and links.
     choice : PlaceChoice
         The choice.
+    linked : bool, optional
+        Whether the links are looked at, too; those of a path that has faults tell nothing.
 
     Returns
     -------
     list of str
         Empty where it can.
     """
-    node, found = choice.node, []
+    node, of_node, of_places = choice.node, [], []
     try:
         element = element_at(graph, node)
         enters, leaves = (natural_port(element, node, out=out) for out in (False, True))
+        if not goes_straight(element, enters, leaves):
+            of_node.append(f"light does not go straight through '{node}', so it has no other place")
     except PathError as fault:
-        return list(fault.faults)
-    if not goes_straight(element, enters, leaves):
-        found.append(f"light does not go straight through '{node}', so it has no other place")
+        of_node += fault.faults
+    # What has no place at all says nothing of links.
+    links = Wiring(graph).links_from if linked and not of_node else None
     for word, port in choice.behind.items():
         try:
             start, way = find_port(graph, port, out=True)
         except PathError as fault:
-            found += [f"place '{word}': {sentence}" for sentence in fault.faults]
+            of_places += [f"place '{word}': {sentence}" for sentence in fault.faults]
             continue
-        links = graph.out_edges(start, keys=True, data="tap")
-        if start == node or [tap for *_, (out, _), tap in links if out == way].count(False) != 1:
-            found.append(
+        if links is not None and (start == node or len(links.get((start, way), [])) != 1):
+            of_places.append(
                 f"place '{word}': '{start}.{way}' feeds no one link that '{node}' could be put into"
             )
-    return found
+    return [*of_node, *of_places]

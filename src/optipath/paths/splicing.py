@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from optipath.composer.placement import azimuth_of, frame_at, goes_straight, is_zero
+from optipath.composer.placement import azimuth_of, frame_at, goes_straight, is_zero, turn_text
 from optipath.composer.taps import taken_out
 from optipath.composer.wiring import Wiring, link_text
-from optipath.errors import PathError, listed, shown
-from optipath.paths.editing import add, check_element
+from optipath.errors import PathError, listed
+from optipath.paths.editing import add, check_element, find_link
+from optipath.paths.link_turns import turn_more
 from optipath.paths.port_names import element_at, find_port, natural_port
-from optipath.values.arrays.read_only import same
-from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -24,39 +21,30 @@ if TYPE_CHECKING:
     from optipath.elements.element import Element
 
 
-def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any) -> None:
+def insert(graph: nx.MultiDiGraph, name: Any, element: Any, behind: Any, before: Any) -> None:
     """Put an element into a link, as `PathGraph.insert` does.
 
     Parameters
     ----------
     graph : networkx.MultiDiGraph
         Elements and links, changed in place.
-    name, element, behind
+    name, element, behind, before
         As that takes them.
     """
     check_element(name, element)
-    start, leaves = find_port(graph, behind, out=True)
     enters, passes = (natural_port(element, name, out=out) for out in (False, True))
-    wiring = Wiring(graph)
-    links = wiring.links_from.get((start, leaves), [])
-    if len(links) != 1:
-        cure = f"take all but one out first, by {taken_out(wiring, links)}"
-        if not links:
-            cure = f"write path.add('{name}', ...) and path.connect('{start}.{leaves}', '{name}')"
-        raise PathError(
-            f"'{start}.{leaves}' feeds {_listed(links)}, and not one link that '{name}' could be "
-            f"put into; {cure}"
-        )
-    (link,) = links
-    own, azimuth = getattr(element, "azimuth", 0.0), graph.edges[link]["azimuth"]
-    if element.straight and not is_zero(own):
-        # What stands behind it stays as it was turned.
-        azimuth = _turned_more(wiring, link, -own, name)
-    frame = frame_at(wiring, start, leaves) if element.straight else None
+    link = _link_for(graph, name, behind, before)
+    start, end, (leaves, arrives) = link
+    frame = frame_at(Wiring(graph), start, leaves) if element.straight else None
     add(graph, name, element, None if frame is None else {enters: frame})
+    if element.straight and frame is None:
+        # What stands behind it stays as it was turned.
+        turn_more(graph, link, -_own_turn(element))
+    about = graph.edges[link]
+    azimuth, tap = about["azimuth"], about["tap"]
     graph.remove_edge(*link)
-    graph.add_edge(start, name, key=(leaves, enters), azimuth=None, tap=False)
-    graph.add_edge(name, link[1], key=(passes, link[2][1]), azimuth=azimuth, tap=False)
+    graph.add_edge(start, name, key=(leaves, enters), azimuth=None, tap=tap)
+    graph.add_edge(name, end, key=(passes, arrives), azimuth=azimuth, tap=False)
 
 
 def remove(graph: nx.MultiDiGraph, name: Any) -> None:
@@ -99,24 +87,72 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
             f"the new element of '{name}' has no {lost}, which links or frames use; it has "
             f"{listed(ports)}: disconnect the others first, or take '{name}' out and add it anew"
         )
-    _check_turn(graph, name, element)
+    if graph.nodes[name]["element"].straight and element.straight:
+        _turn_back(graph, name, element)
+    else:
+        _check_turn(graph, name, element)
     graph.nodes[name]["element"] = element
+
+
+def _turn_back(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
+    """Turn what stands behind a node by as much as another element turns it less."""
+    if graph.nodes[name]["frames"]:
+        return
+    old = _own_turn(graph.nodes[name]["element"])
+    cure = f"take '{name}' out by path.remove('{name}'), and put the new one in by path.insert"
+    for link in [link for link in graph.out_edges(name, keys=True) if link[1] != name]:
+        turn_more(graph, link, old, cure)
+        turn_more(graph, link, -_own_turn(element), cure)
+
+
+def _link_for(graph: nx.MultiDiGraph, name: Any, behind: Any, before: Any) -> Link:
+    """Return the one link behind a port, before another, or both."""
+    if behind is None and before is None:
+        raise PathError(
+            f"path.insert('{name}', ...) is told no link; give it behind='node.port', where light "
+            f"leaves, or before='node.port', where light arrives"
+        )
+    if behind is not None and before is not None:
+        return find_link(graph, behind, before)
+    wiring, is_behind = Wiring(graph), behind is not None
+    port = find_port(graph, behind if is_behind else before, out=is_behind)
+    links = (wiring.links_from if is_behind else wiring.links_to).get(port, [])
+    if len(links) == 1:
+        return links[0]
+    text, ends = ".".join(port), (f"'{'.'.join(port)}'", f"'{name}'")
+    feeds = "feeds" if is_behind else "is fed by"
+    if not links:
+        both = ", ".join(ends if is_behind else ends[::-1])
+        cure = f"write path.add('{name}', ...) and path.connect({both})"
+    elif is_behind:
+        cure = f"take all but one out first, by {taken_out(wiring, links)}"
+    else:
+        cure = f"say behind which port as well, such as behind='{links[0][0]}.{links[0][2][0]}'"
+    raise PathError(
+        f"'{text}' {feeds} {_listed(links)}, and not one link that '{name}' could be put into; "
+        f"{cure}"
+    )
+
+
+def _own_turn(element: Element) -> Any:
+    return getattr(element, "azimuth", 0.0)
 
 
 def _check_turn(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
     """Raise if a node was turned by its azimuth, and would not be by that of another element."""
-    azimuth = getattr(graph.nodes[name]["element"], "azimuth", 0.0)
+    wiring, azimuth = Wiring(graph), _own_turn(graph.nodes[name]["element"])
     links = [
-        link for link in graph.in_edges(name, keys=True) if graph.edges[link]["azimuth"] is None
+        link
+        for link in graph.in_edges(name, keys=True)
+        if graph.edges[link]["azimuth"] is None and not is_zero(azimuth_of(wiring, link))
     ]
-    if is_zero(azimuth) or not links or not is_zero(getattr(element, "azimuth", 0.0)):
+    if not links or not is_zero(_own_turn(element)):
         return
-    turn = azimuth.formula if isinstance(azimuth, Parameter) else shown(azimuth)
     takes = f"give it azimuth=path.element('{name}').azimuth, or " * hasattr(element, "azimuth")
     ports = f"'{links[0][0]}.{links[0][2][0]}', '{name}.{links[0][2][1]}'"
     raise PathError(
-        f"'{name}' is turned by its azimuth {turn}, and the new element is not; {takes}give an "
-        f"azimuth, 0.0 for none, to the link: path.disconnect({ports}), then "
+        f"'{name}' is turned by its azimuth {turn_text(azimuth)}, and the new element is not; "
+        f"{takes}give an azimuth, 0.0 for none, to the link: path.disconnect({ports}), then "
         f"path.connect({ports}, azimuth=...)"
     )
 
@@ -136,31 +172,15 @@ def _close(graph: nx.MultiDiGraph, name: str, before: list[Link], behind: list[L
             f"before and behind it would stand to each other; disconnect "
             f"{_listed([*before, *behind])} first"
         )
-    azimuth, turn = graph.edges[behind[0]]["azimuth"], azimuth_of(wiring, before[0])
-    if not is_zero(turn):
-        azimuth = _turned_more(wiring, behind[0], turn, name)
     if graph.has_edge(start, end, key=(leaves, arrives)):
         raise PathError(
             f"without '{name}' there would be two links '{start}.{leaves} -> {end}.{arrives}'; "
             f"disconnect the one that there is first"
         )
-    tap = graph.edges[before[0]]["tap"] or graph.edges[behind[0]]["tap"]
-    graph.add_edge(start, end, key=(leaves, arrives), azimuth=azimuth, tap=tap)
-
-
-def _turned_more(wiring: Wiring, link: Link, turn: Any, name: str) -> Any:
-    """Return the azimuth of a link that turns what it leads to by more than it did."""
-    own = wiring.graph.edges[link]["azimuth"]
-    if own is None and is_zero(azimuth_of(wiring, link)):
-        return turn
-    if own is not None and same(own, -turn):
-        return None
-    if all(isinstance(part, (int, float, np.ndarray)) for part in (own, turn)):
-        return own + turn
-    raise PathError(
-        f"'{name}' has an azimuth, and so has '{link[1]}' behind it, and no one azimuth does for "
-        f"both; say how '{name}' is turned by its angle, and leave its azimuth out"
-    )
+    turn_more(graph, behind[0], azimuth_of(wiring, before[0]))
+    about = graph.edges[behind[0]]
+    tap = graph.edges[before[0]]["tap"] or about["tap"]
+    graph.add_edge(start, end, key=(leaves, arrives), azimuth=about["azimuth"], tap=tap)
 
 
 def _listed(links: Iterable[Link]) -> str:

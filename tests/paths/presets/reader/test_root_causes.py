@@ -58,6 +58,12 @@ published = {{ eye = [1, 0, 0, 0] }}
 """
 INDEX = '{ n = "$n", k = 7.0 }'
 
+OFFERED = """
+[choices.place]
+element = "filter"
+behind = { light = "lamp.out", eye = "mirror.reflected" }
+"""
+
 
 def faults_of(text):
     with pytest.raises(op.OptipathError) as error:
@@ -146,6 +152,48 @@ def test_a_missing_link_is_told_where_it_is_missing_and_not_all_along_the_way():
     assert len(found) == 2
     assert "node 'mirror' is reached by no source" in found[0]
     assert "node 'filter' reaches no detector" in found[1]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "causes"),
+    [
+        ("[cases", '[[links]]\nfrom = "lamp.out"\nto = "eye.in"\n\n[cases', ["'lamp.out' feeds"]),
+        (
+            '[[links]]\nfrom = "mirror.reflected"\nto = "eye.in"\nazimuth = "10 deg"\n',
+            "",
+            ["'eye' is reached by no source", "'mirror' reaches no detector"],
+        ),
+        ('element = "filter"', 'element = "mirror"', ["not go straight through 'mirror'"]),
+        ('element = "filter"', 'element = "eye"', ["'eye' has no way out"]),
+        ('light = "lamp.out"', 'light = "mirror.transmitted"', ["place 'light': 'mirror.trans"]),
+        (
+            'light = "lamp.out", eye = "mirror',
+            'light = "lamp.outt", eye = "miror',
+            ["did you mean 'lamp.out'?", "did you mean 'mirror'?"],
+        ),
+    ],
+)
+def test_a_choice_is_at_fault_only_where_the_path_is_not(old, new, causes):
+    text = GOOD + OFFERED
+    assert old in text
+    found = faults_of(text.replace(old, new))
+    assert len(found) == len(causes)
+    for cause, fault in zip(causes, found, strict=True):
+        assert cause in fault
+
+
+def test_names_in_a_choice_are_told_with_other_faults():
+    text = (GOOD + OFFERED).replace('element = "filter"', 'element = "filtr"')
+    found = faults_of(text.replace("default = 1.2", "default = -1.2"))
+    assert any("choices.place: node 'filtr' does not exist" in fault for fault in found)
+    assert len(found) == 2
+
+
+def test_a_link_that_closes_a_cycle_is_told_by_the_cycle_alone():
+    """And not by the media that light meets there, or by the ends that it does not reach."""
+    text = GOOD.replace("k = 7.0", "k = 0.0").replace('"eye.in"', '"mirror.back"')
+    (fault,) = faults_of(text.replace('azimuth = "10 deg"\n', ""))
+    assert "light goes round in a cycle: mirror -> mirror" in fault
 
 
 def test_an_empty_file_has_no_format_and_no_elements():

@@ -13,6 +13,7 @@ from optipath.paths.format.codec import decode, which_pair
 from optipath.paths.format.faults import Faults, joined
 from optipath.paths.format.writer import complex_parts_of
 from optipath.paths.path_graph import PathGraph
+from optipath.paths.place_choice import PlaceChoice, choice_faults
 from optipath.paths.port_names import find_port
 from optipath.paths.presets.reader.case_tables import read_case
 from optipath.paths.presets.reader.declarations import (
@@ -60,8 +61,9 @@ def read(document: Table) -> PathGraph:
     before = len(faults)
     lost = _elements(path, document, parameters, faults)
     suspects = lost | _links(path, document, parameters, lost, faults)
+    misplaced = Faults()
     for name, table in tables_of(document, "choices", faults).items():
-        _offer(path, name, table, faults)
+        _offer(path, name, table, lost, faults, misplaced)
     values = Values(path.graph)
     unfit = unit_faults(values, parameters)
     faults += unfit.values()
@@ -79,6 +81,8 @@ def read(document: Table) -> PathGraph:
         partial = partial_faults(path.graph, suspects, doubtful, whole=whole)
         raise PathError(*joined([*faults, *partial]))
     validate(path.graph, values)
+    if misplaced:
+        raise PathError(*joined(misplaced))
     return path
 
 
@@ -157,15 +161,24 @@ def _add(path: PathGraph, name: str, table: Any, parameters: Parameters, faults:
     return bool(frames) and Faults().attempt(where, path.add, name, element) is not None
 
 
-def _offer(path: PathGraph, name: str, table: Table, faults: Faults) -> None:
+def _offer(
+    path: PathGraph, name: str, table: Table, lost: set[str], faults: Faults, misplaced: Faults
+) -> None:
+    """Offer a choice; what is wrong with its places is told where the links have no fault."""
     where = f"choices.{name}"
     wrong = schema.type_faults(where, table, schema.CHOICE)
     wrong += [f"{where}: '{k}' is missing" for k in ("element", "behind") if k not in table]
-    # Where links or elements are missing, places would be called wrong as well.
-    if not wrong and not faults:
-        about = table["element"], table["behind"], table.get("help", "")
-        faults.attempt(where, path.offer, name, *about)
     faults += wrong
+    if wrong or lost or not path.graph:
+        return
+    about = table["element"], table["behind"], table.get("help", "")
+    choice = faults.attempt(where, PlaceChoice, *about)
+    if choice is None:
+        return
+    unknown_names = choice_faults(path.graph, choice, linked=False)
+    faults += [f"{where}: {fault}" for fault in unknown_names]
+    if not unknown_names:
+        misplaced.attempt(where, path.offer, name, *about)
 
 
 def _link(
