@@ -37,6 +37,7 @@ _OTHERWISE = {
     "max": "xp.maximum(x, y)",
     "min": "xp.minimum(x, y)",
     "pi": "math.pi",
+    "frexp": "xp.scaling(x) for numbers that are scaled by xp.ldexp and scaled back",
     "array": "the rows as tuples of four entries each",
 }
 """How what other libraries have is written by what ``xp`` has."""
@@ -49,6 +50,8 @@ _CURES = (
     ("only 0-dimensional arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
     ("only scalar arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
     ("must be real number, not", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("unhashable", "choose by xp.where(condition, yes, no) in place of a look-up of the value"),
+    ("no attribute 'conj'", "write z.conjugate(), which numbers and arrays have"),
     ("tracer", "call the functions of xp in place of those of numpy and math"),
     ("inhomogeneous", "return four rows, tuples of four entries each, and no array of them"),
     ("could not be broadcast", "compute each entry by itself: numbers may be arrays over paths"),
