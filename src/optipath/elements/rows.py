@@ -66,7 +66,7 @@ class RowsFactory:
         own = OWN_FLOAT if xp is FLOAT else xp
 
         def numbers(*values: Any) -> tuple[Any, ...]:
-            entries = _entries(what, self.rows_of(own, *map(_unchanging, values)))
+            entries = _entries(what, self.rows_of(own, *map(_unchanging, values)), values)
             _check_shapes(what, entries, values)
             return entries
 
@@ -106,16 +106,15 @@ def _is_within(shape: tuple[int, ...], paths: tuple[int, ...]) -> bool:
         return False
 
 
-def _entries(what: str, rows: Any) -> tuple[Any, ...]:
-    """Return the sixteen numbers of four rows."""
+def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the sixteen numbers of four rows, which are for the paths of some values."""
     if isinstance(rows, np.ndarray):
-        if rows.shape != (4, 4):
-            raise PathError(
-                f"{what} gives an array of shape {rows.shape}; return four rows, tuples of four "
-                f"entries each, which may be arrays over paths"
-            )
+        _check_array(what, rows, values, (4, 4))
         rows = np.asarray(rows)
     try:
+        rows = tuple(rows)
+        for row in rows:
+            _check_array(what, row, values, (4,))
         found = [tuple(row) for row in rows]
     except TypeError:
         found = []
@@ -123,11 +122,23 @@ def _entries(what: str, rows: Any) -> tuple[Any, ...]:
         raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
     entries = tuple(entry for row in found for entry in row)
     if any(map(_is_complex, entries)):
-        return _real(what, entries)
+        return _real(what, entries, _rounding(entries + values))
     for entry in entries:
         if entry is None or isinstance(entry, (str, bytes, list, tuple, dict, Decimal, Fraction)):
             raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
     return entries
+
+
+def _check_array(what: str, given: Any, values: tuple[Any, ...], shape: tuple[int, ...]) -> None:
+    """Refuse an array in place of rows, or of a row, that may have paths among its axes."""
+    own = getattr(given, "shape", ())
+    many = " for many paths" if any(getattr(value, "shape", ()) for value in values) else ""
+    # Of four paths, it may have the right shape all the same.
+    if own and (many or own != shape):
+        raise PathError(
+            f"{what} gives an array of shape {own}{many}; return four rows, tuples of four "
+            f"entries each, which may be arrays over paths"
+        )
 
 
 def _is_complex(entry: Any) -> bool:
@@ -137,14 +148,19 @@ def _is_complex(entry: Any) -> bool:
     return isinstance(entry, complex) or (kind is not None and kind.kind == "c")
 
 
-def _real(what: str, entries: tuple[Any, ...]) -> tuple[Any, ...]:
+def _rounding(numbers: tuple[Any, ...]) -> float:
+    """Return the rounding of the coarsest of numbers; those without a type are doubles."""
+    kinds = {np.dtype(getattr(number, "dtype", np.float64)) for number in numbers}
+    return max(float(np.finfo(kind).eps) for kind in kinds if kind.kind in "fc")
+
+
+def _real(what: str, entries: tuple[Any, ...], rounding: float) -> tuple[Any, ...]:
     """Return the real parts of entries whose imaginary parts are 0 to rounding."""
     if not any(map(is_traced, entries)):
         sizes = np.broadcast_arrays(*[np.abs(entry) for entry in entries])
         largest = np.max(sizes, axis=0)
         for place, entry in enumerate(entries):
-            rounding = np.finfo(np.result_type(entry, np.complex64)).eps * _ROUNDINGS
-            if np.any(abs(np.imag(entry)) > rounding * largest):
+            if np.any(abs(np.imag(entry)) > _ROUNDINGS * rounding * largest):
                 row, column = divmod(place, 4)
                 raise PathError(
                     f"{what} gives the complex entry [{row}][{column}] = {shown(entry)}; a Mueller "

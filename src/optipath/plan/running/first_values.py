@@ -69,7 +69,9 @@ def _faults(way: OwnWay, given: ResolvedInputs) -> list[str]:
     where = np.unravel_index(some, given.batch) if given.batch else ()
 
     def few(number: Any) -> Any:
-        several = np.broadcast_to(number, given.batch)[where]
+        several = np.asarray(number)
+        if several.ndim:  # One number for all stays one, as elements are given it.
+            several = np.broadcast_to(several, given.batch)[where]
         return several if several.dtype == bool else several.astype(np.float64)
 
     mine = {key: few(n) for key, n in given.numbers.items() if key.name in names}
@@ -91,4 +93,5 @@ def _faults(way: OwnWay, given: ResolvedInputs) -> list[str]:
 def _values(numbers: dict[InputKey, Any], place: int) -> str:
     """Write the numbers of one path."""
     names = {key: key.name if key.part == "value" else str(key) for key in numbers}
-    return ", ".join(f"{names[key]} = {np.ravel(n)[place]:.6g}" for key, n in numbers.items())
+    one = {key: np.ravel(n)[place if np.ndim(n) else 0] for key, n in numbers.items()}
+    return ", ".join(f"{names[key]} = {n:.6g}" for key, n in one.items())
