@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.elements.class_faults import TURN
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.errors import PathError, shown
 from optipath.kernels.carriers.kernel import Kernel
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
-
-_TURN = "azimuth"
-"""The field that turns the frame, and is no value of a matrix."""
 
 _ROUNDINGS = 256.0
 """How many roundings of the largest entry an imaginary part may be that is taken for 0."""
@@ -184,20 +182,9 @@ def rows_kernel(name: str, class_name: str, rows_of: Any) -> Kernel:
     Returns
     -------
     Kernel
-
-    Raises
-    ------
-    PathError
-        If it takes ``self``; and when it is called and raises anything, or gives no four rows of
-        four entries.
+        Which raises a `PathError` where they raise anything, or give no four rows of four entries.
     """
     function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
-    first = getattr(getattr(function, "__code__", None), "co_varnames", ())[:1]
-    if first == ("self",):
-        raise PathError(
-            f"mueller_rows of element class {class_name} takes self; put @staticmethod before it, "
-            f"and let it take xp and the number of each field: mueller_rows(xp, ...)"
-        )
     return Kernel(name or class_name, FULL, RowsFactory(class_name, function))
 
 
@@ -215,6 +202,6 @@ def coupling_by_rows(element: Any, kernel: Kernel) -> Coupling:
     -------
     Coupling
     """
-    fields = [(getattr(element, name), d) for name, d in element.domains().items() if name != _TURN]
+    fields = [(getattr(element, name), d) for name, d in element.domains().items() if name != TURN]
     numbers = tuple(number for value, domain in fields for number in numbers_of(value, domain))
     return Coupling("in", "out", (Operation(kernel, numbers),))
