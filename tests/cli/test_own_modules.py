@@ -18,6 +18,17 @@ class Foil(op.Element, kind="test-imported-foil"):
     def mueller_rows(xp, share):
         return [[share * (row == column) for column in range(4)] for row in range(4)]
 """
+POST_INIT = """
+    def __post_init__(self):
+        super().__post_init__()
+        if self.share > 0.5:
+            raise ValueError(f"{self.share} is too much")
+"""
+ROWS = """
+    @staticmethod
+    def mueller_rows(xp, share):
+        raise {}
+"""
 FILE = """
 format = 1
 description = "a foil of one's own"
@@ -108,3 +119,27 @@ def test_what_cannot_be_imported_is_told_in_a_line(name, text, expected, folder,
     assert len(captured.err.splitlines()) == 1
     assert not captured.out
     assert sys.modules.get("broken") is None
+
+
+@pytest.mark.parametrize(
+    ("method", "share", "expected"),
+    [
+        (
+            POST_INIT,
+            "0.75",
+            "elements.foil: element class Foil raises ValueError: 0.75 is too much",
+        ),
+        (POST_INIT, '"x"', "elements.foil.share: 'x' is not a quantity"),
+        (ROWS.format("SystemExit(7)"), "0.5", "class Foil raises SystemExit: 7"),
+        (ROWS.format("MemoryError"), "0.5", "the memory of this machine does not suffice"),
+    ],
+)
+def test_whatever_code_of_ones_own_raises_is_told_in_a_line(
+    method, share, expected, folder, capsys
+):
+    (folder / "imported_foils.py").write_text(MODULE + method, "utf-8")
+    (folder / "path.toml").write_text(FILE.replace('"$share"', share), "utf-8")
+    assert main(["--import", "imported_foils", "run", "path.toml"]) == 2
+    captured = capsys.readouterr()
+    assert expected in captured.err
+    assert len(captured.err.splitlines()) == 1

@@ -1,5 +1,6 @@
 """What no passive element can do is refused, beyond rounding; measured noise is let in if asked."""
 
+import math
 from importlib.util import find_spec
 
 import numpy as np
@@ -164,12 +165,18 @@ def test_jax_gives_nan_for_traced_matrices_that_cannot_be():
     np.testing.assert_array_equal(found[1], [1.0, 0.0, 0.0, 0.0])
 
 
+COUNTED = np.diag([1.0, 1.0, math.sqrt(0.91), math.sqrt(0.91)])
+COUNTED[0, 1] = COUNTED[1, 0] = 0.3
+
+
 @pytest.mark.parametrize(
     ("matrix", "cure"),
     [
         (1.0000001 * np.eye(4), "give matrix / 1.0000001,"),
         (1.00000000123456 * np.eye(4), "give matrix / 1.000000002,"),
         (np.array([2.0 * np.eye(4), 3.0 * np.eye(4)]), "give matrix / 3,"),
+        (1e12 * COUNTED, "give matrix / 1.3e+12,"),
+        (1e200 * COUNTED, "give matrix / 1.3e+200,"),
         (np.array([4.0 * np.eye(4), TURNED_OVER]), "nearest_physical().matrix / 4,"),
         (np.diag([1.0, 1.0, 1.0, -1.0]), "nearest_physical().matrix / 1.5,"),
     ],

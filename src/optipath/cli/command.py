@@ -143,6 +143,8 @@ def _run(arguments: Sequence[str]) -> int:
         return _refuse(error.format_message())
     except OptipathError as error:
         return _refuse(*error.faults, about=error.about)
+    except MemoryError:
+        return _refuse("the memory of this machine does not suffice; run fewer paths at once")
     except BrokenPipeError:
         _forget_output()  # Whoever read it has seen enough.
     except OSError as error:

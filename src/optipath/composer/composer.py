@@ -197,7 +197,7 @@ class Composer:
             instead=instead,
             tolerance=self.tolerance,
             inputs=values.inputs(media.open),
-            own_ways=tuple([w for w in wiring.own_ways(self.method) if not w.is_known]),
+            own_ways=tuple([w for w in wiring.own_ways(self.method) if not w.are_known()]),
             outlets=wiring.outlets,
             taps=tuple(map(link_text, wiring.taps)),
             method=self.method,

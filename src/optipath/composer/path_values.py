@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import link_text
-from optipath.elements.own_ways import couplings_of
+from optipath.elements.own_couplings import couplings_of
 from optipath.errors import ValueFault
+from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.domains.quantities import ANGLE
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.values.agreement import Agreement
+    from optipath.values.resolved import Resolved
 
 
 class Values:
@@ -85,6 +87,16 @@ class Values:
         for name, frames in self.graph.nodes(data="frames"):
             shapes |= {f"frame of {name}.{port}": f.z.shape[:-1] for port, f in frames.items()}
         return {owner: shape for owner, shape in shapes.items() if shape}
+
+    @cached_property
+    def defaults(self) -> dict[str, Resolved]:
+        """What parameters are by default: those with one number, and of elements that are there."""
+        found = {
+            name: p.resolve(p.default)
+            for name, p in self.parameters.items()
+            if not p.bound and p.default is not None and not is_traced(p.default)
+        }
+        return {name: r for name, r in found.items() if r.present.ndim == 0 and r.present}
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""

@@ -109,16 +109,18 @@ def _faults(
     found += [*_dark_link_faults(wiring), *cyclic]
     if whole:
         found += _missing_end_faults(wiring)
-    found += [] if found else _own_faults(wiring)
+    found += [] if found else _own_faults(values, wiring)
     if wiring.starts and wiring.ends and not cyclic:
         found += _reach_faults(wiring, unsure)
     return found
 
 
-def _own_faults(wiring: Wiring) -> Iterator[str]:
-    for way in wiring.own_ways():
-        if way.is_known:
-            yield from (fault for _, fault in way.faults(lambda operand: operand.numbers()))
+def _own_faults(values: Values, wiring: Wiring) -> Iterator[str]:
+    ways = wiring.own_ways()
+    defaults = values.defaults if ways else {}
+    for each in ways:
+        if each.are_known(defaults):
+            yield from (fault for _, fault in each.faults(lambda o: o.numbers(defaults)))
 
 
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:
@@ -134,7 +136,8 @@ def _table(kind: str) -> str:
 
 def _dark_link_faults(wiring: Wiring) -> Iterator[str]:
     for link in wiring.dark_links:
-        kind, leaves = wiring.elements[link[0]].kind, link[2][0]
+        element, leaves = wiring.elements[link[0]], link[2][0]
+        kind = element.kind or type(element).__name__
         yield (
             f"link '{link_text(link)}' carries no light: {kind} names '{leaves}', but gives no "
             f"light there; remove the link"

@@ -6,7 +6,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 from optipath.composer.travel import Port, Ways, among, backwards, reached, stretches
-from optipath.elements.own_ways import OwnWay, couplings_of, is_looked_at
+from optipath.elements.own_couplings import couplings_of
+from optipath.elements.own_ways import OwnWays, own_ways
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -76,13 +77,12 @@ class Wiring:
                 known[id(element)] = couplings_of(element)
         return {name: known[id(element)] for name, element in self.elements.items()}
 
-    def own_ways(self, method: str = "stable") -> list[OwnWay]:
+    def own_ways(self, method: str = "stable") -> list[OwnWays]:
         """Return the ways through elements of a user's own that are to be looked at."""
         return [
-            OwnWay(name, self.elements[name], coupling, method)
+            ways
             for name, couplings in self.couplings.items()
-            if is_looked_at(self.elements[name])
-            for coupling in couplings
+            for ways in own_ways(name, self.elements[name], couplings, method)
         ]
 
     @cached_property

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.elements.media_of_boundary import MediaOfBoundary
-from optipath.elements.own_ways import OwnWay, couplings_of, is_looked_at
+from optipath.elements.own_couplings import couplings_of
+from optipath.elements.own_ways import own_ways
 from optipath.errors import PathError, shown
 from optipath.kernels.catalogue import REFLECTION
 from optipath.light.frames import Frame
@@ -17,6 +18,7 @@ from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling
+    from optipath.elements.own_ways import OwnWays
 
 _TWO_MATRICES = 256
 """How many bytes a matrix and what it is made of have."""
@@ -78,11 +80,11 @@ def mueller_alone(
         raise PathError(*faults)
     batch = joint_shape(*shapes.values())
     couplings = couplings_of(element)
-    for coupling in couplings:
-        if (coupling.enters, coupling.leaves) == (enters, leaves):
+    entering = [coupling for coupling in couplings if coupling.enters == enters]
+    for coupling in entering:
+        if coupling.leaves == leaves:
             with enough_for(batch, _TWO_MATRICES, error=PathError):
-                if is_looked_at(element):
-                    _refuse_unphysical(OwnWay(owner, element, coupling, method))
+                _refuse_unphysical(own_ways(owner, element, entering, method))
                 matrix = coupling.matrix(method)
             frame_in = frame_in or _own_frame(element, enters)
             return Mueller.of(matrix, frame_in, frame_out or _own_frame(element, leaves))
@@ -103,11 +105,11 @@ def _no_way(owner: str, enters: str, leaves: str, couplings: tuple[Coupling, ...
     )
 
 
-def _refuse_unphysical(way: OwnWay) -> None:
+def _refuse_unphysical(ways: list[OwnWays]) -> None:
     """Refuse what no light can do, as paths do."""
-    faults = way.faults(Operand.numbers) if way.is_known else []
-    if faults:
-        raise PathError(*(sentence for _, sentence in faults))
+    known = [each for each in ways if each.are_known()]
+    if faults := [text for each in known for _, text in each.faults(Operand.numbers)]:
+        raise PathError(*faults)
 
 
 def _own_frame(element: Any, port: str) -> Frame:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 from optipath.elements.acting import ActsOnLight
 from optipath.elements.alone import mueller_alone
 from optipath.elements.chaining import Chainable, NamedElement
+from optipath.elements.class_faults import class_faults
 from optipath.elements.fields import domains_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
@@ -100,6 +101,8 @@ class Element(Chainable, ActsOnLight):
         """Make the subclass a frozen dataclass and enter its kind in the registry."""
         super().__init_subclass__(**keywords)
         dataclass(frozen=True, eq=False)(cls)
+        if faults := class_faults(cls, Element, kind):
+            raise PathError(*faults)
         cls.kind = kind
         if kind:
             register(kind, cls)

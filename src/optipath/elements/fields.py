@@ -11,7 +11,7 @@ from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import INDEX, INDICES
-from optipath.values.domains.quantities import REAL
+from optipath.values.domains.quantities import REAL, YES_OR_NO
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 @cache
 def domains_of(element_class: type[Any]) -> dict[str, Domain]:
-    """Return the domain that each field is annotated with, in order; real numbers by default.
+    """Return the domain that each field is annotated with, in order.
+
+    Without one it is a real number, or True or False where that is what it says.
 
     Raises
     ------
@@ -35,7 +37,8 @@ def domains_of(element_class: type[Any]) -> dict[str, Domain]:
         ) from None
     # The base of all elements is no dataclass, and has no fields.
     own = fields(element_class) if is_dataclass(element_class) else ()
-    return {f.name: next(_annotated(hints[f.name]), REAL) for f in own}
+    plain = {f.name: YES_OR_NO if hints[f.name] is bool else REAL for f in own}
+    return {name: next(_annotated(hints[name]), domain) for name, domain in plain.items()}
 
 
 def _annotated(hint: Any) -> Iterator[Domain]:

@@ -1,4 +1,4 @@
-"""The ways through elements of a user's own: what they raise, and whether light can go so."""
+"""The ways through elements of a user's own: whether light can go so."""
 
 from __future__ import annotations
 
@@ -7,55 +7,59 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.coupling import Coupling
-from optipath.errors import OptipathError, PathError, ValueFault, shown
-from optipath.kernels.carriers.own_code import in_words
+from optipath.elements.own_couplings import is_own
+from optipath.errors import ValueFault, listed, shown
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.mueller.cloude import tolerance_of
-from optipath.light.mueller.passive_matrices import are_passive, cure_of, problem_of
+from optipath.light.mueller.passive_matrices import are_passive, cure_of, gain, problem_of
 from optipath.light.mueller.stacking import stacked
 from optipath.values.domains.states import StokesDomain
 from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Collection, Iterable
 
+    from optipath.elements.coupling import Coupling
     from optipath.values.operands import Operand
+    from optipath.values.roundings import Array
 
 _LONGEST = 100
 
 _EMITTED = StokesDomain("Stokes vector", tail=(4,))
 
+_TAKEN = "say physical: ClassVar[bool] = False in the class, to take it as it is"
 
-def couplings_of(element: Any) -> tuple[Coupling, ...]:
-    """Return the ways through an element.
 
-    Raises
-    ------
-    PathError
-        If the class does not say them, or its code raises anything; naming the class.
+def own_ways(owner: str, element: Any, couplings: Iterable[Coupling], method: str) -> list[OwnWays]:
+    """Return the ways through an element that are to be looked at: those of a user's own class.
+
+    Parameters
+    ----------
+    owner : str
+        The node.
+    element : Element
+        What stands there.
+    couplings : iterable of Coupling
+        Its ways.
+    method : str
+        How Fresnel's equations are computed.
+
+    Returns
+    -------
+    list of OwnWays
+        For each in-port those that light takes from there.
     """
-    what = f"couplings() of element class {type(element).__name__}"
-    try:
-        found = tuple(element.couplings())
-    except (MemoryError, OptipathError, Warning):
-        raise
-    except Exception as error:
-        raise in_words(what, error) from error
-    for coupling in found:
-        if not isinstance(coupling, Coupling):
-            raise PathError(f"{what} gives {shown(coupling)}; return a tuple of op.Coupling")
-    return found
-
-
-def is_looked_at(element: Any) -> bool:
-    """Tell whether an element is of a user's own class that does not say ``physical = False``."""
-    return element.physical is not False and not type(element).__module__.startswith("optipath.")
+    if not is_own(type(element)):
+        return []
+    ports: dict[str | None, list[Coupling]] = {}
+    for coupling in couplings:
+        ports.setdefault(coupling.enters, []).append(coupling)
+    return [OwnWays(owner, element, tuple(each), method) for each in ports.values()]
 
 
 @dataclass(frozen=True, eq=False)
-class OwnWay:
-    """A way through an element of a user's own, which no proof stands behind.
+class OwnWays:
+    """The ways from one port through an element of a user's own, which no proof stands behind.
 
     Attributes
     ----------
@@ -63,29 +67,32 @@ class OwnWay:
         The node.
     element : Element
         What stands there.
-    coupling : Coupling
-        The way.
+    couplings : tuple of Coupling
+        The ways.
     method : str
         How Fresnel's equations are computed.
     """
 
     owner: str
     element: Any
-    coupling: Coupling
+    couplings: tuple[Coupling, ...]
     method: str = "stable"
 
     @property
     def operands(self) -> list[Operand]:
-        """The numbers that it is made of, such as it is given and such as are known."""
-        return [one for operation in self.coupling.operations for one in operation.operands()]
+        """The numbers that they are made of, such as are given and such as are known."""
+        operations = [one for coupling in self.couplings for one in coupling.operations]
+        return [operand for operation in operations for operand in operation.operands()]
 
-    @property
-    def is_known(self) -> bool:
-        """Whether all of them are numbers already."""
-        return all(operand.known and not operand.traced for operand in self.operands)
+    def are_known(self, given: Collection[str] = ()) -> bool:
+        """Tell whether all of them are numbers already, with those of parameters that are given."""
+        return all(
+            not operand.traced and (operand.known or operand.value.name in given)
+            for operand in self.operands
+        )
 
     def faults(self, read: Callable[[Operand], Any]) -> list[tuple[int, str]]:
-        """Return what is wrong with what it does to light: for which path, and in words.
+        """Return what is wrong with what they do to light: for which path, and in words.
 
         Parameters
         ----------
@@ -95,36 +102,78 @@ class OwnWay:
         Returns
         -------
         list of (int, str)
-            Mostly empty; else the first such path, and a sentence.
+            Mostly empty; else the first such path of each way, and a sentence.
         """
-        matrix: Any = np.eye(4)
-        # NaN and infinity are told where the light is.
-        with np.errstate(all="ignore"):
-            for operation in self.coupling.operations:
-                kernel = operation.kernel.by_method(self.method)
-                numbers = operation.numbers(NUMPY, lambda a: read(operand_of(a)), self.method)
-                if self.coupling.enters is None:
-                    return self._emission_faults(numbers)
-                if kernel.structure is None:
-                    return []
-                matrix = stacked(kernel.structure.rows(NUMPY, numbers)) @ matrix
-        several = matrix.reshape(-1, 4, 4)
-        several = np.where(np.isfinite(several).all(axis=(1, 2), keepdims=True), several, 0.0)
-        bad = np.flatnonzero(~are_passive(several, tolerance_of(0.0)))
-        if not bad.size:
-            return []
-        tolerance = tolerance_of(0.0)
-        problem, cure = problem_of(several[bad[0]], tolerance), cure_of(several, tolerance)
-        rows = (", ".join(f"{number:.6g}" for number in row) for row in several[bad[0]])
-        text = (
-            f"{self._named()} has the Mueller matrix ({'), ('.join(rows)}), which {problem}; "
-            f"mend its rows, to {cure} perhaps, or say physical: ClassVar[bool] = False in the "
-            f"class, to take it as it is"
-        )
-        return [(int(bad[0]), text)]
+        matrices: list[Array] = []
+        found: list[tuple[int, str]] = []
+        for coupling in self.couplings:
+            with np.errstate(all="ignore"):
+                light = self._emitted(coupling, read)
+                matrix = self._matrix(coupling, read) if light is None else None
+            if light is not None:
+                found += self._emission_faults(light)
+            if matrix is not None:
+                matrices.append(matrix)
+                found += self._matrix_faults(matrix.reshape(-1, 4, 4))
+        return found or self._sum_faults(matrices)
 
-    def _emission_faults(self, numbers: Any) -> list[tuple[int, str]]:
-        stokes = np.stack(np.broadcast_arrays(*numbers), axis=-1).astype(np.float64)
+    def _emitted(self, coupling: Coupling, read: Callable[[Operand], Any]) -> Any:
+        """Return the light that begins here, shape (..., 4); None where none does."""
+        if coupling.enters is not None or not coupling.operations:
+            return None
+        numbers = self._numbers(coupling.operations[0], read)
+        return np.stack(np.broadcast_arrays(*numbers), axis=-1).astype(np.float64)
+
+    def _numbers(self, operation: Any, read: Callable[[Operand], Any]) -> tuple[Any, ...]:
+        return operation.numbers(NUMPY, lambda a: read(operand_of(a)), self.method)  # type: ignore[no-any-return]
+
+    def _matrix(self, coupling: Coupling, read: Callable[[Operand], Any]) -> Array | None:
+        """Return the Mueller matrix of one way; None where it is none."""
+        matrix: Any = np.eye(4)
+        for operation in coupling.operations:
+            structure = operation.kernel.by_method(self.method).structure
+            if structure is None:
+                return None
+            rows = structure.rows(NUMPY, self._numbers(operation, read))
+            matrix = stacked(rows) @ matrix
+        return matrix  # type: ignore[no-any-return]
+
+    def _matrix_faults(self, several: Array) -> list[tuple[int, str]]:
+        finite = np.isfinite(several).all(axis=(1, 2))
+        if not finite.all():
+            place = int(np.argmin(finite))
+            text = (
+                f"{self._with_matrix(several[place])}, which is not finite; keep divisors from 0 "
+                f"and roots from negative numbers, as in x / xp.where(d == 0.0, 1.0, d)"
+            )
+            return [(place, text)]
+        tolerance = tolerance_of(0.0)
+        if self.element.physical is False or (passive := are_passive(several, tolerance)).all():
+            return []
+        place = int(np.argmin(passive))
+        problem, cure = problem_of(several[place], tolerance), cure_of(several, tolerance)
+        text = f"{self._with_matrix(several[place])}, which {problem}; mend its rows, to {cure}"
+        return [(place, f"{text} perhaps, or {_TAKEN}")]
+
+    def _sum_faults(self, matrices: list[Array]) -> list[tuple[int, str]]:
+        """Say that several ways, of which each is one, let out more light than comes in."""
+        if len(matrices) < 2 or self.element.physical is False:
+            return []
+        times = np.ravel(gain(sum(np.broadcast_arrays(*matrices), np.zeros((4, 4)))))
+        if not np.any(times > 1.0 + tolerance_of(0.0)):
+            return []
+        place = int(np.argmax(times))
+        ports = listed([f"'{coupling.leaves}'" for coupling in self.couplings])
+        text = (
+            f"{self._named()} lets out up to {times[place]:.6g} times the light that comes in at "
+            f"'{self.couplings[0].enters}', at {ports} together (M00 + |(M01, M02, M03)| of the "
+            f"sum), as no passive element does; part it among them, or {_TAKEN}"
+        )
+        return [(place, text)]
+
+    def _emission_faults(self, stokes: Array) -> list[tuple[int, str]]:
+        if self.element.physical is False:
+            return []
         bad = np.flatnonzero(~_EMITTED.allows(stokes.reshape(-1, 4)))
         for place in bad[:1]:
             try:
@@ -133,7 +182,11 @@ class OwnWay:
                 return [(int(place), str(fault))]
         return []
 
+    def _with_matrix(self, matrix: Array) -> str:
+        rows = (", ".join(f"{number:.6g}" for number in row) for row in matrix)
+        return f"{self._named()} has the Mueller matrix ({'), ('.join(rows)})"
+
     def _named(self) -> str:
         name, text = type(self.element).__name__, shown(self.element)
-        values = f", {text}" if self.is_known and len(text) <= _LONGEST else ""
+        values = f", {text}" if self.are_known() and len(text) <= _LONGEST else ""
         return f"'{self.owner}' (element class {name}{values})"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.elements.class_faults import TURN
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.errors import PathError, shown
 from optipath.kernels.carriers.kernel import Kernel
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
-
-_TURN = "azimuth"
-"""The field that turns the frame, and is no value of a matrix."""
 
 _ROUNDINGS = 256.0
 """How many roundings of the largest entry an imaginary part may be that is taken for 0."""
@@ -66,7 +64,7 @@ class RowsFactory:
         own = OWN_FLOAT if xp is FLOAT else xp
 
         def numbers(*values: Any) -> tuple[Any, ...]:
-            entries = _entries(what, self.rows_of(own, *map(_unchanging, values)))
+            entries = _entries(what, self.rows_of(own, *map(_unchanging, values)), values)
             _check_shapes(what, entries, values)
             return entries
 
@@ -106,16 +104,15 @@ def _is_within(shape: tuple[int, ...], paths: tuple[int, ...]) -> bool:
         return False
 
 
-def _entries(what: str, rows: Any) -> tuple[Any, ...]:
-    """Return the sixteen numbers of four rows."""
+def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the sixteen numbers of four rows, which are for the paths of some values."""
     if isinstance(rows, np.ndarray):
-        if rows.shape != (4, 4):
-            raise PathError(
-                f"{what} gives an array of shape {rows.shape}; return four rows, tuples of four "
-                f"entries each, which may be arrays over paths"
-            )
+        _check_array(what, rows, values, (4, 4))
         rows = np.asarray(rows)
     try:
+        rows = tuple(rows)
+        for row in rows:
+            _check_array(what, row, values, (4,))
         found = [tuple(row) for row in rows]
     except TypeError:
         found = []
@@ -123,11 +120,23 @@ def _entries(what: str, rows: Any) -> tuple[Any, ...]:
         raise PathError(f"{what} must return four rows of four entries, not {shown(rows)}")
     entries = tuple(entry for row in found for entry in row)
     if any(map(_is_complex, entries)):
-        return _real(what, entries)
+        return _real(what, entries, _rounding(entries + values))
     for entry in entries:
         if entry is None or isinstance(entry, (str, bytes, list, tuple, dict, Decimal, Fraction)):
             raise PathError(f"{what} gives the entry {shown(entry)}; give numbers")
     return entries
+
+
+def _check_array(what: str, given: Any, values: tuple[Any, ...], shape: tuple[int, ...]) -> None:
+    """Refuse an array in place of rows, or of a row, that may have paths among its axes."""
+    own = getattr(given, "shape", ())
+    many = " for many paths" if any(getattr(value, "shape", ()) for value in values) else ""
+    # Of four paths, it may have the right shape all the same.
+    if own and (many or own != shape):
+        raise PathError(
+            f"{what} gives an array of shape {own}{many}; return four rows, tuples of four "
+            f"entries each, which may be arrays over paths"
+        )
 
 
 def _is_complex(entry: Any) -> bool:
@@ -137,14 +146,19 @@ def _is_complex(entry: Any) -> bool:
     return isinstance(entry, complex) or (kind is not None and kind.kind == "c")
 
 
-def _real(what: str, entries: tuple[Any, ...]) -> tuple[Any, ...]:
+def _rounding(numbers: tuple[Any, ...]) -> float:
+    """Return the rounding of the coarsest of numbers; those without a type are doubles."""
+    kinds = {np.dtype(getattr(number, "dtype", np.float64)) for number in numbers}
+    return max(float(np.finfo(kind).eps) for kind in kinds if kind.kind in "fc")
+
+
+def _real(what: str, entries: tuple[Any, ...], rounding: float) -> tuple[Any, ...]:
     """Return the real parts of entries whose imaginary parts are 0 to rounding."""
     if not any(map(is_traced, entries)):
         sizes = np.broadcast_arrays(*[np.abs(entry) for entry in entries])
         largest = np.max(sizes, axis=0)
         for place, entry in enumerate(entries):
-            rounding = np.finfo(np.result_type(entry, np.complex64)).eps * _ROUNDINGS
-            if np.any(abs(np.imag(entry)) > rounding * largest):
+            if np.any(abs(np.imag(entry)) > _ROUNDINGS * rounding * largest):
                 row, column = divmod(place, 4)
                 raise PathError(
                     f"{what} gives the complex entry [{row}][{column}] = {shown(entry)}; a Mueller "
@@ -168,20 +182,9 @@ def rows_kernel(name: str, class_name: str, rows_of: Any) -> Kernel:
     Returns
     -------
     Kernel
-
-    Raises
-    ------
-    PathError
-        If it takes ``self``; and when it is called and raises anything, or gives no four rows of
-        four entries.
+        Which raises a `PathError` where they raise anything, or give no four rows of four entries.
     """
     function = rows_of.__func__ if isinstance(rows_of, staticmethod) else rows_of
-    first = getattr(getattr(function, "__code__", None), "co_varnames", ())[:1]
-    if first == ("self",):
-        raise PathError(
-            f"mueller_rows of element class {class_name} takes self; put @staticmethod before it, "
-            f"and let it take xp and the number of each field: mueller_rows(xp, ...)"
-        )
     return Kernel(name or class_name, FULL, RowsFactory(class_name, function))
 
 
@@ -199,6 +202,6 @@ def coupling_by_rows(element: Any, kernel: Kernel) -> Coupling:
     -------
     Coupling
     """
-    fields = [(getattr(element, name), d) for name, d in element.domains().items() if name != _TURN]
+    fields = [(getattr(element, name), d) for name, d in element.domains().items() if name != TURN]
     numbers = tuple(number for value, domain in fields for number in numbers_of(value, domain))
     return Coupling("in", "out", (Operation(kernel, numbers),))

@@ -25,7 +25,7 @@ _SPACE = {
     "atan2": math.atan2,
     "cos": math.cos,
     "exp": math.exp,
-    "exponent": lambda number: math.frexp(number)[1],
+    "exponent": FLOAT.scaling,
     "inf": math.inf,
     "ldexp": math.ldexp,
     "multiply_add": FLOAT.multiply_add,

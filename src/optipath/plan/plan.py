@@ -20,7 +20,7 @@ from optipath.values.whole_numbers import whole_number
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.elements.own_ways import OwnWay
+    from optipath.elements.own_ways import OwnWays
     from optipath.engines.program.program import Program
     from optipath.engines.program.reduction import Reduction, Tolerance
     from optipath.plan.answers import Answers
@@ -42,7 +42,7 @@ class Plan(PlanDetails):
         What is left of it for what the detectors read.
     inputs : Inputs
         The parameters that are open, and what may be given for them.
-    own_ways : tuple of OwnWay
+    own_ways : tuple of OwnWays
         Ways through elements of a user's own that are looked at with the first values of a run.
     outlets : tuple of str
         Ports whose light leaves the path unread.
@@ -73,7 +73,7 @@ class Plan(PlanDetails):
     threads: int = 1
     instead: Tolerance | None = None
     tolerance: float | None = None
-    own_ways: tuple[OwnWay, ...] = ()
+    own_ways: tuple[OwnWays, ...] = ()
 
     @property
     def program(self) -> Program:

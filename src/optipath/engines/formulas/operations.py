@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.kernels.numbers.primitives import product_rest
+from optipath.kernels.numbers.primitives import NUMPY, product_rest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -41,7 +41,7 @@ OPERATIONS = {
     "divide": About(np.divide, "float", "{0} / {1}"),
     "equal": About(np.equal, "bool", "{0} == {1}", commutes=True),
     "exp": About(np.exp, "float", "exp({0})"),
-    "exponent": About(lambda number: np.frexp(number)[1], "int", "exponent({0})"),
+    "exponent": About(NUMPY.scaling, "int", "exponent({0})"),
     "fixed": About(lambda number: number, "same", "{0}"),
     "floor_divide": About(np.floor_divide, "same", "{0} // {1}"),
     "greater": About(np.greater, "bool", "{0} > {1}"),

@@ -68,7 +68,7 @@ class Symbol:
 
     __slots__ = ("axes", "index", "kind", "operands", "operation", "positive", "recorder")
     __array_ufunc__ = None  # So that NumPy's scalars leave operators to this class.
-    __hash__ = object.__hash__
+    __hash__ = None  # type: ignore[assignment] # Nor is it looked up in place of a number.
 
     def __init__(
         self,
@@ -96,6 +96,9 @@ class Symbol:
 
     def __bool__(self) -> bool:
         raise TypeError("a number that is not known yet is neither true nor false; use xp.where")
+
+    def __str__(self) -> str:
+        raise TypeError("a number that is not known yet has no digits; use xp.where")
 
     def __repr__(self) -> str:
         return f"<Symbol {self.index}: {self.operation}>"

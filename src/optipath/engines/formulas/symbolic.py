@@ -71,8 +71,7 @@ SYMBOLIC = Primitives(
     **_recording("where", "sqrt", "absolute", "maximum", "minimum", "exp", "ldexp"),
     sin=partial(_circular, "sin"),
     cos=partial(_circular, "cos"),
-    **_recording("fixed", "multiply_add", atan2="arctan2"),
-    frexp=lambda number: (number, record("exponent", number)),
+    **_recording("fixed", "multiply_add", atan2="arctan2", scaling="exponent"),
     two_product=lambda a, b: (record("multiply", a, b), record("product_rest", a, b)),
     below_rounding=_below_rounding,
 )

@@ -79,7 +79,7 @@ class JonesCarrier(Carrier):
     def _settled(self, columns: Columns, exponent: Any) -> JonesState:
         xp = self.xp
         size = reduce(xp.maximum, (xp.absolute(part) for column in columns for part in column))
-        _, shift = xp.frexp(size)
+        shift = xp.scaling(size)
         first, second = (tuple(xp.ldexp(part, -shift) for part in column) for column in columns)
         return (first, second), exponent + shift
 

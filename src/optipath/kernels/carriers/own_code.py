@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.errors import OptipathError, PathError, did_you_mean
 from optipath.kernels.numbers.primitives import FLOAT, Primitives
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.kernels.numbers.primitives import Factory, KernelFunction
+
+T = TypeVar("T")
 
 FUNCTIONS = tuple(f.name for f in fields(Primitives))
 """What ``xp`` has."""
@@ -37,6 +41,7 @@ _OTHERWISE = {
     "max": "xp.maximum(x, y)",
     "min": "xp.minimum(x, y)",
     "pi": "math.pi",
+    "frexp": "xp.scaling(x) for numbers that are scaled by xp.ldexp and scaled back",
     "array": "the rows as tuples of four entries each",
 }
 """How what other libraries have is written by what ``xp`` has."""
@@ -49,6 +54,8 @@ _CURES = (
     ("only 0-dimensional arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
     ("only scalar arrays", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
     ("must be real number, not", "call xp.cos, xp.sqrt, ... in place of the functions of math"),
+    ("unhashable", "choose by xp.where(condition, yes, no) in place of a look-up of the value"),
+    ("no attribute 'conj'", "write z.conjugate(), which numbers and arrays have"),
     ("tracer", "call the functions of xp in place of those of numpy and math"),
     ("inhomogeneous", "return four rows, tuples of four entries each, and no array of them"),
     ("could not be broadcast", "compute each entry by itself: numbers may be arrays over paths"),
@@ -57,14 +64,14 @@ _CURES = (
 )
 
 
-def in_words(what: str, error: Exception) -> OptipathError:
+def in_words(what: str, error: BaseException) -> OptipathError:
     """Return an error of the library for what code of a user's own has raised.
 
     Parameters
     ----------
     what : str
         What has raised it, such as ``"mueller_rows of element class Foil"``.
-    error : Exception
+    error : BaseException
         What was raised.
 
     Returns
@@ -86,6 +93,39 @@ def in_words(what: str, error: Exception) -> OptipathError:
     cure = next((cure for sign, cure in _CURES if sign in lower), "")
     text = text if len(text) <= _LONGEST else f"{text[:_LONGEST]} ..."
     return PathError(f"{what} raises {type(error).__name__}: {text}{cure and '; ' + cure}")
+
+
+def called(
+    what: str,
+    function: Callable[..., T],
+    *given: Any,
+    left: tuple[type[Exception], ...] = (),
+    **named: Any,
+) -> T:
+    """Return what code of a user's own gives, which raises errors of the library alone.
+
+    Parameters
+    ----------
+    what : str
+        What sentences call it.
+    function : callable
+        The code.
+    *given, **named : Any
+        What it is called with.
+    left : tuple of type, optional
+        Errors that stay what they are, as interruptions and warnings do.
+
+    Returns
+    -------
+    Any
+    """
+    kept: tuple[type[Exception], ...] = (MemoryError, OptipathError, Warning, *left)
+    try:
+        return function(*given, **named)
+    except kept:
+        raise
+    except (Exception, SystemExit) as error:
+        raise in_words(what, error) from error
 
 
 def is_defined_in(package: str, factory: Any) -> bool:
@@ -124,17 +164,9 @@ def guarded(what: str, xp: Primitives, function: KernelFunction) -> KernelFuncti
         Of plain floats, it raises errors of arithmetic as they are: arrays, which know infinity,
         do it once more.
     """
-    left = (ArithmeticError, ValueError) if xp is FLOAT else ()
+    left: tuple[type[Exception], ...] = (ArithmeticError, ValueError) if xp is FLOAT else ()
 
-    def numbers(*values: Any) -> tuple[Any, ...]:
-        try:
-            return function(*values)
-        except (MemoryError, OptipathError, Warning, *left):
-            raise
-        except Exception as error:
-            raise in_words(what, error) from error
-
-    return numbers
+    return lambda *values: called(what, function, *values, left=left)
 
 
 @dataclass(frozen=True)
@@ -155,10 +187,4 @@ class GuardedFactory:
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return what the factory makes, guarded."""
         what = f"kernel '{self.name}'"
-        try:
-            function = self.factory(xp)
-        except (MemoryError, OptipathError, Warning):
-            raise
-        except Exception as error:
-            raise in_words(what, error) from error
-        return guarded(what, xp, function)
+        return guarded(what, xp, called(what, self.factory, xp))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import Primitives
 
 _DARK = -(2**30)
-"""An exponent below those of all light, of the size of integers that frexp gives."""
+"""An exponent below those of all light, of the size of integers that scaling gives."""
 
 ScaledState: TypeAlias = tuple[Carried, Any]
 """The light is the first times two to the power of the second."""
@@ -93,7 +93,7 @@ class ScaledCarrier(Carrier):
 
     def _settled(self, carried: Carried, exponent: Any) -> ScaledState:
         carried = at_most_polarised(self.xp, carried)
-        _, shift = self.xp.frexp(_size(self.xp, carried))
+        shift = self.xp.scaling(_size(self.xp, carried))
         return _times_two_to(self.xp, carried, -shift), exponent + shift
 
 

@@ -20,10 +20,10 @@ def brought_near_one(xp: Primitives) -> KernelFunction:
     >>> brought_near_one(FLOAT)(1.0, 6.0)
     (0.125, 0.75)
     """
-    frexp, ldexp, maximum, inside = xp.frexp, xp.ldexp, xp.maximum, from_within(xp)
+    scaling, ldexp, maximum, inside = xp.scaling, xp.ldexp, xp.maximum, from_within(xp)
 
     def divided(*indices: Any) -> tuple[Any, ...]:
-        _, exponent = frexp(reduce(maximum, indices))
+        exponent = scaling(reduce(maximum, indices))
         return tuple(ldexp(inside(index), -exponent) for index in indices)
 
     return divided

@@ -33,8 +33,11 @@ class Primitives:
         Of one number; in ``mueller_rows`` of a complex one, too.
     maximum, minimum, atan2 : callable
         Of two.
-    frexp, ldexp : callable
-        Into a mantissa and the exponent of a power of two, and back.
+    scaling : callable
+        The exponent of a power of two near a number, by which numbers are scaled and scaled back;
+        0 where an engine gains nothing by that.
+    ldexp : callable
+        ``(m, e)`` to m 2^e.
     two_product : callable
         ``(a, b)`` to a b and what its rounding has lost.
     below_rounding : callable
@@ -61,7 +64,7 @@ class Primitives:
     cos: Callable[[Any], Any]
     exp: Callable[[Any], Any]
     atan2: Callable[[Any, Any], Any]
-    frexp: Callable[[Any], tuple[Any, Any]]
+    scaling: Callable[[Any], Any]
     ldexp: Callable[[Any, Any], Any]
     two_product: Callable[[Any, Any], tuple[Any, Any]]
     below_rounding: Callable[[Any, Any], Any]
@@ -195,7 +198,7 @@ NUMPY = Primitives(
     cos=np.cos,
     exp=np.exp,
     atan2=np.arctan2,
-    frexp=np.frexp,
+    scaling=lambda number: np.frexp(number)[1],
     ldexp=np.ldexp,
     two_product=product_and_rest,
     below_rounding=_below_rounding_in_arrays,
@@ -212,7 +215,7 @@ FLOAT = Primitives(
     cos=math.cos,
     exp=math.exp,
     atan2=math.atan2,
-    frexp=math.frexp,
+    scaling=lambda number: math.frexp(number)[1],
     ldexp=math.ldexp,
     two_product=_fused_two_product if hasattr(math, "fma") else product_and_rest,
     below_rounding=is_below_rounding,

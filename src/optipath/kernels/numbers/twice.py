@@ -48,7 +48,7 @@ def twice(xp: Primitives) -> Primitives:
         cos=lambda angle: series.cosine(longer(angle)),
         exp=lambda number: series.exponential(longer(number)),
         atan2=lambda y, x: series.angle(longer(y), longer(x)),
-        frexp=lambda number: (number, xp.frexp(number.high)[1]),
+        scaling=lambda number: xp.scaling(number.high),
         ldexp=ldexp,
         two_product=two_product,
         below_rounding=lambda larger, number: xp.below_rounding(

@@ -67,12 +67,13 @@ def cos_sin(angle: Any) -> tuple[Any, Any]:
     return (mpmath.sign(c), mpmath.mpf(0)) if abs(s) < least else (c, s)
 
 
-_OF_ONE_NAME = ("sqrt", "sin", "cos", "exp", "atan2", "frexp", "ldexp")
+_OF_ONE_NAME = ("sqrt", "sin", "cos", "exp", "atan2", "ldexp")
 
 MANY_DIGITS = Primitives(
     **{name: getattr(mpmath, name) for name in _OF_ONE_NAME},
     where=lambda condition, yes, no: yes if condition else no,
     absolute=abs,
+    scaling=lambda number: mpmath.frexp(number)[1],
     maximum=max,
     minimum=min,
     two_product=lambda a, b: (a * b, mpmath.mpf(0)),

@@ -89,6 +89,6 @@ def _counting(counts: Counter[str]) -> tuple[Primitives, _Counted]:
     one: Callable[..., Any] = lambda *_: number  # noqa: E731 - a def would need a name for each
     pair: Callable[..., Any] = lambda *_: (number, number)  # noqa: E731
     names = ("where", "absolute", "maximum", "minimum", "sin", "cos", "exp", "atan2")
-    others = ("ldexp", "below_rounding", "fixed")
+    others = ("scaling", "ldexp", "below_rounding", "fixed")
     functions: dict[str, Any] = dict.fromkeys((*names, *others), one)
-    return Primitives(sqrt=root, frexp=pair, two_product=pair, **functions), number
+    return Primitives(sqrt=root, two_product=pair, **functions), number

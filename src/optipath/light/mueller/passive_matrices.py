@@ -33,9 +33,9 @@ def gain(matrix: Array) -> Array:
     >>> print(gain(np.array([[0.5, 0.5, 0, 0], [0.5, 0.5, 0, 0], [0] * 4, [0] * 4])))
     1.0
     """
-    # Cut off, so that squares of what is far too much do not overflow.
-    xp = namespace(matrix)
-    across = xp.linalg.norm(xp.clip(matrix[..., 0, 1:], -1e9, 1e9), axis=-1)
+    # No squares, which of what is far too much would overflow.
+    length = namespace(matrix).hypot
+    across = length(length(matrix[..., 0, 1], matrix[..., 0, 2]), matrix[..., 0, 3])
     return matrix[..., 0, 0] + across  # type: ignore[no-any-return]
 
 

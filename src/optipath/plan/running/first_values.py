@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, listed
 from optipath.kernels.numbers.primitives import NUMPY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
-    from optipath.elements.own_ways import OwnWay
+    from optipath.elements.own_ways import OwnWays
     from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.operands import InputKey, Operand
 
@@ -28,13 +28,19 @@ class FirstValues:
 
     Parameters
     ----------
-    ways : tuple of OwnWay
+    ways : tuple of OwnWays
         Those whose values are given when a plan runs.
     """
 
-    def __init__(self, ways: tuple[OwnWay, ...]) -> None:
+    def __init__(self, ways: tuple[OwnWays, ...]) -> None:
         self.ways = ways
         self._seen: set[Hashable] = set()
+
+    @property
+    def doubt(self) -> str:
+        """What else may be wrong with light that is not finite, as a sentence goes on with it."""
+        owners = dict.fromkeys(f"'{way.owner}'" for way in self.ways)
+        return f", or the rows of {listed([*owners])} are not finite there" if owners else ""
 
     def check(self, kind: Hashable, read: Callable[[], ResolvedInputs]) -> None:
         """Refuse what no light can do, found with some of the values that are given.
@@ -62,14 +68,16 @@ class FirstValues:
         self._seen.add(kind)
 
 
-def _faults(way: OwnWay, given: ResolvedInputs) -> list[str]:
+def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
     """Return what is wrong with a way for a few of the paths, the first and the last among them."""
     names = {operand.value.name for operand in way.operands if not operand.known}
     some = np.unique(np.linspace(0.0, given.paths - 1.0, min(_LOOKED_AT, given.paths)).astype(int))
     where = np.unravel_index(some, given.batch) if given.batch else ()
 
     def few(number: Any) -> Any:
-        several = np.broadcast_to(number, given.batch)[where]
+        several = np.asarray(number)
+        if several.ndim:  # One number for all stays one, as elements are given it.
+            several = np.broadcast_to(several, given.batch)[where]
         return several if several.dtype == bool else several.astype(np.float64)
 
     mine = {key: few(n) for key, n in given.numbers.items() if key.name in names}
@@ -91,4 +99,5 @@ def _faults(way: OwnWay, given: ResolvedInputs) -> list[str]:
 def _values(numbers: dict[InputKey, Any], place: int) -> str:
     """Write the numbers of one path."""
     names = {key: key.name if key.part == "value" else str(key) for key in numbers}
-    return ", ".join(f"{names[key]} = {np.ravel(n)[place]:.6g}" for key, n in numbers.items())
+    one = {key: np.ravel(n)[place if np.ndim(n) else 0] for key, n in numbers.items()}
+    return ", ".join(f"{names[key]} = {n:.6g}" for key, n in one.items())

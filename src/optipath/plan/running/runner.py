@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
     from contextlib import AbstractContextManager
 
-    from optipath.elements.own_ways import OwnWay
+    from optipath.elements.own_ways import OwnWays
     from optipath.engines.program.program import Program
     from optipath.plan.running.options import RunOptions
     from optipath.plan.running.question import Question
@@ -57,7 +57,7 @@ class Runner(Answering):
         What may be given.
     options : RunOptions
         How they are run.
-    own_ways : tuple of OwnWay
+    own_ways : tuple of OwnWays
         What is looked at with the first values.
     unreduced : bool
         Whether everything is done for each path.
@@ -68,7 +68,7 @@ class Runner(Answering):
         program: Program,
         inputs: Inputs,
         options: RunOptions,
-        own_ways: tuple[OwnWay, ...] = (),
+        own_ways: tuple[OwnWays, ...] = (),
         *,
         unreduced: bool = False,
     ) -> None:
@@ -306,7 +306,7 @@ class Runner(Answering):
         if not is_traced(numbers) and not np.all(np.isfinite(numbers)):
             raise ParameterError(
                 f"the light is not finite in {self.dtype} by method '{method}': a value is "
-                f"too extreme; give values nearer to 1"
+                f"too extreme{self.first_values.doubt}; give values nearer to 1"
                 + ("" if method == "stable" else ", or use method 'stable'")
             )
 

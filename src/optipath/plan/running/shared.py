@@ -14,7 +14,7 @@ from optipath.values.arrays.jax_values import is_traced
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-    from optipath.elements.own_ways import OwnWay
+    from optipath.elements.own_ways import OwnWays
     from optipath.engines.program.program import Program
     from optipath.plan.running.options import RunOptions
     from optipath.values.inputs import Inputs
@@ -33,7 +33,7 @@ def runner_for(
     program: Program,
     inputs: Inputs,
     options: RunOptions,
-    own_ways: tuple[OwnWay, ...] = (),
+    own_ways: tuple[OwnWays, ...] = (),
     *,
     unreduced: bool = False,
 ) -> Runner:
@@ -47,7 +47,7 @@ def runner_for(
         What may be given.
     options : RunOptions
         How they are run.
-    own_ways : tuple of OwnWay, optional
+    own_ways : tuple of OwnWays, optional
         What is looked at with the first values.
     unreduced : bool, optional
         Whether everything is done for each path.

@@ -57,4 +57,5 @@ MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4,
 Whole: TypeAlias = Annotated[int, WholeNumber("whole number")]
 READINGS = ("stokes", "linear", "intensity")
 Reads: TypeAlias = Annotated[str, Choice("reading", words=READINGS)]
-YesOrNo: TypeAlias = Annotated[bool, YesNo("yes or no")]
+YES_OR_NO = YesNo("yes or no")
+YesOrNo: TypeAlias = Annotated[bool, YES_OR_NO]

@@ -1,0 +1,123 @@
+"""The ways through elements of a user's own: whether they fit the ports, and the light."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from paths import chain
+
+
+def operations(share):
+    return op.Attenuator(share).couplings()[0].operations
+
+
+class Splits(op.Element):
+    """Lets out a share at either side."""
+
+    a: op.Fraction = 0.5
+    b: op.Fraction = 0.5
+    outputs = ("a", "b")
+    natural = "a"
+
+    def couplings(self):
+        return [
+            op.Coupling("in", "a", operations(self.a)),
+            op.Coupling("in", "b", operations(self.b)),
+        ]
+
+
+def both(a, b):
+    path = op.PathGraph()
+    splits = path.add("splits", Splits(a, b))
+    path.add("lamp", op.Source()) >> splits
+    path["splits.a"] >> path.add("first", op.Detector())
+    path["splits.b"] >> path.add("second", op.Detector())
+    return path
+
+
+def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
+    assert sum(light.S0 for light in both(0.75, 0.25).trace_all().values()) == 1.0
+    told = r"'splits' .* up to 1\.8 times .* comes in at 'in', at 'a' and 'b' together"
+    with pytest.raises(op.PathError, match=told):
+        both(0.9, 0.9).check()
+    with pytest.raises(op.ParameterError, match=rf"^at share = 0\.9: {told}"):
+        both(op.Parameter("share"), 0.9).trace_all(share=[0.1, 0.9])
+    with pytest.raises(op.PathError, match=r"up to 1\.8 times"):
+        Splits(0.9, 0.9).mueller("in", "a")
+
+
+@pytest.mark.parametrize(
+    ("couplings", "told"),
+    [
+        ([op.Coupling("in", "out", operations(0.1))] * 2, "from 'in' to 'out' more than once"),
+        ([op.Coupling("inn", "out", operations(0.1))], "lead from 'inn'; its inputs are 'in'"),
+        ([op.Coupling("in", "oot", operations(0.1))], "lead to 'oot'; its outputs are 'out'"),
+        ([op.Coupling("in", "out", 3)], "operations 3; give a tuple of op.Operation"),
+        ([op.Coupling("in", "out", (op.Attenuator(0.5),))], r"operations \(Attenuator"),
+    ],
+)
+def test_ways_that_do_not_fit_the_element_are_told_with_its_class(couplings, told):
+    class Own(op.Element):
+        def couplings(self):
+            return couplings
+
+    for act in (chain([Own()]).check, Own().mueller):
+        with pytest.raises(op.PathError, match=rf"^couplings\(\) of element class Own .*{told}"):
+            act()
+
+
+def test_rows_beside_ports_of_other_names_are_told():
+    class Own(op.Element):
+        inputs = ("x",)
+
+        @staticmethod
+        def mueller_rows(xp):
+            return np.eye(4)
+
+    with pytest.raises(op.PathError, match=r"its inputs are 'x'.*mueller_rows lead from 'in' to"):
+        (op.Source() >> Own() >> op.Detector()).check()
+
+
+def test_a_class_without_a_kind_is_called_by_its_name_where_it_gives_no_light():
+    class Own(op.Element):
+        def couplings(self):
+            return ()
+
+    with pytest.raises(op.PathError, match="carries no light: Own names 'out'"):
+        chain([Own()]).check()
+
+
+class Times(op.Element):
+    a: op.Real = 1.0
+
+    @staticmethod
+    def mueller_rows(xp, a):
+        return [[xp.sqrt(a) * (row == column) for column in range(4)] for row in range(4)]
+
+
+class TimesAnything(Times):
+    physical = False
+
+
+def test_defaults_of_parameters_are_looked_at_when_a_path_is_checked():
+    chain([Times(op.Parameter("a", 1.0))]).check()
+    with pytest.raises(op.PathError, match=r"\(element class Times\).*2 times as bright"):
+        chain([Times(op.Parameter("a", 4.0))]).check()
+
+
+@pytest.mark.parametrize("element_class", [Times, TimesAnything])
+def test_rows_that_are_not_finite_are_told_with_their_element(element_class):
+    told = r"\(element class Times.*\) has the Mueller matrix \(nan.*not finite; keep divisors"
+    with pytest.raises(op.PathError, match=told):
+        chain([element_class(-1.0)]).check()
+    path = chain([element_class(op.Parameter("a"))])
+    for value in (-1.0, [1.0, -1.0]):
+        with pytest.raises(op.ParameterError, match=f"^at a = -1: .*{told}"):
+            path.trace(a=value)
+
+
+def test_rows_that_are_not_finite_in_a_later_run_are_a_cause_that_is_named():
+    plan = chain([Times(op.Parameter("a"))]).compose()
+    assert plan.run(a=1.0).S0 == 1.0
+    with pytest.raises(op.ParameterError, match="or the rows of 'e0' are not finite there"):
+        plan.run(a=-1.0)

@@ -1,0 +1,113 @@
+"""The rows of elements of a user's own: the same numbers in every run, or a sentence."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from chains import ENGINES
+
+
+def times_one(share):
+    """The rows of a grey filter."""
+    return [[share * (row == column) for column in range(4)] for row in range(4)]
+
+
+def element(function, quantity=op.Real):
+    """An element that lets through the share that a function gives."""
+
+    class Filter(op.Element):
+        a: quantity = 1.0
+
+        @staticmethod
+        def mueller_rows(xp, a):
+            return times_one(function(xp, a))
+
+    return Filter
+
+
+def plan_of(element_class, engine="auto", dtype="float64", state=(1.0, 0.5, 0.2, 0.1)):
+    path = op.Source(stokes=state) >> element_class(op.Parameter("a")) >> op.Detector()
+    return op.Composer(engine=engine, dtype=dtype).compose(path)
+
+
+LOOK_UPS = [
+    lambda _, a: {0.4: 0.5}.get(a, 0.2),
+    lambda _, a: 0.5 if a in {0.4} else 0.2,
+    lambda _, a: {"0.4": 0.5}.get(f"{a}", 0.2),
+]
+
+
+@pytest.mark.parametrize("look_up", LOOK_UPS)
+def test_a_value_that_is_looked_up_is_found_in_every_run(look_up):
+    plan = plan_of(element(look_up))
+    assert [plan.run(a=0.4).S0 for _ in range(6)] == [0.5] * 6
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_looking_up_many_values_is_told_with_the_cure(engine):
+    plan = plan_of(element(LOOK_UPS[0]), engine)
+    with pytest.raises(op.PathError, match=r"unhashable.*; choose by xp\.where\(.* a look-up"):
+        plan.run(a=np.linspace(0.1, 1.0, 3))
+
+
+def test_numbers_that_are_scaled_and_scaled_back_are_the_same_in_every_run():
+    def root(xp, a):
+        power = xp.scaling(a)
+        return 0.1 * xp.ldexp(xp.ldexp(a, -power), power)
+
+    plan = plan_of(element(root))
+    for _ in range(6):
+        assert plan.run(a=1.3).S0 == 0.13
+    np.testing.assert_array_equal(plan.run(a=[0.5, 1.3, 6.0]).S0, [0.05, 0.13, 0.1 * 6.0])
+
+
+def test_the_conjugate_is_told_where_numbers_lack_it():
+    with pytest.raises(op.PathError, match=r"'conj'; write z\.conjugate\(\)"):
+        plan_of(element(lambda xp, a: xp.exp(1j * a).conj().real)).run(a=0.3)
+
+
+@pytest.mark.parametrize(
+    "rows", [lambda a: a * np.eye(4), lambda a: [a * row for row in np.eye(4)]]
+)
+@pytest.mark.parametrize("engine", ENGINES)
+def test_arrays_of_rows_are_for_one_path_since_four_paths_look_the_same(rows, engine):
+    class Filter(op.Element):
+        a: op.Real = 1.0
+
+        @staticmethod
+        def mueller_rows(xp, a):
+            return rows(a)
+
+    plan = plan_of(Filter, engine)
+    np.testing.assert_allclose(plan.run(a=0.4).stokes, [0.4, 0.2, 0.08, 0.04])
+    for act in (plan.run, plan.mueller, lambda a: Filter(a).mueller()):
+        with pytest.raises(op.PathError, match=r"an array of shape \(4.* for many paths; return f"):
+            act(a=[0.5, 0.4, 0.3, 0.25])
+
+
+def test_an_array_of_rows_will_do_where_other_elements_have_many_values():
+    class Filter(op.Element):
+        a: op.Real = 1.0
+
+        @staticmethod
+        def mueller_rows(xp, a):
+            return a * np.eye(4)
+
+    path = op.Source(8.0) >> Filter(op.Parameter("a")) >> op.Attenuator(op.Parameter("t"))
+    light = (path >> op.Detector()).trace(a=0.5, t=[1.0, 0.5, 0.25, 0.125, 0.0])
+    np.testing.assert_array_equal(light.S0, [4.0, 2.0, 1.0, 0.5, 0.0])
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_imaginary_parts_are_dropped_that_are_0_in_the_precision_of_the_values(engine):
+    def share(xp, a):
+        z = xp.exp(1j * a)
+        return 0.3 * z * z.conjugate() * np.complex128(1)
+
+    plan = plan_of(element(share), engine, "float32", (1.0, 0.0, 0.0, 0.0))
+    np.testing.assert_allclose(plan.run(a=np.linspace(0.0, 3.0, 50)).S0, 0.3, rtol=1e-6)
+
+
+def test_an_imaginary_part_beyond_the_precision_of_the_values_is_told():
+    with pytest.raises(op.PathError, match=r"the complex entry \[0\]\[0\] = \(0\.3\+5e-08j\)"):
+        plan_of(element(lambda _, a: 0.3 + 1e-7j * a)).run(a=0.5)
