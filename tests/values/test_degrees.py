@@ -202,6 +202,16 @@ def test_degrees_that_are_refused_are_offered_with_their_unit(action):
     assert str(error.value).endswith("; did you mean '48 deg' or np.radians(48)?")
 
 
+@pytest.mark.parametrize("angle", [2 * A - "20 deg", "90 deg" - A])
+@pytest.mark.parametrize("given", [48, [0.3, 48.0]])
+def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(angle, given):
+    path = chain([op.Interface(1.5, angle)])
+    for give in (path.trace, path.bind):
+        with pytest.raises(op.ParameterError, match=r"; did you mean '48 deg' or np.radians\(48\)"):
+            give(a=given)
+    path.trace(a="48 deg")
+
+
 @pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])
 def test_a_slip_of_radians_and_what_was_in_degrees_already_are_not(delta):
     with pytest.raises(op.ParameterError) as error:

@@ -6,13 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.degrees import (
-    TURN,
-    counts_degrees,
-    is_within_a_turn,
-    warn_of_degrees,
-    warn_of_two_factors,
-)
+from optipath.values.degree_warnings import counts_degrees, warn_of_degrees, warn_of_two_factors
+from optipath.values.degrees import TURN, is_within_a_turn
 from optipath.values.texts import may_hold_texts
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.errors import ValueFault
-from optipath.values.degrees import warn_of_degrees
+from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.domains.domain import in_unit_of
 from optipath.values.parameters import Parameter
 from optipath.values.specification import warn_where_it_stands

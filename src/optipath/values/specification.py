@@ -6,7 +6,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ParameterError, shown
-from optipath.values.degrees import is_within_a_turn, warn_of_degrees
+from optipath.values.degree_warnings import warn_of_degrees
+from optipath.values.degrees import is_within_a_turn
 from optipath.values.texts import numbers_for
 from optipath.values.units import dimension_of, parse_quantity, unit_of
 
@@ -14,6 +15,28 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.values.affine import Affine
+
+
+_KINDS: dict[str, tuple[type, str]] = {
+    "help": (str, "a text"),
+    "words": (dict, "a dict from word to number"),
+    **dict.fromkeys(("optional", "bound"), (bool, "True or False")),
+}
+
+
+def check_types(parameter: Any) -> None:
+    """Check what a parameter is specified by that is no number.
+
+    Raises
+    ------
+    ParameterError
+        Naming what is of another type.
+    """
+    for name, (kind, described) in _KINDS.items():
+        if not isinstance(value := getattr(parameter, name), kind):
+            raise ParameterError(
+                f"{name} of parameter '{parameter.name}' must be {described}, not {shown(value)}"
+            )
 
 
 def checked_name(name: Any) -> str:
