@@ -12,6 +12,8 @@ from optipath.spelling import closest
         ("npgr62", ["npgr026", "malus"], "npgr026"),
         ("polariser", ["polarizer", "rotator"], "polarizer"),
         ("ou", ["in", "out"], "out"),
+        ("ellips", ["pyelli", "ellipsometry", "elli"], "ellipsometry"),
+        ("trans", ["transmittance", "transmitted", "strain"], "transmitted"),
     ],
 )
 def test_a_misspelt_word_has_one_that_was_meant(word, known, meant):

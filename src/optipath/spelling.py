@@ -17,6 +17,9 @@ _MOST_WORDS, _LONGEST = 1000, 100
 _ALIKE = 0.65
 """How like each other two words are, from 0 to 1, of which one may be meant for the other."""
 
+_BEGINNING = 3
+"""How many letters a word begins with at least that is meant for a longer one."""
+
 _SIGNS = "-$"
 
 _looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
@@ -25,8 +28,8 @@ _looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 def closest(word: str, known: Iterable[str]) -> str | None:
     """Return the known word that a misspelt one was meant for; None where none is near.
 
-    Words of one or two letters are too short to tell, and numbers are no misspellings of each
-    other, nor are such letters with a number.
+    The beginning of a known word is meant for that. Words of one or two letters are too short to
+    tell, and numbers are no misspellings of each other, nor are such letters with a number.
 
     Parameters
     ----------
@@ -44,6 +47,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     --------
     >>> closest("--detla", ["--delta", "--rho"])
     '--delta'
+    >>> closest("ellips", ["pyelli", "ellipsometry"])
+    'ellipsometry'
     >>> closest("--plot", ["--delta"]), closest("10", ["1", "2"]), closest("n12", ["n1", "n2"])
     (None, None, None)
     """
@@ -53,7 +58,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
         return None
     words = [*known][:_MOST_WORDS]
     by_bare = {_bare(name): name for name in reversed(words) if len(name) <= _LONGEST}
-    for found in get_close_matches(asked, by_bare, cutoff=_ALIKE):
+    begun = [name for name in by_bare if name.startswith(asked)] if len(asked) >= _BEGINNING else []
+    for found in get_close_matches(asked, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
         if found == asked or not _too_short(asked, found):
             return by_bare[found]
     return None

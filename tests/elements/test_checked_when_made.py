@@ -10,6 +10,8 @@ import pytest
 import optipath as op
 from optipath.elements.vertices.vertex_domain import VerticesDomain
 
+A, B = op.Parameter("a"), op.Parameter("b")
+
 
 @pytest.mark.parametrize(
     ("make", "sentence"),
@@ -140,6 +142,9 @@ def test_a_file_tells_all_faults_at_once_by_the_names_of_its_nodes(tmp_path):
         (lambda: op.fresnel_reflection((0.2, 3.4), 0.6, 0.8), "index is .* may be n and k"),
         (lambda: op.Source((1, 0, 0, 0)), r"Source intensity .* give stokes=\(1, 0, 0, 0\)"),
         (lambda: op.Source([1, 0.6, 0, 0.3]), r"give stokes=\[1, 0.6, 0, 0.3\]"),
+        (lambda: op.Interface(op.Parameter("n", (1.5, 2)), 0.3), r"'n' \(at Interface index\) is"),
+        (lambda: op.Mirror(op.Parameter("m", (-0.9, 0.1))), r"complex\(-0.9, 0.1\) for the one"),
+        (lambda: op.Source(op.Parameter("I", [1, 1, 0, 0])), r"'I' .* give stokes=\[1, 1, 0, 0\]"),
         (lambda: op.LayerStack(1.5, 0.1), r"indices is 1.5; give a list of two .* \[1, 1.5, 1.33"),
     ],
 )
@@ -158,8 +163,109 @@ def test_a_pair_that_is_given_for_an_index_is_asked_about_as_well():
             with pytest.raises(op.ParameterError, match=r"'m' \(at slab.index\) is .0.2, 3.4."):
                 give(m=pair)
     assert one.trace(m=np.array([1.5, 1.6])).stokes.shape == (2, 4)
+    # A Material, as the sentence has it, is one.
+    for given in (one.trace(m=op.Material(0.2, 3.4)), one.bind(m=op.Material(0.2, 3.4)).trace()):
+        np.testing.assert_array_equal(given.stokes, one.trace(m=0.2 + 3.4j).stokes)
     # Beside a k of its own, n is but one number.
     assert path.trace(n1=(1.5, 1.6)).stokes.shape == path.trace(n1=[1.5, 1.6]).stokes.shape
+
+
+def test_a_material_is_understood_wherever_an_index_is():
+    gold, n = op.Material(0.2, 3.4), 0.2 + 3.4j
+    assert op.Interface(op.Parameter("n", gold), 0.1).index.default == n
+    assert op.refraction_angle(gold, 0.3) == op.refraction_angle(n, 0.3)
+    assert op.refraction_angle(1.5, 0.3, op.Material(1.2)) == op.refraction_angle(1.5, 0.3, 1.2)
+    assert op.fresnel_reflection(gold, 0.6, 0.8) == op.fresnel_reflection(n, 0.6, 0.8)
+    two = op.Material([1.5, 1.6], 0.1)
+    path = op.Source() >> op.Interface(op.Parameter("n"), 0.1) >> op.Detector()
+    expected = path.trace(n=np.array([1.5 + 0.1j, 1.6 + 0.1j])).stokes
+    np.testing.assert_array_equal(path.trace(n=two).stokes, expected)
+    np.testing.assert_array_equal(path.with_defaults(n=two).trace().stokes, expected)
+    with pytest.raises(op.ParameterError, match="k of a Material is the parameter 'k'"):
+        path.trace(n=op.Material(1.5, op.Parameter("k")))
+    with pytest.raises(op.ParameterError, match="'a' must be a number, not Material"):
+        (op.Source() >> op.Rotator(op.Parameter("a")) >> op.Detector()).trace(a=op.Material(1.5))
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: op.Source(stokes=[1, A, B, 0]), "side by side, such as 'a', 'b'; give one Param"),
+        (lambda: op.Polarizer([A, 0.1]), "Polarizer angle .* such as 'a'; give one Parameter for"),
+        (lambda: op.Interface(1.5, op.CosSin(0.6, 0.8)), "give a Parameter here and these where"),
+        (lambda: op.CosSin("30 deg"), "takes a cosine and a sine, not '30 deg' alone; give an ang"),
+    ],
+)
+def test_what_cannot_stand_in_an_element_is_told_where_it_can(make, sentence):
+    with pytest.raises(op.OptipathError, match=sentence):
+        make()
+
+
+def test_two_numbers_of_which_one_is_none_are_no_pair():
+    with pytest.raises(op.ValueFault, match="index is nan; give a finite"):
+        op.Interface([1.5, np.nan], 0.3)
+
+
+def test_four_intensities_that_may_be_a_state_are_asked_about_as_well():
+    path = op.Source(op.Parameter("i", 1.0)) >> op.Detector()
+    polarised = op.Source(op.Parameter("i", 1.0), stokes=[1, 1, 0, 0]) >> op.Detector()
+    for give in (path.trace, path.bind, path.with_defaults):
+        with pytest.raises(op.ParameterError, match=r"four paths; give stokes=.1, 1, 0, 0") as told:
+            give(i=(1, 1, 0, 0))
+        assert len(told.value.faults) == 1
+    with pytest.raises(op.ParameterError, match="may be a state"):
+        op.load_preset("npgr026", case=8).trace(intensity=[1, 1, 0, 0])
+    for given in (path.trace(i=np.array([1, 1, 0, 0])), path.trace(i=[1, 2, 3, 4])):
+        assert given.shape == (4,)
+    # Beside a state, they are none.
+    assert polarised.trace(i=[1, 1, 0, 0]).shape == (4,)
+
+
+LAMP_AND_MIRROR = """
+format = 1
+[parameters.i]
+default = {default}
+[elements.lamp]
+kind = "source"
+intensity = {intensity}
+[elements.mirror]
+kind = "mirror"
+r_s = {r_s}
+[elements.eye]
+kind = "detector"
+[[links]]
+from = "lamp.out"
+to = "mirror.in"
+[[links]]
+from = "mirror.reflected"
+to = "eye.in"
+"""
+
+
+@pytest.mark.parametrize(
+    ("default", "intensity", "r_s", "sentence"),
+    [
+        (
+            "[1, 1, 0, 0]",
+            '"$i"',
+            "-1",
+            r"parameter 'i' .* write stokes = \[1.*, 0.0\] in its place",
+        ),
+        ("-1", "[1, 1, 0, 0]", '"$i"', r"Source intensity .* stokes = \[1, 0, 0, 0\] beside it"),
+        ("[-0.9, 0.1]", "1", '"$i"', r"parameters.i.default: .* write { re = -0.9, im = 0.1 }"),
+    ],
+)
+def test_a_file_asks_once_and_in_its_own_words(tmp_path, default, intensity, r_s, sentence):
+    file = tmp_path / "asked.toml"
+    file.write_text(LAMP_AND_MIRROR.format(default=default, intensity=intensity, r_s=r_s))
+    with pytest.raises(op.PathError, match=sentence) as error:
+        op.load_preset(file)
+    assert len(error.value.faults) == 1
+    if "beside it" in sentence:
+        file.write_text(
+            file.read_text().replace("intensity =", "stokes = [1, 0, 0, 0]\nintensity =")
+        )
+        assert op.load_preset(file).trace().shape == (4,)
 
 
 def test_several_paths_are_given_by_arrays_and_lists():

@@ -124,6 +124,21 @@ def test_what_cannot_be_taken_over_is_refused_when_the_element_is_made():
         op.Interface(op.FOLLOWS, 0.3)
 
 
+@pytest.mark.parametrize(
+    "arithmetic",
+    [
+        lambda: op.FOLLOWS + 0.1,
+        lambda: 2 * op.FOLLOWS,
+        lambda: -op.FOLLOWS,
+        lambda: np.float64(2.0) * op.FOLLOWS,
+        lambda: np.ones(2) - op.FOLLOWS,
+    ],
+)
+def test_what_is_taken_over_has_no_arithmetic(arithmetic):
+    with pytest.raises(op.ParameterError, match=r"FOLLOWS .* has no arithmetic; give the number"):
+        arithmetic()
+
+
 def test_light_of_several_media_gives_none():
     path = op.PathGraph()
     path.add("both", op.Combiner())

@@ -35,7 +35,8 @@ def test_a_case_is_told_where_it_belongs():
 
 def test_the_other_part_of_a_complex_index_is_told_by_its_name():
     for action in (npgr026().trace, npgr026().bind, npgr026):
-        assert fault(action, n1=1.2 + 2j).endswith("give k by k1")
+        for index in (1.2 + 2j, "1.2+2j"):
+            assert fault(action, n1=index).endswith("give k by k1")
     known = chain([op.Interface(op.Material(op.Parameter("n", 1.5, minimum=0.0), 0.5), 0.3)])
     assert "k is 0.5 where the path is built" in fault(known.bind, n=1.2 + 2j)
 
@@ -54,6 +55,11 @@ def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
     assert path.bind(d="diagonal").trace().intensity == pytest.approx(0.5)
     own = chain([op.Polarizer(op.Parameter("d", words={"vertical": 0.0}))], [1.0, 1.0, 0.0, 0.0])
     assert own.trace(d="vertical").intensity == 1.0
+    for words in ("off", ["off", "none"]):
+        told = fault(npgr026().trace, filter=words)
+        assert told.endswith("there are: horizontal, vertical, diagonal, none, antidiagonal")
+    with pytest.raises(op.ValueFault, match=r"antidiagonal, or give an angle such as '45 deg'$"):
+        op.Polarizer("pi/4")
     turned = chain([op.Rotator(op.Parameter("d"))])
     assert "knows no word 'vertical'" in fault(turned.trace, d="vertical")
 

@@ -138,11 +138,28 @@ def test_a_text_is_an_offset_by_its_unit():
     with pytest.raises(op.UnitError, match="did you mean 'deg'"):
         D + "10 degg"
     with pytest.raises(op.UnitError, match="has no unit, but an angle"):
-        D + "10"
+        op.Parameter("d", unit="deg") + "10"
     with pytest.raises(op.UnitError, match="'1 nm' is no angle"):
         D + "1 deg" + "1 nm"
     with pytest.raises(op.UnitError, match="'2 nm' is no angle"):
         op.Parameter("d", unit="deg", offset="2 nm")
+
+
+def test_a_text_without_a_unit_is_an_offset_of_pure_numbers():
+    path = op.Source() >> op.Attenuator(D + "0.1") >> op.Detector()
+    assert path.trace(d=0.25).intensity == 0.25 + 0.1
+    index = op.Interface(D - "0.5", 0.0).index
+    assert index.placed(2.0) == 1.5
+    with pytest.raises(op.ValueFault, match=r"the offset of .* is a pure number, but Rotator"):
+        op.Rotator(D + "10")
+    with pytest.raises(op.UnitError, match="'1 deg' has the unit 'deg', but a pure number is"):
+        D + "10" + "1 deg"
+
+
+@pytest.mark.parametrize("imaginary", [lambda: D + 1j * Q, lambda: D + 0.1j, lambda: D - 0.1j])
+def test_an_index_of_two_parameters_is_told_to_be_a_material(imaginary):
+    with pytest.raises(op.ParameterError, match=r"write op.Material\(n, k\)"):
+        imaginary()
 
 
 @pytest.mark.parametrize("shape", [{"scale": 0}, {"scale": "2"}, {"offset": np.nan}, {"scale": 1j}])

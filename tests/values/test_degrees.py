@@ -121,10 +121,56 @@ def test_a_path_that_has_been_run_often_warns_of_degrees_all_the_same(first):
     for _ in range(10):
         path.trace(turn=first)
     assert len(warned(lambda: path.trace(turn=first * 100.0 + 50.0))) == 1
-    # Once for each parameter of a path.
-    assert warned(lambda: path.trace(turn=first * 100.0 + 50.0)) == []
-    again = chain([op.Rotator(op.Parameter("turn"))])
-    assert len(warned(lambda: again.trace(turn=first * 100.0 + 50.0))) == 1
+
+
+@pytest.mark.parametrize("plan", [chain([op.Rotator(op.Parameter("turn"))]).compose()])
+@pytest.mark.parametrize("angle", [45, 60.0, [0.1, 45.0], np.arange(180.0)], ids=str)
+def test_each_run_that_is_given_degrees_is_warned_of(plan, angle):
+    for _ in range(2):
+        assert len(warned(lambda: plan.run(turn=angle))) == 1
+
+
+A = op.Parameter("a")
+
+
+@pytest.mark.parametrize(
+    ("angle", "given", "sentence"),
+    [
+        (
+            10 * A,
+            4.5,
+            r"is 4.5, and 10 \* a is 45 rad, which is 2578.31 deg; did you mean '4.5 deg'",
+        ),
+        (
+            2 * A - "10 deg",
+            [0.5, -4.0],
+            r"of -4, and 2 \* a - 10 deg is -8.174\d* rad, which is -468",
+        ),
+        (-A, 45, "parameter 'a' is 45 rad"),
+        (A * (np.pi / 180), "45 deg", "is '45 deg', and .* is 0.785398 deg; give the degrees as a"),
+        (op.Parameter("a", minimum=0, maximum=90) * 0.01745, ["45 deg"], "a is 0.785.* deg; give"),
+    ],
+)
+def test_a_multiple_is_warned_of_by_the_angle_that_the_element_gets(angle, given, sentence):
+    path = chain([op.Rotator(angle)])
+    for give in (path.trace, path.bind):
+        with pytest.warns(op.AngleWarning, match=sentence) as told:
+            give(a=given)
+        assert len(told) == 1
+
+
+@pytest.mark.parametrize(
+    ("angle", "given"),
+    [
+        (A * (np.pi / 180), [10.0, 45.0, 720.0]),
+        (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
+        (A / 100, 270.0),
+        (10 * A, "30 deg"),
+        (10 * A, np.radians(90.0)),
+    ],
+)
+def test_a_multiple_that_is_within_a_turn_at_the_element_is_no_reason_to_warn(angle, given):
+    assert warned(lambda: chain([op.Rotator(angle)]).trace(a=given)) == []
 
 
 def test_large_arrays_are_looked_at_in_many_places():
@@ -154,6 +200,16 @@ def test_degrees_that_are_refused_are_offered_with_their_unit(action):
         action()
     assert "48 rad, which is 2750.2 deg" in str(error.value)
     assert str(error.value).endswith("; did you mean '48 deg' or np.radians(48)?")
+
+
+@pytest.mark.parametrize("angle", [2 * A - "20 deg", "90 deg" - A])
+@pytest.mark.parametrize("given", [48, [0.3, 48.0]])
+def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(angle, given):
+    path = chain([op.Interface(1.5, angle)])
+    for give in (path.trace, path.bind):
+        with pytest.raises(op.ParameterError, match=r"; did you mean '48 deg' or np.radians\(48\)"):
+            give(a=given)
+    path.trace(a="48 deg")
 
 
 @pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])

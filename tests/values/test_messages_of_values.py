@@ -59,6 +59,23 @@ def test_an_array_that_is_known_stays_as_it_is_and_goes_by_the_name_of_its_param
     assert "for every pair, give index[:, None];" in text
 
 
+def test_a_list_is_told_to_become_an_array_with_another_axis():
+    several = ["40 deg", "50 deg"], ["none", "horizontal", "vertical"]
+    text = fault(NPGR026.trace, delta=several[0], filter=several[1])
+    assert "for every pair, give np.array(delta)[:, None];" in text
+    # What is said does it.
+    found = NPGR026.trace(delta=np.array(several[0])[:, None], filter=several[1])
+    assert found.shape == (2, 3)
+
+
+def test_a_product_tells_of_light_that_has_axes_and_of_no_matrix():
+    light = op.Light(np.ones((4, 1)) * [1.0, 0.0, 0.0, 0.0])
+    waves = op.Polarizer([0.0, 1.0, 2.0])
+    assert "for every pair, give light[:, None];" in fault(lambda: waves @ light)
+    assert (waves @ light[:, None]).shape == (4, 3)
+    assert "None" not in fault(lambda: waves @ op.Rotator([0.1, 0.2]))
+
+
 def test_a_cosine_and_its_sine_belong_together_and_are_not_combined():
     assert "None" not in fault(op.CosSin, [0.6] * 3, [0.8] * 4)
 
@@ -81,6 +98,24 @@ def test_one_number_beyond_its_range_is_told_with_what_a_fit_needs(number):
 
 def test_one_complex_index_beyond_its_domain_is_told_with_what_a_fit_needs():
     assert BOUNDS in fault(layered(op.Parameter("m")).trace, m=1.5 - 0.1j)
+    # A fit has no part in numbers that are complex.
+    outside = op.Source() >> op.Interface(2.0, 0.3, outside=op.Parameter("m")) >> op.Detector()
+    for index in (1.5 + 0.1j, 1.5 + 0j):
+        assert BOUNDS not in fault(outside.trace, m=index)
+
+
+@pytest.mark.parametrize("give", ["trace", "bind"])
+def test_a_number_that_is_wrong_in_several_places_is_told_once(give):
+    n = op.Parameter("n")
+    path = op.PathGraph()
+    path.add("front", op.Interface(n, 0.3))
+    path.add("back", op.Interface(1.0, 0.3, outside=n, incidence_in=1.0))
+    path.add("lamp", op.Source()) >> path["front.in"]
+    path["front.transmitted"] >> path["back.in"]
+    path["back.transmitted"] >> path.add("eye", op.Detector())
+    with pytest.raises(op.ParameterError, match=r"^parameter 'n' \(at front.index\)") as error:
+        getattr(path, give)(n=-0.2)
+    assert len(error.value.faults) == 1
 
 
 def test_a_minimisation_that_steps_beyond_a_range_is_told_to_give_bounds():

@@ -39,6 +39,7 @@ def test_quantities_are_read_in_their_units(text, dimension, value):
         ("30°", "angle", "'°' of '30°' is unknown; did you mean 'deg'"),
         ("0.2+3.4i", "", r"'0.2\+3.4i' is not a quantity; did you mean '0.2\+3.4j'"),
         ("30,5 deg", "angle", "'30,5 deg' is not a quantity; did you mean '30.5 deg'"),
+        ("30,40", "", r"'30.40'\? \(a text is one value; several are an array, in Python\)$"),
         ("45 degrees", "angle", "'degrees' of '45 degrees' is unknown; did you mean 'deg'"),
         ("0.5 µm", "length", "'µm' of '0.5 µm' is unknown; did you mean 'um'"),
         ("500 Nanometres", "length", "of '500 Nanometres' is unknown; did you mean 'nm'"),

@@ -116,6 +116,8 @@ class Values:
         faulty = set()
         looked_at = set()
         for use in self.uses:
+            if _named(use) in faulty:
+                continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
                 if (id(use.value), use.domain) in looked_at:

@@ -25,7 +25,7 @@ from optipath.kernels.catalogue import (
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.degrees import warn_of_turning
+from optipath.values.degree_warnings import warn_of_turning
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import (
     Absorption,

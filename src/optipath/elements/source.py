@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, ClassVar
 
-import numpy as np
-
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
+from optipath.errors import ValueFault
 from optipath.kernels.catalogue import POLARIZED, UNPOLARIZED
-from optipath.values.domains.quantities import NonNegative, StokesState, YesOrNo
-from optipath.values.made import refuse
+from optipath.values.domains.quantities import (
+    INTENSITY,
+    NON_NEGATIVE,
+    Intensity,
+    StokesState,
+    YesOrNo,
+)
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import Any
+
+    from optipath.values.domains.domain import Domain
 
 
 class Source(Element, kind="source"):
@@ -39,7 +46,7 @@ class Source(Element, kind="source"):
     inputs: ClassVar[tuple[str, ...]] = ()
     outputs: ClassVar[tuple[str, ...]] = ("out",)
 
-    intensity: NonNegative = 1.0
+    intensity: Intensity = 1.0
     stokes: StokesState | None = None
     physical: YesOrNo = True  # type: ignore[misc] # each source says it for itself
 
@@ -47,15 +54,15 @@ class Source(Element, kind="source"):
         """Ask besides whether four numbers are a state."""
         given = self.intensity
         super().__post_init__()
-        if self.stokes is None and isinstance(given, (list, tuple)) and _is_a_state(self.intensity):
-            refuse(
-                [
-                    (
-                        f"Source intensity is {given}, which may be a state, or the intensities of "
-                        f"four paths; give stokes={given} for the one, np.array for the other"
-                    )
-                ]
-            )
+        if self.stokes is None and (doubt := INTENSITY.doubt("Source intensity", given)):
+            raise ValueFault(doubt)
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every number; beside a state, four of an intensity are none."""
+        found = super().quantities()
+        if self.stokes is None:
+            return found
+        return ((name, value, NON_NEGATIVE if of is INTENSITY else of) for name, value, of in found)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the emission into ``out``."""
@@ -65,14 +72,3 @@ class Source(Element, kind="source"):
             kernel = POLARIZED
             arguments += numbers_of(self.stokes, self.domains()["stokes"])
         return (Coupling(None, "out", (Operation(kernel, arguments),)),)
-
-
-def _is_a_state(numbers: Any) -> bool:
-    """Tell whether four numbers are those of light that is polarised by 100 % at most."""
-    if (
-        not isinstance(numbers, np.ndarray)
-        or numbers.shape != (4,)
-        or numbers.dtype.kind not in "iuf"
-    ):
-        return False
-    return bool(np.linalg.norm(numbers[1:]) <= numbers[0])

@@ -12,7 +12,7 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.read_only import Unchanging, read_only
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.degrees import warn_of_degrees
+from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.roundings import Array, as_doubles, rounding_of
 

@@ -9,7 +9,6 @@ from optipath.composer.path_values import Values, value_faults
 from optipath.errors import OptipathError, ParameterError
 from optipath.values.arrays.read_only import changed
 from optipath.values.domains.axis import axes_for
-from optipath.values.domains.pair import pair_faults
 from optipath.values.large_angles import LargeAngles
 from optipath.values.made import checked_later
 from optipath.values.other_part import of_complex
@@ -68,7 +67,6 @@ def bind(
                 known_value = axes_for(name, value, inputs.uses)
                 found = replace(parameters[name], default=known_value, bound=True)
                 bound[name] = changed(found, bound=for_good)
-                faults += pair_faults(name, value, inputs.uses)
             except OptipathError as fault:
                 faults += of_complex(fault.faults, Values(graph).uses, name, value)
     copy = graph.copy()

@@ -121,7 +121,7 @@ class Plan(PlanDetails):
             frame = answers.framed(frame, parameters)
         noise = (noise_at, answers, name, parameters, ())
         if fast_path is not None:
-            if answers.large_angles.names:
+            if answers.large_angles.places:
                 answers.large_angles.look(parameters)
             return Light.of(fast_path[place][:4], frame, fast_path[place][4], noise)
         stokes, exponent = answers.lights(parameters)[name]

@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from collections.abc import Hashable
 
 
+_PURE = "pure number"
+
+
 class Affine:
     """A named value that is given later, and ``scale * value + offset`` in its place.
 
@@ -37,7 +40,7 @@ class Affine:
     scale, offset : float
         1 and 0 where it stands for the value itself.
     offset_dimension : str
-        What the offset was given as, where it was a text with a unit: ``"angle"``, ...
+        What the offset was given as, where it was a text: ``"angle"``, ..., ``"pure number"``.
     """
 
     name: str
@@ -76,6 +79,11 @@ class Affine:
             return multiple
         sign = "-" if self.offset < 0.0 else "+"
         return f"{multiple} {sign} {format_quantity(abs(self.offset), self.unit)}"
+
+    @property
+    def zero(self) -> float:
+        """The value of which it comes to 0."""
+        return -self.offset / self.scale
 
     def alone(self) -> Self:
         """Return the value itself."""
@@ -194,7 +202,7 @@ class Affine:
                 f"{owner} is {self.formula}, but takes several numbers that belong together; "
                 f"compute them in NumPy and give them as the parameter '{self.name}'"
             )
-        if dimension and dimension != domain.dimension:
+        if dimension and dimension != (domain.dimension or _PURE):
             raise ValueFault(
                 f"the offset of parameter '{self.name}' is {with_article(dimension)}, but {owner} "
                 f"takes {domain.described()}; change its unit or where it is used"
@@ -203,12 +211,11 @@ class Affine:
     def parsed(self, text: str) -> tuple[Any, str]:
         """Return the number that a text with a unit is as an offset, and its dimension."""
         own = dimension_of(self.unit) or self.offset_dimension
-        dimensions = [own] if own else [name for name in USUAL_UNITS if name]
-        for dimension in dimensions:
+        for dimension in [own.removeprefix(_PURE)] if own else USUAL_UNITS:
             with suppress(UnitError):
-                return parse_quantity(text, dimension), dimension
+                return parse_quantity(text, dimension), dimension or _PURE
         # For what it says of the unit.
-        return parse_quantity(text, own or "angle"), own
+        return parse_quantity(text, own.removeprefix(_PURE) if own else "angle"), own
 
 
 def real_number(number: Any) -> float | None:

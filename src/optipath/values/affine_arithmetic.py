@@ -33,7 +33,7 @@ class AffineArithmetic(Affine):
 
     def __mul__(self, other: Any) -> Self:
         if not (factor := real_number(other)):
-            self._refuse(f"multiplied by {_named(other)}")
+            self._refuse(f"multiplied by {_named(other)}", other)
         return self._made(factor * self.scale, factor * self.offset)
 
     def __truediv__(self, other: Any) -> Self:
@@ -57,7 +57,7 @@ class AffineArithmetic(Affine):
         if isinstance(other, str):
             number, dimension = self.parsed(other)
         if (number := real_number(number)) is None:
-            self._refuse(f"added to {_named(other)} or subtracted from it")
+            self._refuse(f"added to {_named(other)} or subtracted from it", other)
         return self._made(self.scale, self.offset + sign * number, dimension)
 
     def _made(self, scale: float, offset: float, dimension: str | None = None) -> Self:
@@ -69,7 +69,13 @@ class AffineArithmetic(Affine):
             )
         return self.shaped(scale, offset, self.offset_dimension if dimension is None else dimension)
 
-    def _refuse(self, done: str) -> NoReturn:
+    def _refuse(self, done: str, other: Any = None) -> NoReturn:
+        if isinstance(other, (complex, np.complexfloating)):
+            raise ParameterError(
+                f"parameter '{self.name}' cannot be {done}; for an index n + ik of which either is "
+                f"a parameter, write op.Material(n, k), and for any other complex number one "
+                f"parameter that is given it whole"
+            )
         raise ParameterError(
             f"parameter '{self.name}' cannot be {done}: it may stand as a multiple with an offset, "
             f"such as 2 * {self.name} + 0.1, and as nothing else; compute other values in NumPy "

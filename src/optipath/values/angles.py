@@ -35,7 +35,7 @@ class CosSin(Unchanging):
     Raises
     ------
     ParameterError
-        If they do not broadcast, or belong to no angle: cos^2 + sin^2 is not 1.
+        If one is missing, they do not broadcast, or belong to no angle: cos^2 + sin^2 is not 1.
 
     Examples
     --------
@@ -51,7 +51,12 @@ class CosSin(Unchanging):
     cos: Any
     sin: Any
 
-    def __init__(self, cos: Any, sin: Any) -> None:
+    def __init__(self, cos: Any, sin: Any = None) -> None:
+        if sin is None:
+            raise ParameterError(
+                f"CosSin takes a cosine and a sine, not {shown(cos)} alone; give an angle itself, "
+                f"without CosSin"
+            )
         cos, sin = _numbers("cos", cos), _numbers("sin", sin)
         if faults := broadcast_fault({"cos": np.shape(cos), "sin": np.shape(sin)}, paired=True):
             raise ParameterError(*faults)

@@ -1,17 +1,10 @@
-"""Degrees given for radians: said wherever a plain number is too large to be an angle."""
+"""Degrees given for radians: how they are told from angles in radians, and what was meant."""
 
 from __future__ import annotations
 
 import math
-import sys
-import warnings
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from optipath.errors import AngleWarning, OptipathError
-from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import is_traced
 from optipath.values.units import parse_quantity
 from optipath.values.written_units import UNITS_ARE_WRITTEN
 
@@ -23,15 +16,6 @@ TURN = 2.0 * math.pi * (1.0 + 1e-6)
 
 _LEAST = 2.0
 """From what size on a number that is refused may have been one of degrees."""
-
-_TYPED = 6
-"""How many characters a number has at most that somebody has typed, and not computed."""
-
-_MOST = 1 << 1000
-"""Beyond, whole numbers are no floats."""
-
-_LOOKED_AT = 1000
-"""At how many numbers of an array one looks; degrees are seen in any of them."""
 
 
 def is_within_a_turn(low: Any, high: Any) -> bool:
@@ -54,78 +38,6 @@ def is_within_a_turn(low: Any, high: Any) -> bool:
     """
     are_numbers = isinstance(low, (int, float)) and isinstance(high, (int, float))
     return are_numbers and abs(low) <= TURN and abs(high) <= TURN
-
-
-def warn_of_degrees(what: str, value: Any) -> bool:
-    """Warn where a plain number is beyond a whole turn; texts with units are what they say.
-
-    Parameters
-    ----------
-    what : str
-        What the angle is given for.
-    value : Any
-        What is given: a number, a text, an array or a list of either, or anything else.
-
-    Returns
-    -------
-    bool
-        Whether it was warned.
-
-    Examples
-    --------
-    >>> warn_of_degrees("a turn", 1.0), warn_of_degrees("a turn", "720 deg")
-    (False, False)
-    """
-    if type(value) is float and not TURN < abs(value) < math.inf:
-        return False
-    size = largest(value)
-    if not TURN < abs(size) < math.inf or _is_in_radians(size):
-        return False
-    several = "has a value of" if np.ndim(value) else "is"
-    warnings.warn(
-        f"{what} {several} {in_both(size)}; did you mean {_in_degrees(size)}?",
-        AngleWarning,
-        stacklevel=_outside(),
-    )
-    return True
-
-
-def warn_of_turning(what: str, rate: Any, length: float, usual: str) -> bool:
-    """Warn where a plain number per metre, typed by hand, is beyond a whole turn over a length.
-
-    Parameters
-    ----------
-    what : str
-        What the angle per length is given for.
-    rate : Any
-        What is given: a number, a text, an array or a list of either, or anything else.
-    length : float
-        Over how many metres.
-    usual : str
-        The unit that is usual for it.
-
-    Returns
-    -------
-    bool
-        Whether it was warned.
-
-    Examples
-    --------
-    >>> warn_of_turning("a rotation", 66.5, 0.01, "deg/dm")
-    False
-    """
-    size = largest(rate)
-    # What has been computed has many digits.
-    typed = len(f"{abs(size):.12g}") <= _TYPED
-    if not typed or not TURN < abs(size * length) < math.inf or UNITS_ARE_WRITTEN.get():
-        return False
-    warnings.warn(
-        f"{what} is {size:.6g} rad/m, which over {length:.6g} m is {in_both(size * length)}; did "
-        f"you mean '{size:.6g} {usual}'? (if not, write '{size:.6g} rad/m')",
-        AngleWarning,
-        stacklevel=_outside(),
-    )
-    return True
 
 
 def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
@@ -153,9 +65,9 @@ def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
     """
     # A little beyond a right angle, it is a slip; up to a whole turn, it may have been computed.
     typed = abs(number) > TURN or len(f"{number:.12g}") + 3 < len(f"{math.degrees(number):.12g}")
-    if abs(number) < _LEAST or not typed or _is_in_radians(number):
+    if abs(number) < _LEAST or not typed or is_in_radians(number):
         return ""
-    return f"; did you mean {_in_degrees(number)}?" if allows(math.radians(number)) else ""
+    return f"; did you mean {in_degrees(number)}?" if allows(math.radians(number)) else ""
 
 
 def called(
@@ -212,51 +124,12 @@ def in_both(number: float) -> str:
     return f"{number:.6g} rad, which is {math.degrees(number):.6g} deg"
 
 
-def largest(value: Any) -> float:
-    """Return the plain number of the largest size in a value, out of a thousand; 0 for none.
-
-    Examples
-    --------
-    >>> largest([0.5, -90.0]), largest(["720 deg", 0.5]), largest(None)
-    (-90.0, 0.5, 0.0)
-    """
-    if value is None or isinstance(value, str) or is_traced(value):
-        return 0.0
-    try:
-        array = as_given("", value)
-    except OptipathError:
-        return 0.0  # For validation to name.
-    if array.size > _LOOKED_AT:
-        flat = array.reshape(-1) if array.flags.c_contiguous else array.flat
-        array = flat[np.linspace(0, array.size - 1, _LOOKED_AT).astype(np.intp)]
-    if array.dtype.kind == "O":
-        numbers = [n for n in array.ravel().tolist() if isinstance(n, (float, np.floating))]
-        numbers += [float(n) for n in array.ravel().tolist() if type(n) is int and abs(n) < _MOST]
-        array = np.array(numbers, np.float64)
-    if array.dtype.kind not in "iuf" or not array.size:
-        return 0.0
-    at = np.argmax(np.abs(np.where(np.isfinite(array), array, 0)))
-    return float(array.reshape(-1)[at])
-
-
-def _is_in_radians(number: float) -> bool:
+def is_in_radians(number: float) -> bool:
     """Tell whether an angle is surely meant in radians: written so, or a round one in degrees."""
     degrees = math.degrees(number)
     return UNITS_ARE_WRITTEN.get() or len(f"{degrees:.12g}") < len(f"{number:.12g}")
 
 
-def _in_degrees(number: float) -> str:
+def in_degrees(number: float) -> str:
+    """Write a number as one of degrees, in both ways that Python takes."""
     return f"'{number:.6g} deg' or np.radians({number:.6g})"
-
-
-def _outside() -> int:
-    """Return how many calls up from the one that warns the library was called."""
-    level = 2
-    frame: Any = sys._getframe(level)  # noqa: SLF001 - as warnings itself looks
-    while frame.f_back is not None and (
-        frame.f_globals.get("__name__", "").partition(".")[0] in ("optipath", "dataclasses")
-        # The makers of dataclasses and own elements are made of texts.
-        or frame.f_code.co_filename.startswith("<")
-    ):
-        frame, level = frame.f_back, level + 1
-    return level

@@ -54,7 +54,7 @@ def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Do
     if array.size != 1 or array.dtype.kind not in "iufc" or not np.all(np.isfinite(array)):
         return False
     if array.dtype.kind == "c":
-        return any(domain.complex_parts for domain in domains)
+        return any(domain.complex_parts and not np.all(domain.allows(array)) for domain in domains)
     # So large an angle is in degrees.
     if any(domain.dimension == "angle" for domain in domains) and np.all(np.abs(array) > 2.0 * pi):
         return False

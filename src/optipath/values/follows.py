@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from typing import Any, NoReturn
+
+from optipath.errors import ParameterError
+
 
 class Follows:
     """What stands for a value of the boundary before; `FOLLOWS` is the only one.
@@ -13,6 +17,9 @@ class Follows:
     """
 
     __slots__ = ()
+
+    # NumPy's numbers leave arithmetic to it.
+    __array_ufunc__ = None
 
     word = "follows"
     """How files write it."""
@@ -27,6 +34,19 @@ class Follows:
         # Copies are the same one.
         return "FOLLOWS"
 
+
+def _refused(*_: Any) -> NoReturn:
+    raise ParameterError(
+        "FOLLOWS stands for what the boundary before has, just as it is, and has no arithmetic; "
+        "give the number, or the Parameter that the boundary before has, which has it"
+    )
+
+
+for _name in ("add", "sub", "mul", "truediv", "pow", "matmul"):
+    setattr(Follows, f"__{_name}__", _refused)
+    setattr(Follows, f"__r{_name}__", _refused)
+for _name in ("neg", "pos", "abs"):
+    setattr(Follows, f"__{_name}__", _refused)
 
 FOLLOWS = Follows()
 """In place of ``outside``: the medium that light comes from. In place of ``incidence``: that of

@@ -11,7 +11,6 @@ from optipath.errors import OptipathError, ParameterError
 from optipath.values.agreement import first_faults
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.domains.axis import axes_for
-from optipath.values.domains.pair import pair_faults
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.other_part import of_complex
 from optipath.values.resolved import THERE, Resolved
@@ -90,16 +89,19 @@ class Inputs:
                 resolved[name] = Resolved(value, THERE)
                 unchecked.add(name)
             else:
-                value = axes_for(name, value, self.uses)
-                faults += pair_faults(name, value, self.uses)
+                of_name = [use for use in self.uses if use.value.name == name]
+                faults += filter(None, [use.doubt(value) for use in of_name])
                 try:
+                    value = axes_for(name, value, self.uses)
                     resolved[name] = parameter.resolve(value, self.limits[name])
                 except OptipathError as fault:
                     faults += self._of_a_fit(fault.faults, name, value)
         found: dict[str, tuple[int, ...]] = {}
+        refused: set[str] = set()
         for use in self.distinct_uses:
             name = use.value.name
-            if name not in resolved:
+            # What is wrong in one place is mostly wrong in others, for the same reason.
+            if name not in resolved or name in refused:
                 continue
             numbers, present = resolved[name]
             try:
@@ -108,13 +110,15 @@ class Inputs:
             except OptipathError as fault:
                 value = given.get(name, self.open[name].default)
                 faults += self._of_a_fit(fault.faults, name, value)
+                refused.add(name)
             else:
                 shape = getattr(numbers, "shape", ())
                 found[name] = shape[: len(shape) - len(use.domain.tail)]
         # As they are given, so that a sentence names them in the order of whoever reads it.
         shapes = {name: found[name] for name in (*given, *found) if name in found}
         shapes = {**self.shapes, **shapes}
-        faults += broadcast_fault(shapes, self.shapes)
+        lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
+        faults += broadcast_fault(shapes, self.shapes, lists)
         faults = faults or first_faults(self.agreements, resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.

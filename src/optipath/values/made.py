@@ -8,7 +8,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.errors import ValueFault
-from optipath.values.degrees import warn_of_degrees
+from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.domains.domain import in_unit_of
 from optipath.values.parameters import Parameter
 from optipath.values.specification import warn_where_it_stands
@@ -158,7 +158,10 @@ def kept_value(owner: str, value: Any, domain: Domain) -> Any:
     if domain.takes_large_angles and not _is_checked_later.get():
         # Of a parameter with a unit, it has been told when it was made.
         without = isinstance(value, Parameter) and (value.bound or not value.unit)
-        warn_of_degrees(owner, value.default if without else value)
+        if without:
+            warn_of_degrees(owner, value.default, value)
+        elif not isinstance(value, Parameter):
+            warn_of_degrees(owner, value)
         if isinstance(value, Parameter) and not value.offset_dimension:
             warn_of_degrees(f"the offset of parameter '{value.name}' at {owner}", value.offset)
     if isinstance(value, Parameter):

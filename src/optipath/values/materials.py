@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from optipath.errors import UnitError, ValueFault
+import numpy as np
+
+from optipath.errors import ParameterError, UnitError, ValueFault
+from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.cures import cure
 from optipath.values.domains.domain import Domain
 from optipath.values.made import make_sound
+from optipath.values.parameters import Parameter
 from optipath.values.units import parse_quantity
 
 
@@ -93,6 +97,29 @@ class Material:
         make_sound(
             self, _PARTS, lambda: [(name, getattr(self, name), of) for name, of in _PARTS.items()]
         )
+
+    @property
+    def refractive_index(self) -> Any:
+        """The index n + ik as one number, or an array of these; real where nothing absorbs.
+
+        Raises
+        ------
+        ParameterError
+            If n or k is a parameter, and not known yet.
+
+        Examples
+        --------
+        >>> Material(0.608, 2.12).refractive_index
+        (0.608+2.12j)
+        """
+        for name in _PARTS:
+            if isinstance(part := getattr(self, name), Parameter):
+                raise ParameterError(
+                    f"{name} of a Material is the parameter '{part.name}', which is not known yet; "
+                    f"let the Material itself stand in the path"
+                )
+        without = not is_traced(self.k) and not np.any(self.k)
+        return self.n if without else self.n + 1j * self.k
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]

@@ -6,7 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import UnitError
 from optipath.values.parameters import Parameter
+from optipath.values.units import parse_quantity
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -64,7 +66,15 @@ def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any
     -------
     list of str
     """
-    several = isinstance(value, np.ndarray) and value.dtype.kind == "c"
-    is_complex = several or isinstance(value, (complex, np.complexfloating))
-    cure = other_part(uses, name) if is_complex else ""
+    cure = other_part(uses, name) if _is_complex(value) else ""
     return [f"{fault}; {cure}" if cure else fault for fault in faults]
+
+
+def _is_complex(value: Any) -> bool:
+    if isinstance(value, str):
+        try:
+            value = parse_quantity(value, "")
+        except UnitError:
+            return False
+    several = isinstance(value, np.ndarray) and value.dtype.kind == "c"
+    return several or isinstance(value, (complex, np.complexfloating))

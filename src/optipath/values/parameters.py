@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError, did_you_mean, shown
+from optipath.errors import ParameterError, UnitError, shown
 from optipath.values.affine_arithmetic import AffineArithmetic
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import array_of, as_given
@@ -16,8 +16,9 @@ from optipath.values.arrays.read_only import read_only, same
 from optipath.values.degrees import called
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.roundings import doubles, traced_within, within
-from optipath.values.specification import checked_name, read_specification
+from optipath.values.specification import check_types, checked_name, read_specification
 from optipath.values.units import dimension_of, format_quantity, format_range, parse_quantity
+from optipath.values.unknown_parameter import unknown_word
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -27,12 +28,7 @@ if TYPE_CHECKING:
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
-_KINDS: dict[str, tuple[type, str]] = {
-    "help": (str, "a text"),
-    "words": (dict, "a dict from word to number"),
-    **dict.fromkeys(("optional", "bound"), (bool, "True or False")),
-}
-_SHAPE = {"scale", "offset", "offset_dimension"}
+_NOT_OF_THE_VALUE = {"scale", "offset", "offset_dimension", "is_listed"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,11 +90,12 @@ class Parameter(AffineArithmetic):
     scale: float = 1.0
     offset: float = 0.0
     offset_dimension: str = ""
+    is_listed: bool = field(default=False, init=False, repr=False)
 
     def __post_init__(self) -> None:
         checked_name(self.name)
         vars(self).update(read_specification(self))
-        self._check_types()
+        check_types(self)
         scale, offset, dimension = self.checked_shape()
         vars(self).update(scale=scale, offset=offset, offset_dimension=dimension)
         low, high = self._limit(self.minimum), self._limit(self.maximum)
@@ -115,18 +112,13 @@ class Parameter(AffineArithmetic):
                 f"plan runs, or give an angle"
             )
         if self.default is not None:
+            # Whoever lists numbers by hand may mean one of several parts; arrays are of paths.
+            vars(self)["is_listed"] = isinstance(self.default, (list, tuple))
             default = read_only(self._as_number(self.default), (low, high), widened=False)
             object.__setattr__(self, "default", default)
             self.resolve(self.default)
         elif self.bound:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
-
-    def _check_types(self) -> None:
-        for name, (kind, described) in _KINDS.items():
-            if not isinstance(value := getattr(self, name), kind):
-                raise ParameterError(
-                    f"{name} of parameter '{self.name}' must be {described}, not {shown(value)}"
-                )
 
     def _limit(self, value: Any) -> float:
         if type(value) is float:
@@ -154,7 +146,7 @@ class Parameter(AffineArithmetic):
         if isinstance(value, str):
             return self.parse(value)
         if not isinstance(value, (list, tuple)):
-            return value
+            return self._number_of(value)
         array = as_given(f"parameter '{self.name}'", value, ParameterError)
         if array.dtype.kind not in "UO":
             return array
@@ -164,7 +156,9 @@ class Parameter(AffineArithmetic):
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
         mine, others = vars(self), vars(other)
-        return self is other or all(same(mine[n], others[n]) for n in mine.keys() - _SHAPE)
+        return self is other or all(
+            same(mine[n], others[n]) for n in mine.keys() - _NOT_OF_THE_VALUE
+        )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
@@ -198,8 +192,7 @@ class Parameter(AffineArithmetic):
         """
         if type(raw) is float and self.minimum <= raw <= self.maximum and abs(raw) < np.inf:
             return Resolved(np.array(raw), THERE)
-        if isinstance(raw, CosSin):
-            raw = self._angle(raw)
+        raw = self._number_of(raw)
         limits = limits or (self.minimum, self.maximum)
         if is_traced(raw):
             return Resolved(traced_within(raw, limits), THERE)
@@ -216,6 +209,13 @@ class Parameter(AffineArithmetic):
             array = array.astype(np.float64)
         self._check_range(array)
         return Resolved(array if array.ndim else doubles(array), present)
+
+    def _number_of(self, given: Any) -> Any:
+        """Return the numbers that a `CosSin` or a `Material` stands for; else what is given."""
+        if isinstance(given, CosSin):
+            return self._angle(given)
+        is_index = hasattr(type(given), "refractive_index") and not dimension_of(self.unit)
+        return given.refractive_index if is_index else given
 
     def _angle(self, given: CosSin) -> Any:
         if dimension_of(self.unit) != "angle":
@@ -253,8 +253,7 @@ class Parameter(AffineArithmetic):
         if text in self.words or (self.optional and text == ABSENT):
             return text
         if text[:1].isalpha():
-            cure = did_you_mean(text, self.all_words) if self.all_words else "; give a number"
-            raise ParameterError(f"parameter '{self.name}' knows no word '{text}'{cure}")
+            raise ParameterError(unknown_word(self.name, text, self.all_words))
         try:
             return parse_quantity(text, dimension_of(self.unit), default_unit)
         except UnitError as error:

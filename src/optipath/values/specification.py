@@ -6,12 +6,37 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ParameterError, shown
-from optipath.values.degrees import is_within_a_turn, warn_of_degrees
+from optipath.values.degree_warnings import warn_of_degrees
+from optipath.values.degrees import is_within_a_turn
 from optipath.values.texts import numbers_for
 from optipath.values.units import dimension_of, parse_quantity, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from optipath.values.affine import Affine
+
+
+_KINDS: dict[str, tuple[type, str]] = {
+    "help": (str, "a text"),
+    "words": (dict, "a dict from word to number"),
+    **dict.fromkeys(("optional", "bound"), (bool, "True or False")),
+}
+
+
+def check_types(parameter: Any) -> None:
+    """Check what a parameter is specified by that is no number.
+
+    Raises
+    ------
+    ParameterError
+        Naming what is of another type.
+    """
+    for name, (kind, described) in _KINDS.items():
+        if not isinstance(value := getattr(parameter, name), kind):
+            raise ParameterError(
+                f"{name} of parameter '{parameter.name}' must be {described}, not {shown(value)}"
+            )
 
 
 def checked_name(name: Any) -> str:
@@ -84,13 +109,11 @@ def read_specification(parameter: Any) -> dict[str, Any]:
             (found if several is limits else found["words"])[key] = number
     if faults:
         raise ParameterError(*faults)
-    if dimension == "angle":
-        _warn_of(name, limits)
-        # Whoever binds a value looks at it where it stands.
-        if parameter.bound is not True:
-            _warn_of(name, _by_phrase(named))
-            if not is_within_a_turn(found["minimum"], found["maximum"]):
-                warn_of_degrees(f"parameter '{name}'", parameter.default)
+    # Whoever binds a value looks at it where it stands.
+    if dimension == "angle" and parameter.bound is not True:
+        _warn_of(name, limits | _by_phrase(named))
+        if not is_within_a_turn(found["minimum"], found["maximum"]):
+            warn_of_degrees(f"parameter '{name}'", parameter.default)
     return found
 
 
@@ -107,14 +130,14 @@ def warn_where_it_stands(parameter: Any) -> None:
     AngleWarning
         For each number beyond a whole turn.
     """
-    _warn_of(parameter.name, {end: getattr(parameter, end) for end in ("minimum", "maximum")})
-    _warn_of(parameter.name, _by_phrase(parameter.words))
+    limits = {end: getattr(parameter, end) for end in ("minimum", "maximum")}
+    _warn_of(parameter.name, limits | _by_phrase(parameter.words), parameter)
 
 
-def _warn_of(name: str, numbers: Mapping[str, Any]) -> None:
+def _warn_of(name: str, numbers: Mapping[str, Any], place: Affine | None = None) -> None:
     """Warn of each number beyond a whole turn, by what it is of an angle of this name."""
     for what, number in numbers.items():
-        warn_of_degrees(f"the {what} of parameter '{name}'", number)
+        warn_of_degrees(f"the {what} of parameter '{name}'", number, place)
 
 
 def _by_phrase(words: Mapping[str, Any]) -> dict[str, Any]:

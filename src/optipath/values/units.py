@@ -155,7 +155,8 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
     match = _QUANTITY.fullmatch(text)
     if match is None or (match[2] and not _LIKE_A_UNIT.fullmatch(match[2])):
         if meant := _respelt(text, dimension):
-            raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?")
+            several = " (a text is one value; several are an array, in Python)" * ("," in text)
+            raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?{several}")
         example = f"'30 {USUAL_UNITS[dimension]}'" if dimension else "'1.5' or '0.3+0.4j'"
         raise UnitError(f"'{text}' is not a quantity; write a number such as {example}")
     unit = match[2] or default_unit

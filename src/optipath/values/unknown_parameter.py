@@ -1,4 +1,4 @@
-"""What is said of a name that no parameter has, but something else."""
+"""What is said of a name that no parameter has, and of a word that one does not know."""
 
 from __future__ import annotations
 
@@ -42,3 +42,30 @@ def unknown_parameter(name: str, known: Iterable[str]) -> str:
         if name.lower().startswith(_CASE):
             return f"'{name}' is no parameter of the path; write load_preset(..., case=...)"
     return f"parameter '{name}' is unknown{did_you_mean(name, names)}"
+
+
+def unknown_word(name: str, word: str, known: Iterable[str]) -> str:
+    """Return the sentence for a word that a parameter does not know.
+
+    Parameters
+    ----------
+    name, word : str
+        The parameter, and what was given for it.
+    known : iterable of str
+        The words that it knows.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> unknown_word("filter", "vertikal", ["horizontal", "vertical"])
+    "parameter 'filter' knows no word 'vertikal'; did you mean 'vertical'?"
+    >>> unknown_word("t", "half", [])
+    "parameter 't' knows no word 'half'; give a number"
+    """
+    words = [*known]
+    return f"parameter '{name}' knows no word '{word}'" + (
+        did_you_mean(word, words) if words else "; give a number"
+    )

@@ -12,6 +12,7 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.degrees import meant_in_degrees
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE
 from optipath.values.units import dimension_of
@@ -110,11 +111,19 @@ class Use:
             )
         self.value.check_place(self.owner, self.domain)
         default = self.value.default
+        if self.value.is_listed and (doubt := self.doubt(default.tolist())):
+            raise ValueFault(doubt)
         if type(default) is float:
             # Whether a number is in the range was asked when the parameter was made.
             self.check_given(default)
         elif default is not None:
             self.check_given(*self.value.resolve(default))
+
+    def doubt(self, given: Any) -> str:
+        """Ask what a list that is given for the parameter means, where it may be one value."""
+        if not isinstance(given, (list, tuple)):
+            return ""
+        return self.domain.doubt(f"parameter '{self.value.name}' (at {self.owner})", given)
 
     def check_given(
         self, numbers: float | np.ndarray[Any, Any], present: np.ndarray[Any, Any] = THERE
@@ -143,7 +152,23 @@ class Use:
         placed = value.placed(numbers, self.domain.interval)
         if not np.all(present):
             placed = np.where(present, placed, 0.0)
-        # What arithmetic has made of a number is not what somebody has written.
-        with units_are_written():
-            what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
-            self.domain.check(what, placed)
+        try:
+            # What arithmetic has made of a number is not what somebody has written.
+            with units_are_written():
+                what = f"parameter '{value.name}' (at {self.owner}, as {value.formula})"
+                self.domain.check(what, placed)
+        except ValueFault as fault:
+            raise ValueFault(
+                *(sentence + self._meant(numbers) for sentence in fault.faults)
+            ) from None
+
+    def _meant(self, numbers: Any) -> str:
+        """Return what a number given for a multiple was meant to be, if it is one of degrees."""
+        if self.domain.dimension != "angle" or np.iscomplexobj(numbers):
+            return ""
+
+        def allows(number: Any) -> Any:
+            return self.domain.allows(np.asarray(self.value.placed(number, self.domain.interval)))
+
+        refused = np.ravel(numbers)[~np.ravel(allows(np.asarray(numbers)))]
+        return meant_in_degrees(float(refused[0]), allows) if refused.size else ""

@@ -97,7 +97,8 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
     def __matmul__(self, other: Mueller | Light) -> Mueller | Light:
         matrix, batch = known(self.matrix), self.matrix.shape[:-2]
         if isinstance(other, Light):
-            check_broadcast({"matrix": batch, "light": other.stokes.shape[:-1]})
+            shapes = {"matrix": batch, "light": other.stokes.shape[:-1]}
+            check_broadcast(shapes, fixed=("matrix",))
             aligned = other.in_frame(self.frame_in)
             if is_traced(matrix) or is_traced(aligned.mantissa):
                 return Light.of((matrix @ aligned.stokes[..., np.newaxis])[..., 0], self.frame_out)
@@ -108,7 +109,8 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
             noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
             return Light.of(stokes, self.frame_out, exponent, noise)
         if isinstance(other, Mueller):
-            check_broadcast({"matrix": batch, "other matrix": other.matrix.shape[:-2]})
+            shapes = {"matrix": batch, "other matrix": other.matrix.shape[:-2]}
+            check_broadcast(shapes, fixed=shapes)
             turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
             with np.errstate(over="ignore", invalid="ignore"):
                 product = matrix @ turn @ known(other.matrix)

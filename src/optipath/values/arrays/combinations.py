@@ -18,7 +18,9 @@ _MOST = 6
 """How many different shapes are looked at."""
 
 
-def combination(shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = ()) -> str:
+def combination(
+    shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = (), lists: Collection[str] = ()
+) -> str:
     """Say which arrays to give other axes, so that all broadcast; nothing where none is plain.
 
     What is longer than one along the first axes of the largest goes along these; else there is
@@ -30,6 +32,8 @@ def combination(shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = 
         Shapes that do not broadcast, by the names of what has them.
     fixed : collection of str, optional
         The names of what is to stay as it is.
+    lists : collection of str, optional
+        The names of what is a list, which takes no axes.
 
     Returns
     -------
@@ -44,6 +48,8 @@ def combination(shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = 
     'for every combination, give delta[:, None, None] and rho[:, None]'
     >>> combination({"delta": (7,), "rho": (7, 4)})
     'along the first axis, give delta[:, None]'
+    >>> combination({"delta": (7,), "rho": (4,)}, lists=["delta"])
+    'for every pair, give np.array(delta)[:, None]'
     """
     long = {owner: shape for owner, shape in shapes.items() if prod(shape) != 1}
     if len(set(long.values())) > _MOST:
@@ -59,7 +65,10 @@ def combination(shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = 
             behind += max(len(long[owner]) for owner in group)
     if len(added) > _MOST or not all(_is_of_user(o) and o not in fixed for o in added):
         return ""
-    return f"{purpose}, give {listed([_with_axes(o, long[o], n) for o, n in added.items()])}"
+    written = {owner: f"np.array({owner})" if owner in lists else owner for owner in added}
+    return (
+        f"{purpose}, give {listed([_with_axes(written[o], long[o], n) for o, n in added.items()])}"
+    )
 
 
 def _along_first_axes(shapes: Mapping[str, Shape]) -> dict[str, int] | None:

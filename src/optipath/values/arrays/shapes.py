@@ -49,7 +49,11 @@ def joint_shape(*shapes: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def broadcast_fault(
-    shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = (), *, paired: bool = False
+    shapes: Mapping[str, tuple[int, ...]],
+    fixed: Collection[str] = (),
+    lists: Collection[str] = (),
+    *,
+    paired: bool = False,
 ) -> list[str]:
     """Return the sentence that names shapes which do not broadcast, or nothing.
 
@@ -59,6 +63,8 @@ def broadcast_fault(
         The shapes by what has them, as the sentence names it.
     fixed : collection of str, optional
         Which of these cannot be given with other axes.
+    lists : collection of str, optional
+        Which of these are lists, which take no axes.
     paired : bool, optional
         Whether they belong together one by one, as a cosine and its sine do.
 
@@ -75,7 +81,7 @@ def broadcast_fault(
     found = _joint(shapes.values())
     if found is None:
         named = ", ".join(f"{owner} {shape}" for owner, shape in shapes.items() if shape)
-        more = "" if paired else combination(shapes, fixed)
+        more = "" if paired else combination(shapes, fixed, lists)
         cure = f"{more}; or make their axes equal" if more else "make their axes equal or 1"
         return [f"arrays do not broadcast together: {named}; {cure}"]
     if len(found) > MOST_AXES:
@@ -100,15 +106,26 @@ def _joint(shapes: Iterable[tuple[int, ...]]) -> tuple[int, ...] | None:
     return tuple(found)
 
 
-def check_broadcast(shapes: Mapping[str, tuple[int, ...]]) -> tuple[int, ...]:
+def check_broadcast(
+    shapes: Mapping[str, tuple[int, ...]], fixed: Collection[str] = ()
+) -> tuple[int, ...]:
     """Return the shape that several shapes broadcast to.
+
+    Parameters
+    ----------
+    shapes, fixed
+        As `broadcast_fault` takes them.
+
+    Returns
+    -------
+    tuple of int
 
     Raises
     ------
     ShapeError
         Naming each shape and its owner; or if there is no memory for so much.
     """
-    if faults := broadcast_fault(shapes):
+    if faults := broadcast_fault(shapes, fixed):
         raise ShapeError(*faults)
     batch = joint_shape(*shapes.values())
     refuse_too_large(batch, _STOKES)

@@ -6,12 +6,15 @@ import math
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import ValueFault, did_you_mean
+from optipath.errors import ParameterError, ValueFault, did_you_mean
+from optipath.spelling import closest
 from optipath.values.domains.domain import Domain
+from optipath.values.unknown_parameter import unknown_word
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
 
+    from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 
 AXES: Mapping[str, float] = MappingProxyType(
@@ -40,20 +43,31 @@ def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
     Returns
     -------
     Any
+
+    Raises
+    ------
+    ParameterError
+        If it stands as an axis, and the word is no name of one.
     """
     if not isinstance(value, (str, list, tuple)):
         return value
     for use in uses:
         if isinstance(use.domain, AxisDomain) and use.value.formula == name:
-            return _with_angles(value, use.value.all_words)
+            if isinstance(value, str):
+                return _angle_of(value, use.value)
+            # One row of them; a list of lists may be anything, even a part of itself.
+            return [_angle_of(one, use.value) for one in value]
     return value
 
 
-def _with_angles(value: Any, words: Collection[str]) -> Any:
-    if isinstance(value, str):
-        return value if value in words else AXES.get(value, value)
-    # One row of them; a list of lists may be anything, even a part of itself.
-    return [AXES.get(v, v) if isinstance(v, str) and v not in words else v for v in value]
+def _angle_of(value: Any, parameter: Parameter) -> Any:
+    """Return the angle of an axis that has a name; the value itself where that is none."""
+    if not isinstance(value, str) or value in parameter.all_words:
+        return value
+    if value[:1].isalpha() and value not in AXES:
+        words = dict.fromkeys((*parameter.all_words, *AXES))
+        raise ParameterError(unknown_word(parameter.name, value, words))
+    return AXES.get(value, value)
 
 
 class AxisDomain(Domain):
@@ -69,5 +83,6 @@ class AxisDomain(Domain):
         if (word := text.strip()) in AXES:
             return AXES[word]
         if word[:1].isalpha():
-            raise ValueFault(f"axis '{word}' is unknown{did_you_mean(word, AXES)}")
+            angle = "" if closest(word, AXES) else ", or give an angle such as '45 deg'"
+            raise ValueFault(f"axis '{word}' is unknown{did_you_mean(word, AXES)}{angle}")
         return super().parse(text)

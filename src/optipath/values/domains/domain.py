@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import ValueFault, shown
+from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import changed, read_only
@@ -85,13 +86,28 @@ class Domain:
         if array.dtype.kind in "iu":
             array = array.astype(np.float64)
         if array.dtype.kind not in "fc":
-            raise ValueFault(f"{owner} must be {self.described()}, not {shown(value)}")
+            raise ValueFault(f"{owner} {self._no_number(value, array)}")
         self._check_shape(owner, array.shape)
         if not np.all(np.isfinite(array)):
             found = array[~np.isfinite(array)].ravel()[0]
             raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
         self._check_numbers(owner, array, rounding_of(given))
         return array
+
+    def _no_number(self, value: Any, array: npt.NDArray[Any]) -> str:
+        """Return why something is no number; what comes behind the name of its owner."""
+        entries = array.ravel().tolist() if array.dtype.kind == "O" else []
+        if names := [f"'{entry.name}'" for entry in entries if isinstance(entry, Parameter)]:
+            return (
+                f"cannot have numbers and parameters side by side, such as {', '.join(names[:3])}; "
+                f"give one Parameter for the whole, and all numbers where the path is traced"
+            )
+        if isinstance(value, CosSin) and self.dimension == "angle":
+            return (
+                "cannot keep a cosine and a sine; give a Parameter here and these where the path "
+                "is traced, or give the angle"
+            )
+        return f"must be {self.described()}, not {shown(value)}"
 
     def _check_shape(self, owner: str, shape: tuple[int, ...]) -> None:
         if self.tail and shape[-len(self.tail) :] != self.tail:
@@ -178,6 +194,24 @@ class Domain:
             With a sentence for each text that stands for no number.
         """
         return numbers_for(owner, value, self.parse)
+
+    def doubt(self, owner: str, value: Any) -> str:
+        """Ask what a value means that may be one or several; mostly nothing.
+
+        Parameters
+        ----------
+        owner : str
+            What has the value, as sentences name it.
+        value : Any
+            What is given.
+
+        Returns
+        -------
+        str
+            A sentence, or nothing.
+        """
+        del owner, value
+        return ""
 
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""

@@ -50,14 +50,22 @@ class IndexDomain(Domain):
     def parse(self, text: str) -> Any:
         return index_of(text)
 
+    def doubt(self, owner: str, value: Any) -> str:
+        if not is_pair(value):
+            return ""
+        n, k = value
+        return (
+            f"{owner} is {value}, which may be n and k, or the indices of two paths; write "
+            f"Material({n}, {k}) or {n}{k:+}j for the one, np.array([{n}, {k}]) for the other"
+        )
+
     def read(self, owner: str, value: Any) -> Any:
-        if is_pair(value):
-            n, k = value
-            raise ValueFault(
-                f"{owner} is {value}, which may be n and k, or the indices of two paths; write "
-                f"Material({n}, {k}) or {n}+{k}j for the one, np.array([{n}, {k}]) for the other"
-            )
+        if doubt := self.doubt(owner, value):
+            raise ValueFault(doubt)
         return super().read(owner, value)
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        return super().check(owner, _as_number(value))
 
     def described(self) -> str:
         return "an index of refraction n + ik with n and k not negative"
@@ -79,6 +87,9 @@ class OutsideDomain(Domain):
     """Positive real numbers: the medium that light comes from does not absorb."""
 
     of_k: ClassVar[Domain] = _NO_K
+
+    def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        return super().check(owner, _as_number(value))
 
     def parse(self, text: str) -> Any:
         return index_of(text, "its index as a number, such as 1.33")
@@ -188,6 +199,10 @@ class IndicesDomain(Domain):
         raise ValueFault(
             f"{owner} cannot be the parameter '{name}'; give a list, of parameters too"
         )
+
+
+def _as_number(index: Any) -> Any:
+    return index.refractive_index if isinstance(index, Material) else index
 
 
 def _plain_index(index: Any) -> Any:

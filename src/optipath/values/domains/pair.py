@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import math
+from typing import Any
 
 import numpy as np
-
-from optipath.errors import ValueFault
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 _REAL = (float, int, np.floating, np.integer)
 
@@ -26,31 +22,17 @@ def is_pair(value: Any) -> bool:
     """
     if not isinstance(value, (tuple, list)) or len(value) != 2:
         return False
-    return all(isinstance(part, _REAL) and not isinstance(part, bool) for part in value)
+    return all(map(is_real, value))
 
 
-def pair_faults(name: str, value: Any, uses: Iterable[Any]) -> list[str]:
-    """Ask what a pair given for a parameter means, where one complex number may be meant.
+def is_real(number: Any) -> bool:
+    """Tell whether something is a finite real number, and no array of it.
 
-    Parameters
-    ----------
-    name : str
-        The parameter.
-    value : Any
-        What is given for it.
-    uses : iterable of Use
-        Where parameters stand.
-
-    Returns
-    -------
-    list of str
-        A sentence for each such place of the parameter; mostly none.
+    Examples
+    --------
+    >>> is_real(2), is_real(True), is_real(math.nan), is_real("2")
+    (True, False, False, False)
     """
-    faults: list[str] = []
-    for use in uses if is_pair(value) else ():
-        try:
-            if use.value.name == name:
-                use.domain.read(f"parameter '{name}' (at {use.owner})", value)
-        except ValueFault as fault:
-            faults += fault.faults
-    return faults
+    # What is too large for a float is none of these.
+    of_type = isinstance(number, _REAL) and not isinstance(number, bool)
+    return of_type and -math.inf < number < math.inf

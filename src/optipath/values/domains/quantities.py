@@ -14,7 +14,7 @@ from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.fraction import FractionDomain
 from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, INDICES, OPTIONAL_OUTSIDE
-from optipath.values.domains.states import AmplitudeDomain, StokesDomain
+from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
 from optipath.values.follows import Follows
@@ -36,7 +36,10 @@ FollowedIncidence: TypeAlias = Annotated[
     Followed(INCIDENCE.name, INCIDENCE.dimension, INCIDENCE.minimum, INCIDENCE.maximum),
 ]
 Fraction: TypeAlias = Annotated[Quantity, FractionDomain("fraction", minimum=0.0, maximum=1.0)]
-NonNegative: TypeAlias = Annotated[Quantity, Domain("number", minimum=0.0)]
+NON_NEGATIVE = Domain("number", minimum=0.0)
+NonNegative: TypeAlias = Annotated[Quantity, NON_NEGATIVE]
+INTENSITY = IntensityDomain(NON_NEGATIVE.name, minimum=NON_NEGATIVE.minimum)
+Intensity: TypeAlias = Annotated[Quantity, INTENSITY]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
 OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTSIDE]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -13,7 +14,7 @@ from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.read_only import read_only
 from optipath.values.cures import cure
 from optipath.values.domains.domain import Domain
-from optipath.values.domains.pair import is_pair
+from optipath.values.domains.pair import is_pair, is_real
 from optipath.values.roundings import rounding_of
 
 _ROUNDING = 1e-12
@@ -27,13 +28,17 @@ class AmplitudeDomain(Domain):
 
     complex_parts = ("re", "im")
 
+    def doubt(self, owner: str, value: Any) -> str:
+        if not is_pair(value):
+            return ""
+        return (
+            f"{owner} is {value}, which may be one complex number, or the amplitudes of two "
+            f"paths; write complex{tuple(value)} for the one, np.array({[*value]}) for the other"
+        )
+
     def read(self, owner: str, value: Any) -> Any:
-        if is_pair(value):
-            raise ValueFault(
-                f"{owner} is {value}, which may be one complex number, or the amplitudes of two "
-                f"paths; write complex{tuple(value)} for the one, np.array({[*value]}) for the "
-                f"other"
-            )
+        if doubt := self.doubt(owner, value):
+            raise ValueFault(doubt)
         return super().read(owner, value)
 
     @property
@@ -58,6 +63,29 @@ class AmplitudeDomain(Domain):
         bad = ~self.allows(array)
         if np.any(bad):
             raise ValueFault(f"{owner} is {array[bad].ravel()[0]}; give {self.described()}")
+
+
+class IntensityDomain(Domain):
+    """Numbers that are not negative, of which four may be a state of polarisation."""
+
+    def doubt(self, owner: str, value: Any) -> str:
+        if not _may_be_a_state(value):
+            return ""
+        which = cure(
+            f"give stokes={value} to the Source for the one, np.array({[*value]}) for the other",
+            f"write stokes = {value} in its place for the one, stokes = [1, 0, 0, 0] beside it for "
+            f"the other",
+        )
+        return (
+            f"{owner} is {value}, which may be a state, or the intensities of four paths; {which}"
+        )
+
+
+def _may_be_a_state(value: Any) -> bool:
+    """Tell whether four numbers written by hand are light that is polarised by 100 % at most."""
+    if not isinstance(value, (list, tuple)) or len(value) != 4 or not all(map(is_real, value)):
+        return False
+    return math.hypot(*map(float, value[1:])) <= float(value[0])
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.composer.path_values import Values
@@ -27,8 +28,6 @@ from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from optipath.paths.presets.reader.declarations import Declarations
     from optipath.values.parameters import Parameter
 
@@ -67,8 +66,9 @@ def read(document: Table) -> PathGraph:
     values = Values(path.graph)
     unfit = unit_faults(values, parameters)
     faults += unfit.values()
-    faults += _pair_faults(path, document)
-    doubtful = {*parameters.doubtful, *unfit, STAND_IN.name}
+    pairs = _pair_faults(path, document)
+    faults += chain(*pairs.values())
+    doubtful = {*parameters.doubtful, *unfit, *pairs, STAND_IN.name}
     _cases(path, document, parameters, doubtful, lost, faults)
     if len(faults) == before:
         faults += [
@@ -86,8 +86,9 @@ def read(document: Table) -> PathGraph:
     return path
 
 
-def _pair_faults(path: PathGraph, document: Table) -> Iterator[str]:
-    """Ask what pairs mean that are given for parameters which stand for complex numbers."""
+def _pair_faults(path: PathGraph, document: Table) -> dict[str, list[str]]:
+    """Ask what pairs mean that are given for parameters of complex numbers, by their names."""
+    found: dict[str, list[str]] = {}
     declared = document.get("parameters", {})
     for name, parts in complex_parts_of(path.graph).items():
         tables = [(f"parameters.{name}", "default", declared.get(name))]
@@ -97,7 +98,8 @@ def _pair_faults(path: PathGraph, document: Table) -> Iterator[str]:
         for where, key, table in tables:
             raw: Any = table.get(key) if isinstance(table, dict) else None
             if is_pair(raw):
-                yield f"{where}.{key}: {which_pair(raw, parts)}"
+                found.setdefault(name, []).append(f"{where}.{key}: {which_pair(raw, parts)}")
+    return found
 
 
 def _elements(
