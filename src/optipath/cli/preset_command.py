@@ -9,9 +9,10 @@ import click
 from optipath.cli.chosen import ALL, asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
 from optipath.cli.misplaced import StrictCommand
+from optipath.cli.unknown_options import refuse_outer_options
 from optipath.cli.whole_help import WholeHelp
 from optipath.composer.composer import CHOICES
-from optipath.errors import PresetError, printable
+from optipath.errors import OptipathError, PresetError, printable
 from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names
 from optipath.values.domains.quantities import READINGS
@@ -148,7 +149,12 @@ class PresetGroup(WholeHelp):
         tuple
             The name, the command, and the arguments behind it.
         """
-        name, command, rest = super().resolve_command(ctx, args)
+        try:
+            name, command, rest = super().resolve_command(ctx, args)
+        except OptipathError:
+            # An option that stands at the wrong place may be why, such as --import.
+            refuse_outer_options(ctx, args)
+            raise
         return printable(name or ""), command, rest
 
 
@@ -172,10 +178,16 @@ def case_option(path: PathGraph, *, several: bool) -> click.Option:
     return click.Option(["--case", "cases"], metavar="NAME", multiple=True, help=told)
 
 
+def no_preset() -> click.UsageError:
+    """Return what is raised where no preset is given."""
+    return click.UsageError(
+        f"PRESET is missing; give a file or one of: {', '.join(preset_names())}"
+    )
+
+
 def _refuse_none() -> None:
     if click.get_current_context().invoked_subcommand is None:
-        names = ", ".join(preset_names())
-        raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
+        raise no_preset()
 
 
 def _option(parameter: Parameter) -> click.Option:

@@ -12,6 +12,7 @@ from rich.cells import cell_len
 from optipath.cli.chosen import one_case
 from optipath.cli.console import PlainConsole, cell, headed
 from optipath.cli.misplaced import StrictCommand
+from optipath.cli.preset_command import no_preset
 from optipath.cli.text_files import NewFile, write
 from optipath.errors import printable
 from optipath.paths.drawing import draw
@@ -29,8 +30,10 @@ SVG = click.Option(["--svg"], type=NewFile(), help="Draw into this file as well.
 _FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
 
 
-def _show(preset: str, cases: tuple[str, ...], svg: Path | None) -> None:
+def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
+    if preset is None:
+        raise no_preset()
     path = load_preset(preset)
     path = bound_preset(path, preset, one_case("show", path, cases), {})
     if svg is not None:
@@ -38,9 +41,8 @@ def _show(preset: str, cases: tuple[str, ...], svg: Path | None) -> None:
     _print(PlainConsole(), path)
 
 
-show = click.command("show", cls=StrictCommand, params=[click.Argument(["preset"]), CASE, SVG])(
-    _show
-)
+PRESET = click.Argument(["preset"], required=False, metavar="PRESET")
+show = click.command("show", cls=StrictCommand, params=[PRESET, CASE, SVG])(_show)
 
 
 def _picture(path: PathGraph, title: str) -> str:
