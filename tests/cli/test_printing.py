@@ -119,6 +119,15 @@ def test_that_something_is_compiled_is_told_once(caplog, monkeypatch, tmp_path):
     ]
 
 
+def test_that_nothing_is_kept_is_not_contradicted(caplog, monkeypatch):
+    monkeypatch.setenv("OPTIPATH_CACHE", "/dev/null")
+    with caplog.at_level(logging.WARNING, "optipath"), pytest.raises(ValueError, match="stop"):
+        CodeCache().function("first", refuse)
+    not_kept, compiling = [record.message for record in caplog.records]
+    assert not_kept.startswith("compiled code is not kept: ")
+    assert compiling == "compiling for Numba, which takes some seconds a path"
+
+
 def refuse(_):
     raise ValueError("stop")
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.chosen import ALL, asks_for_several, cases_of, chosen_by, one_case
+from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
 from optipath.cli.misplaced import StrictCommand
 from optipath.cli.unknown_options import refuse_outer_options
@@ -15,6 +15,7 @@ from optipath.composer.composer import CHOICES
 from optipath.errors import OptipathError, PresetError, printable
 from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.values.cases import ALL
 from optipath.values.domains.quantities import READINGS
 
 if TYPE_CHECKING:
@@ -119,7 +120,7 @@ class PresetGroup(WholeHelp):
             if self.several is None:
                 one_case(self.name or "", path, cases)
             chosen = chosen_by(cmd_name, path, cases_of(cmd_name, path, cases), given)
-            if self.several is not None and asks_for_several(path, cases):
+            if self.several is not None and asks_for_several(cases):
                 self.several(chosen, **options)
             else:
                 self.action(chosen[0], **options)

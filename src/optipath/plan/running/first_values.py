@@ -8,9 +8,10 @@ import numpy as np
 
 from optipath.errors import ParameterError
 from optipath.kernels.numbers.primitives import NUMPY
+from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable, Hashable, Mapping
 
     from optipath.elements.own_ways import OwnWay
     from optipath.plan.running.reading import ResolvedInputs
@@ -85,10 +86,18 @@ def _faults(way: OwnWay, given: ResolvedInputs) -> list[str]:
         found = way.faults(read)
     except KeyError:
         return []  # Not all of its values are of use to what is read.
-    return [f"at {_values(mine, place)}: {fault}" for place, fault in found]
+    units = {
+        operand.value.name: operand.value.unit for operand in way.operands if not operand.known
+    }
+    return [f"at {_values(mine, place, units)}: {fault}" for place, fault in found]
 
 
-def _values(numbers: dict[InputKey, Any], place: int) -> str:
+def _values(numbers: dict[InputKey, Any], place: int, units: Mapping[str, str]) -> str:
     """Write the numbers of one path."""
-    names = {key: key.name if key.part == "value" else str(key) for key in numbers}
-    return ", ".join(f"{names[key]} = {np.ravel(n)[place]:.6g}" for key, n in numbers.items())
+    written = []
+    for key, several in numbers.items():
+        number, (name, unit) = np.ravel(several)[place], (str(key), "")
+        if key.part == "value":
+            name, unit = key.name, units[key.name]
+        written.append(f"{name} = {in_unit(number, unit):.6g} {unit}".strip())
+    return ", ".join(written)

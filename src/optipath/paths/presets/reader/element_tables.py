@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.elements.known_elements import element_class
+from optipath.elements.registry import KINDS
 from optipath.errors import shown
 from optipath.light.frames import Frame
 from optipath.paths.format import schema
@@ -43,7 +44,7 @@ def read_element(
     Element or None
         With a parameter of no meaning in place of each value that is missing or faulty.
     """
-    named = table if "kind" in table else schema.as_meant(table, ["kind"])
+    named = table if "kind" in table else schema.as_meant(_no_fields(table), ["kind"])
     kind = named.get("kind")
     if not isinstance(kind, str):
         what = f"'kind' must be a text, not {shown(kind)}" if "kind" in named else "kind is missing"
@@ -69,6 +70,12 @@ def read_element(
             faults.append(f"{where}: '{name}' is missing; every {kind} needs one")
             values[name] = STAND_IN
     return faults.attempt(where, found, **values)
+
+
+def _no_fields(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is in a table that no element has a field for, as it has for ``index``."""
+    fields = {name for found in KINDS.values() for name in found.domains()}
+    return {key: value for key, value in table.items() if key not in fields}
 
 
 def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
