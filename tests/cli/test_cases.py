@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+import optipath as op
 from optipath.cli import main
 
 
@@ -109,3 +110,61 @@ def test_the_note_of_a_case_is_of_its_own_values_as_what_was_published(capsys):
             assert "published" not in out
             assert "note" not in out
     assert "note: " in run(capsys, "run", "npgr026", "--case", "4")[1]
+
+
+def written(folder, text):
+    file = folder / "own.toml"
+    file.write_text(text, "utf-8")
+    return str(file)
+
+
+def test_a_fault_of_some_cases_names_them_and_all_are_told(capsys, tmp_path):
+    path = op.Source() >> op.Interface(1.5, 3 * op.Parameter("theta")) >> op.Detector()
+    for case, degrees in {"flat": 10, "steep": 40, "back": 40, "other": 50}.items():
+        path.cases[case] = op.Case({"theta": f"{degrees} deg"})
+    file = written(tmp_path, path.to_toml())
+    for command in ("run", "polarization"):
+        _, out, err = run(capsys, command, file, "--case", "all")
+        assert out == ""
+        first, *faults = err.splitlines()
+        assert first == "optipath: 2 faults:"
+        assert [fault.partition(": parameter 'theta'")[0] for fault in faults] == [
+            "- cases steep and back",
+            "- case other",
+        ]
+        assert "120 deg" in faults[0]
+        assert "150 deg" in faults[1]
+
+
+def test_a_fault_of_every_case_is_told_once_without_them(capsys):
+    _, _, several = run(capsys, "run", "npgr026", "--case", "all", "--delta", "100")
+    _, _, one = run(capsys, "run", "npgr026", "--case", "1", "--delta", "100")
+    assert several == one
+    assert "100 deg" in one
+
+
+def test_a_case_is_shown_as_defaults_which_stay_open(capsys):
+    _, out, _ = run(capsys, "show", "npgr026", "--case", "7")
+    assert "bound" not in out
+    assert next(line for line in out.splitlines() if "delta" in line).split()[:3] == [
+        "delta",
+        "48",
+        "deg",
+    ]
+
+
+def test_one_case_of_all_is_counted_as_one(capsys, tmp_path):
+    path = op.load_preset("malus")
+    path.cases = {"only": op.Case({"angle": "60 deg"})}
+    text = path.to_toml()
+    _, out, _ = run(capsys, "run", written(tmp_path, text), "--case", "all")
+    assert ", 1 case:" in out
+
+
+def test_what_was_published_stands_below_the_lights_of_a_batch(capsys, tmp_path):
+    text = op.load_preset("malus").to_toml() + (
+        '[cases.several]\nvalues = { angle = ["30 deg", "60 deg"] }\n'
+        "published = { eye = [0.25, 0.125, 0, 0] }\n"
+    )
+    _, out, _ = run(capsys, "run", written(tmp_path, text), "--case", "several")
+    assert ["published", "0.25", "0.125", "0", "0"] in rows_of(out)

@@ -73,6 +73,14 @@ def test_a_module_or_a_file_of_python_brings_its_elements(modules, capsys):
     assert json.loads(capsys.readouterr().out)["detectors"]["eye"]["stokes"][0] == 0.25
 
 
+def test_what_a_module_prints_is_no_part_of_the_json(folder, capsys):
+    (folder / "imported_foils.py").write_text("print('hello')\n" + MODULE, "utf-8")
+    assert main(["--import", "imported_foils", "run", "path.toml", "--json"]) == 0
+    captured = capsys.readouterr()
+    assert json.loads(captured.out)["preset"] == "path.toml"
+    assert captured.err == "hello\n"
+
+
 def test_a_file_elsewhere_is_imported_by_its_path(folder, tmp_path_factory, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path_factory.mktemp("elsewhere"))
     file = str(folder / "imported_foils.py")

@@ -107,6 +107,35 @@ def test_explanations_go_on_in_indented_lines(capsys, monkeypatch):
     assert re.search("\nfewer than 58 paths .*\n    ", wrapped)
 
 
+def test_what_a_preset_is_made_of_fits_a_narrow_terminal(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "40")
+    shown = told(capsys, "show", "glass-slab")
+    assert max(map(len, shown.splitlines())) <= 40
+    assert "incidence=follows  outside=follows" in shown
+
+
+def test_a_share_that_is_rounding_is_printed_as_0(capsys):
+    rows = told(capsys, "polarization", "npgr026", "--case", "4").splitlines()
+    shares = {row.split("│")[1].strip(): row.split("│")[2].strip() for row in rows if "│" in row}
+    assert [shares[head] for head in ("difference", "at least", "at most")] == ["0 %"] * 3
+
+
+@pytest.mark.parametrize(
+    ("command", "asked"),
+    [
+        ("run", "parameter 'angle_1' has no value; give one, --angle-1 ..."),
+        ("polarization", "parameter 'angle_1' has no value; give one, --angle-1 ..."),
+        ("explain", "certificate: depends on angle_1; give --angle-1 ..."),
+    ],
+)
+def test_a_value_that_is_missing_is_asked_for_by_its_option(capsys, tmp_path, command, asked):
+    file = tmp_path / "open.toml"
+    path = op.Source() >> op.Polarizer(op.Parameter("angle_1")) >> op.Detector()
+    file.write_text(path.to_toml(), "utf-8")
+    main([command, str(file)])
+    assert asked in "".join(capsys.readouterr())
+
+
 def test_that_something_is_compiled_is_told_once(caplog, monkeypatch, tmp_path):
     monkeypatch.setenv("OPTIPATH_CACHE", str(tmp_path))
     cache = CodeCache()
@@ -117,6 +146,15 @@ def test_that_something_is_compiled_is_told_once(caplog, monkeypatch, tmp_path):
     assert [record.message for record in caplog.records if "compiling" in record.message] == [
         "compiling for Numba, which takes some seconds a path; what is compiled is kept"
     ]
+
+
+def test_that_nothing_is_kept_is_not_contradicted(caplog, monkeypatch):
+    monkeypatch.setenv("OPTIPATH_CACHE", "/dev/null")
+    with caplog.at_level(logging.WARNING, "optipath"), pytest.raises(ValueError, match="stop"):
+        CodeCache().function("first", refuse)
+    not_kept, compiling = [record.message for record in caplog.records]
+    assert not_kept.startswith("compiled code is not kept: ")
+    assert compiling == "compiling for Numba, which takes some seconds a path"
 
 
 def refuse(_):

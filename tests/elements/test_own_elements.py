@@ -328,6 +328,12 @@ def test_an_own_element_that_amplifies_is_found_with_its_first_values(value, eng
             act()
 
 
+def test_the_first_values_are_told_in_the_unit_of_their_parameter():
+    plan = op.Composer().compose(chain([Amplifier(op.Parameter("x", unit="deg"))]))
+    with pytest.raises(op.ParameterError, match=r"^at x = 22\.5 deg: 'e0'"):
+        plan.run(x="22.5 deg")
+
+
 @pytest.mark.parametrize("engine", ENGINES)
 def test_the_first_and_the_last_path_of_an_array_are_looked_at(engine):
     plan = op.Composer(engine=engine).compose(chain([Growing(op.Parameter("x"))]))

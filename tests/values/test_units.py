@@ -186,6 +186,22 @@ def test_a_common_name_of_a_unit_is_told_how_it_is_written(name, unit):
         op.Parameter("p", unit=name)
 
 
-def test_of_an_unknown_unit_one_of_each_dimension_is_listed():
-    with pytest.raises(op.OptipathError, match=r"unknown; there are: deg, nm, 1/cm, deg/mm$"):
+def test_of_an_unknown_unit_all_that_there_are_are_listed():
+    with pytest.raises(op.OptipathError, match="unit 'furlongs' is unknown") as told:
         op.Parameter("p", unit="furlongs")
+    assert set(str(told.value).partition("there are: ")[2].split(", ")) == set(UNITS)
+
+
+@pytest.mark.parametrize(
+    ("text", "readings"),
+    [
+        ("30 grad", "a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg"),
+        ("30 gon", "a gon is 0.9 deg; write it in deg"),
+        ("1,000 deg", "a decimal point or part thousands; write '1.000 deg' or '1000 deg'"),
+        ("0,125 deg", "did you mean '0.125 deg'?"),
+    ],
+)
+def test_a_text_that_may_be_read_in_two_ways_is_told_with_both(text, readings):
+    with pytest.raises(op.OptipathError) as told:
+        op.Polarizer(text)
+    assert str(told.value).endswith(readings)

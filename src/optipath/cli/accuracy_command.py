@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from optipath.cli.console import PlainConsole, cell, headed, say
+from optipath.cli.misplaced import StrictCommand
 from optipath.cli.text_files import read_text, write
 
 SAMPLES = click.Option(
@@ -54,4 +55,4 @@ def _accuracy(samples: int, generations: int | None, file: Path | None) -> None:
         console.print(shown)
 
 
-accuracy = click.command("accuracy", params=[SAMPLES, SEARCH, WRITE])(_accuracy)
+accuracy = click.command("accuracy", cls=StrictCommand, params=[SAMPLES, SEARCH, WRITE])(_accuracy)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from optipath.cli.console import JSON, say_json
+from optipath.cli.misplaced import StrictCommand
 from optipath.engines.code_cache import CODE
 
 CLEAR = click.Option(["--clear"], is_flag=True, help="Remove all that is kept.")
@@ -29,4 +30,4 @@ def _cache(*, clear: bool, as_json: bool) -> None:
             click.echo(f"{name:8} {value if isinstance(value, str) else f'{value:,}'}")
 
 
-cache = click.command("cache", params=[CLEAR, JSON])(_cache)
+cache = click.command("cache", cls=StrictCommand, params=[CLEAR, JSON])(_cache)

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError, there_are
+from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
+from optipath.values.cases import ALL
 from optipath.values.other_part import other_part
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
 
-
-ALL = "all"
-"""Stands for every case of a preset, unless one has that name."""
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -89,9 +88,9 @@ def chosen_by(
     sound = {name: value for name, value in values.items() if value is not None}
     found = [Chosen(preset, path, case, sound) for case in dict.fromkeys(cases)]
     found = found or [Chosen(preset, path, None, sound)]
-    for chosen in found if faults or len(found) > 1 else ():
+    if faults or len(found) > 1:
         try:
-            chosen.path()
+            of_each(found, Chosen.path)
         except OptipathError as error:
             faults += error.faults
     if faults:
@@ -99,13 +98,49 @@ def chosen_by(
     return found
 
 
-def asks_for_several(path: PathGraph, cases: Sequence[str]) -> bool:
+def of_each(several: Sequence[Chosen], action: Callable[[Chosen], T]) -> dict[str, T]:
+    """Return what an action makes of each case, by its name.
+
+    Parameters
+    ----------
+    several : sequence of Chosen
+        The cases.
+    action : callable
+        What is done with each.
+
+    Returns
+    -------
+    dict of str to Any
+
+    Raises
+    ------
+    ParameterError
+        With the faults of all of them, each once, with the cases that have it where not all do.
+    """
+    found: dict[str, T] = {}
+    having: dict[str, list[str]] = {}
+    for chosen in several:
+        try:
+            found[chosen.case or ""] = action(chosen)
+        except OptipathError as error:
+            for fault in error.faults:
+                having.setdefault(fault, []).append(chosen.case or "")
+    if having:
+        raise ParameterError(*(_of_cases(fault, cases, several) for fault, cases in having.items()))
+    return found
+
+
+def _of_cases(fault: str, cases: Sequence[str], several: Sequence[Chosen]) -> str:
+    if len(cases) == len(several):
+        return fault
+    return f"{'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {fault}"
+
+
+def asks_for_several(cases: Sequence[str]) -> bool:
     """Tell whether several cases are asked for, by their names or by ``all``.
 
     Parameters
     ----------
-    path : PathGraph
-        What has the cases.
     cases : sequence of str
         What is asked for.
 
@@ -113,7 +148,7 @@ def asks_for_several(path: PathGraph, cases: Sequence[str]) -> bool:
     -------
     bool
     """
-    return len({*cases}) > 1 or (ALL in cases and ALL not in path.cases)
+    return len({*cases}) > 1 or ALL in cases
 
 
 def cases_of(preset: str, path: PathGraph, cases: Sequence[str]) -> Sequence[str]:
@@ -137,7 +172,7 @@ def cases_of(preset: str, path: PathGraph, cases: Sequence[str]) -> Sequence[str
     ParameterError
         If all are asked for and there are none.
     """
-    if ALL not in cases or ALL in path.cases:
+    if ALL not in cases:
         return cases
     if not path.cases:
         raise ParameterError(f"preset '{preset}' has no cases; leave --case out")
@@ -165,7 +200,7 @@ def one_case(command: str, path: PathGraph, cases: Sequence[str]) -> str | None:
     ParameterError
         If several are asked for.
     """
-    if asks_for_several(path, cases):
+    if asks_for_several(cases):
         raise ParameterError(f"{command} takes one case{there_are([*path.cases])}")
     return cases[0] if cases else None
 

@@ -14,7 +14,6 @@ import click
 from click.shell_completion import shell_complete
 
 from optipath.cli.interrupts import interruptible
-from optipath.cli.misplaced import meant_by
 from optipath.cli.whole_help import WholeHelp
 from optipath.errors import INTERRUPTED, LoopWarning, OptipathError, did_you_mean, printable
 from optipath.values.cures import of_files
@@ -137,8 +136,6 @@ def _run(arguments: Sequence[str]) -> int:
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
             _invoke(arguments)
         sys.stdout.flush()
-    except click.NoSuchOption as error:
-        return _refuse(f"option '{error.option_name}' is unknown{meant_by(error)}")
     except click.ClickException as error:
         return _refuse(error.format_message())
     except OptipathError as error:

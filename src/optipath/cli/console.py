@@ -39,10 +39,34 @@ def say(text: str) -> None:
 
 def say_wrapped(text: str) -> None:
     """Print lines, those longer than the terminal going on in the next, which is indented."""
-    width = _width()
-    for line in printable(text).splitlines():
-        parts = wrap(line, width, subsequent_indent=_HANGING, break_on_hyphens=False)
-        click.echo("\n".join(parts or [""]))
+    click.echo(wrapped(printable(text), _width()))
+
+
+def wrapped(text: str, width: int) -> str:
+    """Return lines of which those that are longer go on in the next, which is indented.
+
+    Parameters
+    ----------
+    text : str
+        Any lines.
+    width : int
+        How many characters a line has at most.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> print(wrapped("| out --> polariser.in", 20))
+    | out -->
+        polariser.in
+    """
+    lines = (
+        wrap(line, width, subsequent_indent=_HANGING, break_on_hyphens=False)
+        for line in text.splitlines()
+    )
+    return "\n".join("\n".join(parts) for parts in lines)
 
 
 def say_json(found: dict[str, Any]) -> None:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import shlex
 from typing import TYPE_CHECKING
 
 import click
 
-from optipath.errors import did_you_mean
-from optipath.spelling import closest
+from optipath.cli.unknown_options import unknown_options_told
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
+
+_DASHES = "-\u2010\u2011\u2012\u2013\u2014\u2212"
+"""What a text that is pasted may have in place of the hyphen: other hyphens, dashes, a minus."""
 
 
 class StrictCommand(click.Command):
@@ -32,41 +35,28 @@ class StrictCommand(click.Command):
             Nothing.
         """
         words = list(args)
-        try:
+        with unknown_options_told(ctx, words):
             left = super().parse_args(ctx, args)
-        except click.NoSuchOption as error:
-            # Of "-delta" click knows no more than "-d".
-            whole = [word for word in words if word.startswith(error.option_name)]
-            if not whole:
-                raise
-            name, known = whole[0].partition("=")[0], error.possibilities
-            raise click.NoSuchOption(name, possibilities=known, ctx=ctx) from None
         if left and not ctx.resilient_parsing:
-            raise click.UsageError(_left_over(left[0], words), ctx)
+            flags = [flag for option in self.get_params(ctx) for flag in option.opts]
+            raise click.UsageError(_left_over(left[0], words, flags), ctx)
         return left
 
 
-def meant_by(error: click.NoSuchOption) -> str:
-    """Return the option that was meant, where it should stand, or all that there are."""
-    context = error.ctx
-    if context is None:
-        return ""
-    options = [one for one in context.command.get_params(context) if isinstance(one, click.Option)]
-    flags = [one.opts[-1] for one in options]
-    if isinstance(context.command, click.Group) and closest(error.option_name, flags) is None:
-        first = context.command.subcommand_metavar.partition(" ")[0].strip("[]")
-        return f" here; write it at the end: {context.command_path} {first} {error.option_name} ..."
-    return did_you_mean(error.option_name, flags)
-
-
-def _left_over(word: str, words: Sequence[str]) -> str:
-    """Say what is wrong with a word that no option takes."""
+def _left_over(word: str, words: Sequence[str], flags: Collection[str]) -> str:
+    """Say what is wrong with a word that no option of these takes."""
     # Not for every start of the command.
     from optipath.values.unit_names import usual_name  # noqa: PLC0415
     from optipath.values.units import UNITS  # noqa: PLC0415
 
     at = words.index(word)
     flag, value = ("", "", *words[:at])[-2:]
+    name, _, given = word.partition("=")
+    if (meant := f"--{name.lstrip(_DASHES)}") in flags:
+        given = given or "".join(words[at + 1 : at + 2]) or "..."
+        return f"'{word}' is no option; write {meant} {shlex.quote(given)}"
+    if value.startswith("--") and value.endswith("="):
+        return f"'{word}' is cut off from {value}; write {value[:-1]} {shlex.quote(word)}"
     if value.startswith("--") and "=" in value:
         flag, _, value = value.partition("=")
     if flag == "--case":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from importlib import import_module
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -36,7 +36,8 @@ def import_own(name: str) -> None:
             f"--import takes the name of a module or a file that ends in .py, not {shown(name)}"
         )
     try:
-        with _found_first(Path(name).parent if of_file else Path()):
+        # What it prints is no part of what the command finds, which may be read as JSON.
+        with redirect_stdout(sys.stderr), _found_first(Path(name).parent if of_file else Path()):
             if of_file:
                 _import_file(Path(name))
             else:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_json, title
 from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import PresetGroup
@@ -29,25 +30,29 @@ _SMALL = 1e-12
 
 def _polarization(chosen: Chosen, *, as_json: bool, digits: int) -> None:
     """Show what polarisation does to the intensity, beside the scalar result."""
-    path = chosen.path()
-    found = _found(path)
+    found = _found(chosen.path())
     if as_json:
         say_json({"preset": chosen.preset, **_as_json(found)})
-        return
+    else:
+        _print(chosen, found, digits)
+
+
+def _print(chosen: Chosen, found: Mapping[str, Polarization], digits: int) -> None:
     console = PlainConsole()
-    console.print(title(chosen.title, path.description))
+    console.print(title(chosen.title, chosen.opened.description))
     for name, one in found.items():
         console.print(_table(name, one, digits))
         console.print(cell(_verdict(one)))
 
 
 def _polarization_of_several(several: Sequence[Chosen], *, as_json: bool, digits: int) -> None:
+    found = of_each(several, lambda one: _found(one.path()))
     if as_json:
-        cases = {one.case or "": _as_json(_found(one.path())) for one in several}
+        cases = {case: _as_json(one) for case, one in found.items()}
         say_json({"preset": several[0].preset, "cases": cases})
         return
-    for chosen in several:
-        _polarization(chosen, as_json=False, digits=digits)
+    for chosen, one in zip(several, found.values(), strict=True):
+        _print(chosen, one, digits)
 
 
 polarization = PresetGroup(
@@ -114,4 +119,4 @@ def _verdict(found: Polarization) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:+.3g} %"
+    return f"{100.0 * share:+.3g} %" if abs(share) > _SMALL else "0 %"

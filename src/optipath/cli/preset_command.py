@@ -6,14 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.chosen import ALL, asks_for_several, cases_of, chosen_by, one_case
+from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
 from optipath.cli.misplaced import StrictCommand
+from optipath.cli.unknown_options import refuse_outer_options
 from optipath.cli.whole_help import WholeHelp
 from optipath.composer.composer import CHOICES
-from optipath.errors import PresetError, printable
+from optipath.errors import OptipathError, PresetError, printable
 from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names
+from optipath.values.cases import ALL
 from optipath.values.domains.quantities import READINGS
 
 if TYPE_CHECKING:
@@ -118,7 +120,7 @@ class PresetGroup(WholeHelp):
             if self.several is None:
                 one_case(self.name or "", path, cases)
             chosen = chosen_by(cmd_name, path, cases_of(cmd_name, path, cases), given)
-            if self.several is not None and asks_for_several(path, cases):
+            if self.several is not None and asks_for_several(cases):
                 self.several(chosen, **options)
             else:
                 self.action(chosen[0], **options)
@@ -148,7 +150,12 @@ class PresetGroup(WholeHelp):
         tuple
             The name, the command, and the arguments behind it.
         """
-        name, command, rest = super().resolve_command(ctx, args)
+        try:
+            name, command, rest = super().resolve_command(ctx, args)
+        except OptipathError:
+            # An option that stands at the wrong place may be why, such as --import.
+            refuse_outer_options(ctx, args)
+            raise
         return printable(name or ""), command, rest
 
 
@@ -172,10 +179,16 @@ def case_option(path: PathGraph, *, several: bool) -> click.Option:
     return click.Option(["--case", "cases"], metavar="NAME", multiple=True, help=told)
 
 
+def no_preset() -> click.UsageError:
+    """Return what is raised where no preset is given."""
+    return click.UsageError(
+        f"PRESET is missing; give a file or one of: {', '.join(preset_names())}"
+    )
+
+
 def _refuse_none() -> None:
     if click.get_current_context().invoked_subcommand is None:
-        names = ", ".join(preset_names())
-        raise click.UsageError(f"PRESET is missing; give a file or one of: {names}")
+        raise no_preset()
 
 
 def _option(parameter: Parameter) -> click.Option:

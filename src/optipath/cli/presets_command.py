@@ -5,10 +5,11 @@ from __future__ import annotations
 import click
 
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say_json
+from optipath.cli.misplaced import StrictCommand
 from optipath.paths.presets.loader import preset_descriptions
 
 
-@click.command(params=[JSON])
+@click.command(cls=StrictCommand, params=[JSON])
 def presets(*, as_json: bool) -> None:
     """List the presets."""
     descriptions = preset_descriptions()

@@ -118,7 +118,8 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
     """
     console, numbers = PlainConsole(), Numbers(digits)
     first = next(iter(outcomes.values()))
-    console.print(title(f"{first.chosen.preset}, {len(outcomes)} cases", first.path.description))
+    counted = f"{len(outcomes)} case{'s' * (len(outcomes) != 1)}"
+    console.print(title(f"{first.chosen.preset}, {counted}", first.path.description))
     for name, value in first.chosen.values.items():
         parameter = first.path.parameters.get(name)
         text = value if parameter is None else numbers.value_of(parameter)
@@ -165,7 +166,7 @@ def _ran(outcomes: Sequence[Outcome]) -> str:
 def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
     light, published = outcome.lights[name], outcome.published(name)
     if light.stokes.ndim > 1:
-        return _batch_table(name, light, numbers)
+        return _batch_table(name, light, numbers, published)
     table = headed(f"light at {name}", "computed")
     if published:
         table.add_column("published")
@@ -193,8 +194,12 @@ def _state_rows(light: Light, numbers: Numbers) -> Iterator[tuple[str, str]]:
         yield "over S0", ", ".join(map(numbers.text, light.normalized.tolist()))
 
 
-def _batch_table(name: str, light: Light, numbers: Numbers) -> Table:
+def _batch_table(
+    name: str, light: Light, numbers: Numbers, published: Sequence[float] | None
+) -> Table:
     table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
     for row in _case_rows(light, numbers):
         table.add_row(*(cell(text.strip()) for text in row))
+    if published:
+        table.add_row("published", *(f"{number:g}" for number in published))
     return table

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, say_json
 from optipath.cli.outcome import Outcome, outcome_as_json
 from optipath.cli.preset_command import COMPOSING, PresetGroup
@@ -28,7 +29,7 @@ def _run(chosen: Chosen, *, reads: str | None, as_json: bool, digits: int, **opt
 def _run_several(
     several: Sequence[Chosen], *, reads: str | None, as_json: bool, digits: int, **options: Any
 ) -> None:
-    outcomes = {one.case or "": _outcome(one, reads, options) for one in several}
+    outcomes = of_each(several, lambda one: _outcome(one, reads, options))
     if as_json:
         found = {case: outcome_as_json(outcome) for case, outcome in outcomes.items()}
         say_json({"preset": several[0].preset, "cases": found})

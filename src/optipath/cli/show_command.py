@@ -10,12 +10,13 @@ import click
 from rich.cells import cell_len
 
 from optipath.cli.chosen import one_case
-from optipath.cli.console import PlainConsole, cell, headed
+from optipath.cli.console import PlainConsole, cell, headed, wrapped
 from optipath.cli.misplaced import StrictCommand
+from optipath.cli.preset_command import no_preset
 from optipath.cli.text_files import NewFile, write
 from optipath.errors import printable
 from optipath.paths.drawing import draw
-from optipath.paths.presets.loader import bound_preset, load_preset
+from optipath.paths.presets.loader import load_preset, preset_of_case
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,18 +30,20 @@ SVG = click.Option(["--svg"], type=NewFile(), help="Draw into this file as well.
 _FROM_THE_NET = re.compile(r"@font-face \{.*?\}\s*|<!--.*?-->\s*", re.DOTALL)
 
 
-def _show(preset: str, cases: tuple[str, ...], svg: Path | None) -> None:
+def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
     """Show the parameters, elements and links of a preset, or of a TOML file."""
+    if preset is None:
+        raise no_preset()
     path = load_preset(preset)
-    path = bound_preset(path, preset, one_case("show", path, cases), {})
+    case = one_case("show", path, cases)
+    path = path if case is None else preset_of_case(path, preset, case)
     if svg is not None:
         write(svg, _picture(path, f"optipath show {preset}").encode())
     _print(PlainConsole(), path)
 
 
-show = click.command("show", cls=StrictCommand, params=[click.Argument(["preset"]), CASE, SVG])(
-    _show
-)
+PRESET = click.Argument(["preset"], required=False, metavar="PRESET")
+show = click.command("show", cls=StrictCommand, params=[PRESET, CASE, SVG])(_show)
 
 
 def _picture(path: PathGraph, title: str) -> str:
@@ -64,12 +67,11 @@ def _print(console: PlainConsole, path: PathGraph) -> None:
             table.add_row(*map(cell, (name, choice.place(path.graph), "", described)))
         console.print(table)
         console.print()
-    console.print(cell(draw(path)), soft_wrap=True)
+    text = [draw(path)]
     if path.cases:
-        console.print(cell(f"\ncases: {', '.join(path.cases)}"))
-    for name, found in path.cases.items():
-        if found.note:
-            console.print(cell(f"  {name}: {found.note}"))
+        text += ["", f"cases: {', '.join(path.cases)}"]
+    text += [f"  {name}: {found.note}" for name, found in path.cases.items() if found.note]
+    console.print(cell(wrapped("\n".join(text), console.width)), soft_wrap=True)
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.composer.media import FOLLOWING, absorption_of, are_same, index_of
 from optipath.composer.meetings import Meetings
+from optipath.composer.path_values import TAKEN_OVER
 from optipath.composer.same_medium import SameMedium
 from optipath.composer.wiring import Wiring
 from optipath.elements.media_of_boundary import MediaOfBoundary
@@ -57,6 +58,9 @@ def with_followed(
     found.graph[FOLLOWING] = frozenset(
         name for name in names if "incidence" in elements[name].followed()
     )
+    found.graph[TAKEN_OVER] = frozenset(
+        (name, field) for name in names for field in _filled(elements[name])
+    )
     for name in names:
         if not faults.get(name):
             found.nodes[name]["element"] = taking.elements[name]
@@ -68,6 +72,12 @@ def with_followed(
         for name in going_round
     ]
     return found, told
+
+
+def _filled(element: Any) -> set[str]:
+    """Return the fields of an element that are filled where it takes values over."""
+    fields = {*element.followed()}
+    return {*fields, "incidence_in"} if "incidence" in fields else fields
 
 
 class _Taking:

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     from optipath.values.resolved import Resolved
 
 
+TAKEN_OVER = "taken over"
+"""The attribute of a graph with the fields that have the value of another, as (node, field)."""
+
+
 class Values:
     """Every number of a path, gathered once: node by node, then link by link.
 
@@ -58,6 +62,11 @@ class Values:
 
     def _is_doubtful(self, value: Any) -> bool:
         return isinstance(value, Parameter) and value.name in self.doubtful
+
+    def _is_taken_over(self, use: Use) -> bool:
+        """Tell whether a value stands elsewhere, where what is wrong with it is told."""
+        taken = self.graph.graph.get(TAKEN_OVER)
+        return bool(taken) and tuple(use.owner.split(".")[:2]) in taken
 
     def _entered(self) -> list[Use]:
         """Return the numbers that must be something besides, where links lead to some port."""
@@ -115,7 +124,8 @@ class Values:
         found: list[str] = []
         faulty = set()
         looked_at = set()
-        for use in self.uses:
+        told: set[str] = set()
+        for use in sorted(self.uses, key=self._is_taken_over):
             if _named(use) in faulty:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
@@ -126,8 +136,11 @@ class Values:
             try:
                 use.check()
             except ValueFault as fault:
-                found += fault.faults
                 faulty.add(_named(use))
+                bare = {sentence: sentence.replace(use.owner, "") for sentence in fault.faults}
+                if not self._is_taken_over(use) or not told.issuperset(bare.values()):
+                    found += fault.faults
+                told.update(bare.values())
         sound = {o: shape for o, shape in self.known_shapes.items() if o not in faulty}
         return [
             *found,
@@ -152,6 +165,8 @@ class Values:
                     f"parameter '{name}' at {use.owner} has another shape than elsewhere; "
                     f"use two names"
                 )
+            if self._is_taken_over(use):
+                continue
             if use.value.optional and not self._can_be_absent(use.owner):
                 yield (
                     f"parameter '{name}' is optional, but the element of {use.owner} cannot be "

@@ -130,10 +130,19 @@ class CodeCache:
                 return MachineCode(code)
             except (RuntimeError, ValueError):
                 self.tell("a file of compiled code cannot be run; it is compiled anew")
-        self.tell("compiling for Numba, which takes some seconds a path; what is compiled is kept")
+        kept = "; what is compiled is kept" if self._can_keep() else ""
+        self.tell(f"compiling for Numba, which takes some seconds a path{kept}")
         code = compiled(text)
         self.keep(text, code)
         return MachineCode(code)
+
+    def _can_keep(self) -> bool:
+        try:
+            self._folder(make=True)
+        except _TROUBLE as error:
+            self._tell_of(error)
+            return False
+        return True
 
     def has(self, text: str) -> bool:
         """Tell whether the function of a text is kept, in memory or on disk.

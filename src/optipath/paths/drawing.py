@@ -9,6 +9,8 @@ import numpy as np
 
 from optipath.composer.wiring import Wiring
 from optipath.elements.vertices.by_angles import VerticesByAngles
+from optipath.values.cures import cure
+from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import format_quantity
@@ -61,6 +63,8 @@ def _values(element: Element) -> str:
 
 
 def _text(value: Any, unit: str) -> str:
+    if value is FOLLOWS:
+        return cure(repr(value), value.word)
     if isinstance(value, Parameter):
         return value.formula_of(f"${value.name}")
     if isinstance(value, Material):

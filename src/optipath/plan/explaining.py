@@ -12,6 +12,7 @@ from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.explanation import Explanation, explained_loops, parameter_lines, steps_of
 from optipath.plan.running.counts import operations
 from optipath.plan.running.formula_maker import LONGEST
+from optipath.values.cures import cure, how_to_give
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -86,7 +87,10 @@ def _certified(plan: Any) -> dict[str, Any] | None:
     opened = plan.inputs.open.values()
     missing = [parameter.name for parameter in opened if parameter.default is None]
     if missing:
-        return {"text": f"depends on {_first_few(missing)}; see plan.certificate(...)"}
+        see = cure(
+            "see plan.certificate(...)", f"give {' '.join(map(how_to_give, missing[:_FEW]))}"
+        )
+        return {"text": f"depends on {_first_few(missing)}; {see}"}
     if plan.whole.loops:
         return {"text": "none, since light goes round"}
     if plan.answers.whole.for_jax.has_traced:
@@ -97,7 +101,8 @@ def _certified(plan: Any) -> dict[str, Any] | None:
         return {"text": f"none, since {fault}"}
     bounds = {name: _extremes(one) for name, one in found.items()}
     if len(bounds) > _FEW:
-        return {"bounds": bounds, "text": f"for {len(bounds)} ends; see plan.certificate(...)"}
+        see = cure("see plan.certificate(...)", "see --json")
+        return {"bounds": bounds, "text": f"for {len(bounds)} ends; {see}"}
     texts = [
         f"at {name}, S0 is {each['lower']:.6g} .. {each['upper']:.6g} of the scalar model's"
         if each

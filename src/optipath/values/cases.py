@@ -11,6 +11,9 @@ from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.read_only import read_only, same_fields
 from optipath.values.roundings import as_doubles
 
+ALL = "all"
+"""Stands for every case of a preset at the command line, so that files name none so."""
+
 
 @dataclass(frozen=True, eq=False)
 class Case:
@@ -53,6 +56,19 @@ class Case:
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
+
+
+def name_faults(name: str) -> list[str]:
+    """Return what is wrong with the name of a case, a sentence; nothing where it can be asked for.
+
+    Examples
+    --------
+    >>> name_faults("7"), name_faults("all")
+    ([], ["cases.all: 'all' stands for every case; give this one another name"])
+    """
+    if name == ALL:
+        return [f"cases.{ALL}: '{ALL}' stands for every case; give this one another name"]
+    return [] if name.strip() else ['cases."" has no name; give it one']
 
 
 def _numbers(name: Any, stokes: Any) -> tuple[float, ...]:

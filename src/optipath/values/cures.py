@@ -1,4 +1,4 @@
-"""Cures as they are written where the fault is: in a preset file, or in Python."""
+"""Cures as they are written where the fault is: in Python, a preset file, or a command line."""
 
 from __future__ import annotations
 
@@ -43,3 +43,17 @@ def cure(python: str, file: str) -> str:
     "follows"
     """
     return file if _IN_FILE.get() else python
+
+
+def how_to_give(name: str) -> str:
+    """Return how a value is given for a parameter, where files are run at the command line.
+
+    Examples
+    --------
+    >>> how_to_give("n_1")
+    'n_1=...'
+    >>> with of_files():
+    ...     print(how_to_give("n_1"))
+    --n-1 ...
+    """
+    return cure(f"{name}=...", f"--{name.replace('_', '-')} ...")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import OptipathError, ParameterError
 from optipath.values.agreement import first_faults
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
+from optipath.values.cures import how_to_give
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.other_part import of_complex
@@ -84,7 +85,7 @@ class Inputs:
         for name, parameter in self.open.items():
             value = given.get(name, parameter.default)
             if value is None:
-                faults.append(f"parameter '{name}' has no value; give one, {name}=...")
+                faults.append(f"parameter '{name}' has no value; give one, {how_to_give(name)}")
             elif plain is not None and plain(name, value):
                 resolved[name] = Resolved(value, THERE)
                 unchecked.add(name)

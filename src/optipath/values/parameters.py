@@ -14,10 +14,11 @@ from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import read_only, same
 from optipath.values.degrees import called
+from optipath.values.displayed import displayed, format_range
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.roundings import doubles, traced_within, within
 from optipath.values.specification import check_types, checked_name, read_specification
-from optipath.values.units import dimension_of, format_quantity, format_range, parse_quantity
+from optipath.values.units import dimension_of, format_quantity, parse_quantity
 from optipath.values.unknown_parameter import unknown_word
 
 if TYPE_CHECKING:
@@ -274,6 +275,8 @@ class Parameter(AffineArithmetic):
 
     def default_text(self) -> str:
         """Write the default, or that there is none."""
+        if isinstance(self.default, float):
+            return displayed(self.default, self.unit)
         return "must be given" if self.default is None else self.text(self.default)
 
     def range_text(self) -> str:

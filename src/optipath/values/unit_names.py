@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from optipath.errors import did_you_mean
-from optipath.spelling import closest
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -25,6 +24,11 @@ _SIGNS = {"°": "deg", "º": "deg", "'": "arcmin", '"': "arcsec", "µm": "um", "
 _NAMES = {**_SINGULAR, **{f"{name}s": unit for name, unit in _SINGULAR.items()}, **_SIGNS}
 _NAMES |= {"degs": "deg", "rads": "rad", "mic": "um", "mu": "um"}
 
+_GONS = dict.fromkeys(("gon", "gons", "gradian", "gradians"), "a gon is 0.9 deg")
+_GONS |= dict.fromkeys(
+    ("grad", "grads"), "a grad is 0.9 deg where it is a gon, and 1 deg in German"
+)
+
 
 def usual_name(word: str) -> str:
     """Return a unit as it is called here; the word itself where it has no other name.
@@ -43,7 +47,7 @@ def usual_name(word: str) -> str:
     return "/".join(_NAMES.get(part.strip().lower(), part.strip()) for part in parts)
 
 
-def unit_meant(word: str, units: Collection[str], examples: Collection[str]) -> str:
+def unit_meant(word: str, units: Collection[str]) -> str:
     """Return the cure for an unknown unit, ready to be put behind the fault.
 
     Parameters
@@ -52,8 +56,6 @@ def unit_meant(word: str, units: Collection[str], examples: Collection[str]) -> 
         What was written.
     units : collection of str
         What could have been meant.
-    examples : collection of str
-        What is listed where nothing is near.
 
     Returns
     -------
@@ -61,10 +63,14 @@ def unit_meant(word: str, units: Collection[str], examples: Collection[str]) -> 
 
     Examples
     --------
-    >>> unit_meant("degrees", ["deg", "rad"], ["deg"]), unit_meant("pints", ["deg"], ["deg"])
-    ("; did you mean 'deg'?", '; there are: deg')
+    >>> unit_meant("degrees", ["deg", "rad"]), unit_meant("pints", ["deg", "rad"])
+    ("; did you mean 'deg'?", '; there are: deg, rad')
+    >>> unit_meant("grad", ["deg", "rad"])
+    '; a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg'
     """
     name = usual_name(word)
     if name in units:
         return f"; did you mean '{name}'?"
-    return did_you_mean(word, units if closest(word, units) is not None else examples)
+    if name.lower() in _GONS and "deg" in units:
+        return f"; {_GONS[name.lower()]}; write it in deg"
+    return did_you_mean(word, units)

@@ -12,6 +12,7 @@ from decimal import Decimal
 from typing import NamedTuple
 
 from optipath.errors import UnitError, shown
+from optipath.values.commas import comma_cure
 from optipath.values.unit_names import unit_meant
 
 
@@ -70,7 +71,6 @@ _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
 _QUANTITY = re.compile(rf"([-+]?{_NUMBER})\s*(.*)", re.ASCII)
 _COMPLEX = re.compile(rf"(?:[-+]?{_NUMBER}(?=[-+]))?[-+]?{_NUMBER}j", re.ASCII)
 _LIKE_A_UNIT = re.compile(r"(?:1/)?[^\W\d_][^:,;]*|[°%'\"]")
-_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+(?:[^\d,][^,]*)?", re.ASCII)
 _SIGN_BETWEEN = re.compile(r"(?<!\s)\s*([-+])\s*")
 _LONGEST = 2000
 """How many characters a quantity may have; no float needs more than 1100, all zeros written."""
@@ -98,9 +98,13 @@ def dimension_of(unit: str) -> str:
         return ""
     if not isinstance(unit, str) or unit not in UNITS:
         word = unit if isinstance(unit, str) else shown(unit)
-        examples = [usual for usual in USUAL_UNITS.values() if usual]
-        raise UnitError(f"unit '{word}' is unknown{unit_meant(word, UNITS, examples)}")
+        raise UnitError(f"unit '{word}' is unknown{unit_meant(word, UNITS)}")
     return UNITS[unit].dimension
+
+
+def units_of(dimension: str) -> list[str]:
+    """Return the units of a dimension, such as ``"angle"``."""
+    return [name for name, known in UNITS.items() if known.dimension == dimension]
 
 
 def unit_of(text: str) -> str:
@@ -154,6 +158,8 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
         return number
     match = _QUANTITY.fullmatch(text)
     if match is None or (match[2] and not _LIKE_A_UNIT.fullmatch(match[2])):
+        if meant := comma_cure(text):
+            raise UnitError(f"'{text}' is not a quantity; {meant}")
         if meant := _respelt(text, dimension):
             several = " (a text is one value; several are an array, in Python)" * ("," in text)
             raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?{several}")
@@ -226,32 +232,6 @@ def format_quantity(value: complex, unit: str) -> str:
     return f"{value!r} {_BASE_UNITS[of_unit.dimension]}"
 
 
-def format_range(low: float, high: float, unit: str) -> str:
-    """Write the limits of a range, or nothing where there are none.
-
-    Parameters
-    ----------
-    low, high : float
-        In radians or metres, or pure numbers.
-    unit : str
-        One of `UNITS`, or none.
-
-    Returns
-    -------
-    str
-        For a sentence.
-
-    Examples
-    --------
-    >>> format_range(0.0, 0.5, "mm"), format_range(0.0, math.inf, "")
-    ('0 mm .. 500 mm', '0 or more')
-    """
-    least, most = format_quantity(low, unit), format_quantity(high, unit)
-    if math.isinf(low):
-        return "" if math.isinf(high) else f"{most} or less"
-    return f"{least} or more" if math.isinf(high) else f"{least} .. {most}"
-
-
 def with_article(dimension: str) -> str:
     """Return the name of a dimension for a sentence.
 
@@ -293,9 +273,7 @@ def _complex(text: str) -> complex | None:
 
 
 def _respelt(text: str, dimension: str) -> str:
-    """Return a text with a point for a decimal comma, or j for i, if that was meant."""
-    if _DECIMAL_COMMA.fullmatch(text):
-        return text.replace(",", ".")
+    """Return a text with j for i, if that was meant."""
     root = f"{text[:-1]}j"
     return root if text.endswith("i") and not dimension and _complex(root) is not None else ""
 
@@ -304,10 +282,10 @@ def _mismatch(text: str, unit: str, dimension: str) -> str:
     """Return the sentence for a unit that is missing, unknown, or of another dimension."""
     if not dimension:
         return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
-    units = [name for name, known in UNITS.items() if known.dimension == dimension]
+    units = units_of(dimension)
     if not unit:
         asked = with_article(dimension)
         return f"'{text}' has no unit, but {asked} is asked for; add one of {', '.join(units)}"
     if unit not in UNITS:
-        return f"unit '{unit}' of '{text}' is unknown{unit_meant(unit, units, units)}"
+        return f"unit '{unit}' of '{text}' is unknown{unit_meant(unit, units)}"
     return f"'{text}' is no {dimension}; use one of {', '.join(units)}"

@@ -48,6 +48,10 @@ def test_the_line_that_was_meant_is_told_and_is_toml(tmp_path, line, cure):
         ("angle = None", "leave angle out"),
         ("angle = np.pi/4", "look at 'angle = np.pi/4'"),
         ('angle = "30" deg', "look at 'angle = \"30\" deg'"),
+        (
+            "intensity = 1,000",
+            "a comma may be a point or part thousands: write intensity = 1.000 or 1000",
+        ),
         ("just a line", "look at 'just a line'"),
     ],
 )

@@ -12,6 +12,7 @@ from optipath.elements.vertices.vertex_domain import VerticesDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.references import named, referred
+from optipath.paths.format.schema import as_meant
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
@@ -211,6 +212,7 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
 def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Parameter:
     """Return a multiple of a parameter with an offset that is written as a table."""
     faults = _unknown_keys(raw, _AFFINE)
+    raw = as_meant(raw, _AFFINE)
     name = raw.get("parameter")
     if name is None:
         faults.append("a table with 'scale' or 'offset' needs 'parameter', a name")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from optipath.errors import shown
+from optipath.values.commas import without_comma
 
 _PLACE = re.compile(r"\(at line (\d+), column \d+\)")
 _ASSIGNMENT = re.compile(r"""\s*([\w.$-]+|"[^"]*")\s*([=:])\s*(.*?)\s*(?:\#[^"']*)?""")
@@ -48,6 +49,10 @@ def likely_cure(text: str, reason: str) -> str:
         return f"; leave {line.partition('=')[0].strip()} out"
     found = _ASSIGNMENT.fullmatch(line) if len(line) < _LONGEST else None
     meant = "" if found is None else _meant(found[3])
+    if found and len(numbers := without_comma(found[3])) > 1:
+        return (
+            f"; a comma may be a point or part thousands: write {found[1]} = {' or '.join(numbers)}"
+        )
     if found and meant and (meant != found[3] or found[2] == ":"):
         return f"; write {found[1]} = {meant}"
     return f"; look at {shown(line)}"
@@ -68,7 +73,7 @@ def _meant(value: str) -> str:
     if value.lower() in _WORDS:
         return _WORDS[value.lower()]
     if _COMMA.fullmatch(value):
-        return value.replace(",", ".")
+        return without_comma(value)[0]
     if _POINT.fullmatch(value):
         return value.replace(".", "0.", 1) if value[-1] != "." else f"{value}0"
     if value.startswith(("'", '"')):

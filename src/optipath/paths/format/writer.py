@@ -16,6 +16,7 @@ from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.schema import FORMAT
 from optipath.paths.place_choice import choice_faults
+from optipath.values.cases import name_faults
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.indices import INDEX, IndicesDomain
 from optipath.values.domains.pair import is_pair
@@ -83,6 +84,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         row |= {"help": choice.help} if choice.help else {}
         tables.append(_lines(f"[choices.{_key(name)}]", row))
     for name, case in cases.items():
+        faults += name_faults(name)
         faults += [
             f"case '{name}' gives parameter '{given}', which is unknown"
             f"{did_you_mean(given, parameters)}"
@@ -170,7 +172,7 @@ def _case(
 
 
 def _lines(header: str, row: Mapping[str, Any]) -> str:
-    pairs = [f"{_key(key)} = {_value(value)}\n" for key, value in row.items()]
+    pairs = [f"{_key(key)} = {as_toml(value)}\n" for key, value in row.items()]
     return "".join([f"{header}\n" if header else "", *pairs])
 
 
@@ -178,15 +180,24 @@ def _key(key: str) -> str:
     return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _string(key)
 
 
-def _value(value: Any) -> str:
+def as_toml(value: Any) -> str:
+    """Write a text, a number, or a list or a table of such, on one line.
+
+    Examples
+    --------
+    >>> as_toml({"light": "L.out", "tap": True})
+    '{ light = "L.out", tap = true }'
+    """
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
         return _string(value)
+    if isinstance(value, dict) and not value:
+        return "{}"
     if isinstance(value, dict):
-        return "{ " + ", ".join(f"{_key(k)} = {_value(v)}" for k, v in value.items()) + " }"
+        return "{ " + ", ".join(f"{_key(k)} = {as_toml(v)}" for k, v in value.items()) + " }"
     if isinstance(value, list):
-        return "[" + ", ".join(map(_value, value)) + "]"
+        return "[" + ", ".join(map(as_toml, value)) + "]"
     return repr(value)
 
 

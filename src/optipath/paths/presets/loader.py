@@ -108,6 +108,32 @@ def load_preset(
     return _bound(path, values, faults)
 
 
+def preset_of_case(path: PathGraph, preset: str | PathLike[str], case: str | int) -> PathGraph:
+    """Return the path of a preset with the values of a case as its defaults.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What the preset describes.
+    preset : str or path
+        Its name, for what is said of it.
+    case : str or int
+        A named set of its values.
+
+    Returns
+    -------
+    PathGraph
+        In which all parameters are open still.
+
+    Raises
+    ------
+    PresetError
+        If there is no such case.
+    """
+    known, faults = _of_case(path, preset, case)
+    return _bound(path.with_defaults(**known), {}, faults)
+
+
 def bound_preset(
     path: PathGraph, preset: str | PathLike[str], case: str | int | None, values: Mapping[str, Any]
 ) -> PathGraph:

@@ -8,9 +8,10 @@ import numpy as np
 
 from optipath.errors import ParameterError, listed
 from optipath.kernels.numbers.primitives import NUMPY
+from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable
+    from collections.abc import Callable, Hashable, Mapping
 
     from optipath.elements.own_ways import OwnWays
     from optipath.plan.running.reading import ResolvedInputs
@@ -93,11 +94,18 @@ def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
         found = way.faults(read)
     except KeyError:
         return []  # Not all of its values are of use to what is read.
-    return [f"at {_values(mine, place)}: {fault}" for place, fault in found]
+    units = {
+        operand.value.name: operand.value.unit for operand in way.operands if not operand.known
+    }
+    return [f"at {_values(mine, place, units)}: {fault}" for place, fault in found]
 
 
-def _values(numbers: dict[InputKey, Any], place: int) -> str:
+def _values(numbers: dict[InputKey, Any], place: int, units: Mapping[str, str]) -> str:
     """Write the numbers of one path."""
-    names = {key: key.name if key.part == "value" else str(key) for key in numbers}
-    one = {key: np.ravel(n)[place if np.ndim(n) else 0] for key, n in numbers.items()}
-    return ", ".join(f"{names[key]} = {n:.6g}" for key, n in one.items())
+    written = []
+    for key, several in numbers.items():
+        number, (name, unit) = np.ravel(several)[place if np.ndim(several) else 0], (str(key), "")
+        if key.part == "value":
+            name, unit = key.name, units[key.name]
+        written.append(f"{name} = {in_unit(number, unit):.6g} {unit}".strip())
+    return ", ".join(written)

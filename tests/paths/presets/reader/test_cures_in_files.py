@@ -24,6 +24,12 @@ def fault_of(folder, text):
     return str(error.value)
 
 
+def _written(folder, text):
+    file = folder / "right.toml"
+    file.write_text("format = 1\n" + text)
+    return file
+
+
 def through(element, leaves):
     links = LINKS.format(enters="X.in", leaves=f"X.{leaves}")
     return f"{LIGHT}{EYE}[elements.X]\n{element}\n{links}"
@@ -119,6 +125,50 @@ def test_a_parameter_without_a_unit_is_told_to_have_one(tmp_path):
         "format = 1\n" + wrong.replace("default", 'unit = "deg"\ndefault')
     )
     op.load_preset(tmp_path / "right.toml").trace()
+
+
+@pytest.mark.parametrize("behind", ["{}", "{ eye = 3 }", '{ "" = "L.out" }'])
+def test_how_places_are_written_is_told_as_a_file_has_it(tmp_path, behind):
+    about = 'kind = "polarizer"\n'
+    text = through(about, "out") + f'[choices.place]\nelement = "X"\nbehind = {behind}\n'
+    assert fault_of(tmp_path, text) == (
+        "wrong.toml: choices.place: 'behind' must name a port for each word, such as behind = "
+        f'{{ light = "L.out" }}, not {behind}'
+    )
+    op.load_preset(_written(tmp_path, text.replace(behind, '{ light = "L.out" }')))
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("all", "cases.all: 'all' stands for every case; give this one another name"),
+        ('""', 'cases."" has no name; give it one'),
+    ],
+)
+def test_a_case_that_nobody_could_ask_for_is_refused(tmp_path, name, told):
+    text = through('kind = "polarizer"', "out") + f"[cases.{name}]\nvalues = {{}}\n"
+    assert fault_of(tmp_path, text) == f"wrong.toml: {told}"
+    path = op.load_preset(_written(tmp_path, text.replace(name, "steep")))
+    path.cases[name.strip('"')] = path.cases["steep"]
+    with pytest.raises(op.PathError, match=told.partition(";")[0]):
+        path.to_toml()
+
+
+@pytest.mark.parametrize("field", ["index = 1.5", 'index = "$n"'])
+def test_a_kind_that_is_missing_is_not_read_from_another_key(tmp_path, field):
+    text = THETA + through(f'{field}\nincidence = "$theta"', "reflected")
+    fault = fault_of(tmp_path, text)
+    assert 'elements.X: kind is missing; write kind = "..."' in fault
+    assert "must be a text" not in fault
+
+
+def test_of_an_unknown_unit_those_of_the_values_are_listed(tmp_path):
+    about = 'kind = "interface"\nindex = "$n"\nincidence = "$theta"'
+    text = THETA.replace('unit = "deg"', 'unit = "foo"') + through(about, "reflected")
+    assert fault_of(tmp_path, text) == (
+        "wrong.toml: parameters.theta: unit 'foo' is unknown; there are: deg, rad, mrad, arcmin, "
+        "arcsec"
+    )
 
 
 def test_values_of_a_case_outside_their_table_are_told_where_they_stand(tmp_path):

@@ -129,12 +129,62 @@ def faults_of(text):
         ('azimuth = "10 deg"', 'azimuth = "$rho"', "'$rho' is not declared"),
         ("values = {", "value = {", "did you mean 'values'?"),
         ("n = 1.5 }", "m = 1.5 }", "parameter 'm' is unknown"),
+        (
+            'incidence = "$theta"',
+            'incidence = { paramter = "theta", scale = 2 }',
+            "did you mean 'parameter'?",
+        ),
         ("format = 1\n", "", "'format' is missing"),
     ],
 )
 def test_one_cause_is_one_fault(old, new, cause):
     assert old in GOOD
     (fault,) = faults_of(GOOD.replace(old, new))
+    assert cause in fault
+
+
+SLAB = """
+format = 1
+[parameters.theta]
+default = "40 deg"
+unit = "deg"
+[elements.lamp]
+kind = "source"
+[elements.back]
+kind = "interface"
+index = 1.0
+outside = "follows"
+incidence = "follows"
+[elements.front]
+kind = "interface"
+index = 1.5
+outside = 1.0
+incidence = { parameter = "theta", scale = 1 }
+[elements.eye]
+kind = "detector"
+[[links]]
+from = "lamp.out"
+to = "front.in"
+[[links]]
+from = "front.transmitted"
+to = "back.in"
+[[links]]
+from = "back.transmitted"
+to = "eye.in"
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "cause"),
+    [
+        ("outside = 1.0", 'outside = "1.2+0.1j"', "front.outside is complex"),
+        ("scale = 1", "scale = 3", "parameter 'theta' (at front.incidence, as 3 * theta) is 120"),
+        ('unit = "deg"', 'unit = "deg"\noptional = true', "front.incidence cannot be left out"),
+    ],
+)
+def test_what_a_boundary_takes_over_is_told_where_it_is_written(old, new, cause):
+    assert SLAB.count(old) == 1
+    (fault,) = faults_of(SLAB.replace(old, new))
     assert cause in fault
 
 

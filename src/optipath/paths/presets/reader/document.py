@@ -12,7 +12,7 @@ from optipath.errors import PathError, did_you_mean, shown, unknown
 from optipath.paths.format import schema
 from optipath.paths.format.codec import decode, which_pair
 from optipath.paths.format.faults import Faults, joined
-from optipath.paths.format.writer import complex_parts_of
+from optipath.paths.format.writer import as_toml, complex_parts_of
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.place_choice import PlaceChoice, choice_faults
 from optipath.paths.port_names import find_port
@@ -24,6 +24,7 @@ from optipath.paths.presets.reader.declarations import (
     unit_faults,
 )
 from optipath.paths.presets.reader.element_tables import STAND_IN, read_element, read_frames
+from optipath.values.cases import name_faults
 from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 
@@ -141,6 +142,7 @@ def _cases(
 ) -> None:
     ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
     for name, table in tables_of(document, "cases", faults).items():
+        faults += name_faults(name)
         path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, faults)
         for detector in path.cases[name].published:
             if detector not in ends and detector not in lost and path.graph:
@@ -170,6 +172,12 @@ def _offer(
     where = f"choices.{name}"
     wrong = schema.type_faults(where, table, schema.CHOICE)
     wrong += [f"{where}: '{k}' is missing" for k in ("element", "behind") if k not in table]
+    behind = table.get("behind")
+    if isinstance(behind, dict) and not _are_ports(behind):
+        wrong.append(
+            f"{where}: 'behind' must name a port for each word, such as behind = "
+            f'{{ light = "L.out" }}, not {as_toml(behind)}'
+        )
     faults += wrong
     if wrong or lost or not path.graph:
         return
@@ -181,6 +189,12 @@ def _offer(
     faults += [f"{where}: {fault}" for fault in unknown_names]
     if not unknown_names:
         misplaced.attempt(where, path.offer, name, *about)
+
+
+def _are_ports(behind: Table) -> bool:
+    """Tell whether there are words, and a text for each."""
+    words = [text.strip() for text in behind if isinstance(behind[text], str)]
+    return bool(behind) and len(words) == len(behind) and all(words)
 
 
 def _link(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.known_elements import element_class
 from optipath.elements.own_couplings import is_own
+from optipath.elements.registry import KINDS
 from optipath.errors import shown
 from optipath.kernels.carriers.own_code import called
 from optipath.light.frames import Frame
@@ -45,7 +46,7 @@ def read_element(
     Element or None
         With a parameter of no meaning in place of each value that is missing or faulty.
     """
-    named = table if "kind" in table else schema.as_meant(table, ["kind"])
+    named = table if "kind" in table else schema.as_meant(_no_fields(table), ["kind"])
     kind = named.get("kind")
     if not isinstance(kind, str):
         what = f"'kind' must be a text, not {shown(kind)}" if "kind" in named else "kind is missing"
@@ -74,6 +75,12 @@ def read_element(
     # What code of a user's own says of a stand-in is no news.
     unknown = is_own(found) and any(value is STAND_IN for value in values.values())
     return (Faults() if unknown else faults).attempt(where, lambda: called(what, found, **values))
+
+
+def _no_fields(table: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is in a table that no element has a field for, as it has for ``index``."""
+    fields = {name for found in KINDS.values() for name in found.domains()}
+    return {key: value for key, value in table.items() if key not in fields}
 
 
 def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:

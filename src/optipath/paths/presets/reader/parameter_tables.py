@@ -11,7 +11,8 @@ from optipath.paths.format.schema import texts_in
 from optipath.values.domains.domain import Domain
 from optipath.values.parameters import Parameter
 from optipath.values.specification import checked_name
-from optipath.values.units import UNITS, dimension_of, with_article
+from optipath.values.unit_names import unit_meant
+from optipath.values.units import UNITS, dimension_of, units_of, with_article
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -43,11 +44,11 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
     if sound is None:
         return None
     table, unit = sound, sound.get("unit", "")
-    dimension = faults.attempt(where, dimension_of, unit)
-    if dimension is None or not named:
-        return None
     if fault := _unit_fault(where, unit, table):
         faults.append(fault)
+        return None
+    dimension = faults.attempt(where, dimension_of, unit)
+    if dimension is None or not named:
         return None
     domain = Domain("value", dimension, own_unit=unit)
     words = {
@@ -88,9 +89,12 @@ def _unit_fault(where: str, unit: str, table: Mapping[str, Any]) -> str:
     """Say that no value has the dimension of the unit, if so: it is the unit that is wrong."""
     given = texts_in([table.get(key) for key in ("default", "range", "words")])
     units = {text: match[1] for text in given if (match := _WITH_UNIT.fullmatch(text.strip()))}
-    if not units or dimension_of(unit) in [UNITS[name].dimension for name in units.values()]:
+    dimensions = [UNITS[name].dimension for name in units.values()]
+    if not units or (unit in UNITS and dimension_of(unit) in dimensions):
         return ""
     text, found = next(iter(units.items()))
+    if unit and unit not in UNITS:
+        return f"{where}: unit '{unit}' is unknown{unit_meant(unit, units_of(dimensions[0]))}"
     if not unit:
         cure = f'add unit = "{found}", or give pure numbers if it is one'
         return f"{where} declares no unit, but its values have one; {cure}"

@@ -1,0 +1,58 @@
+"""Options that a command does not have are told where they belong."""
+
+import shlex
+
+import pytest
+
+from optipath.cli import main
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("run --case 8 npgr026", "unknown here; write it at the end: optipath run npgr026 --case"),
+        ("run --detla 30 npgr026", "here; write it at the end: optipath run npgr026 --delta ..."),
+        ("run --case 8", "unknown here; write it at the end: optipath run PRESET --case ..."),
+        ("--json run npgr026", "unknown here; write it at the end: optipath run npgr026 --json"),
+        ("--json presets", "unknown here; write it at the end: optipath presets --json ..."),
+        ("--foo", "option '--foo' is unknown; there are: --version, --import, -h, --help"),
+        ("-v", "option '-v' is unknown; there are: --version, --import, -h, --help"),
+        ("-V presets", "option '-V' is unknown; there are: --version, --import, -h, --help"),
+        ("presets -v", "option '-v' is unknown; there are: --json, -h, --help"),
+        ("-import mine run x.toml", "option '-import' is unknown; did you mean '--import'?"),
+        ("run npgr026 --version", "unknown here; it stands alone: optipath --version"),
+        ("run --version", "unknown here; it stands alone: optipath --version"),
+        ("chart npgr026 --interface", "unknown here; it stands alone: optipath chart --interface"),
+        ("chart npgr026 --from a.json", "it stands alone: optipath chart --from a.json"),
+    ],
+)
+def test_an_option_without_a_place_is_told_where_it_belongs(capsys, line, told):
+    assert main(shlex.split(line)) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("optipath: option ")
+    assert told in error
+    assert len(error.splitlines()) == 1
+
+
+@pytest.mark.parametrize("command", ["run", "explain"])
+@pytest.mark.parametrize(
+    ("words", "meant"),
+    [
+        ("--import mine own.toml", "--import mine {} own.toml"),
+        ("own.toml --import mine", "--import mine {} own.toml"),
+        ("npgr026 --import=mine.py --json", "--import=mine.py {} npgr026 --json"),
+        ("npgr026 --import", "--import MODULE {} npgr026"),
+    ],
+)
+def test_an_import_is_written_before_the_command(
+    capsys, tmp_path, monkeypatch, command, words, meant
+):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "own.toml").write_text('format = 1\n[elements.a]\nkind = "mine"\n', "utf-8")
+    assert main([command, *words.split()]) == 2
+    cure = f"write it before the command: optipath {meant.format(command)}"
+    assert capsys.readouterr().err == f"optipath: option '{_flag(words)}' is unknown here; {cure}\n"
+
+
+def _flag(words):
+    return next(word for word in words.split() if word.startswith("--")).partition("=")[0]
