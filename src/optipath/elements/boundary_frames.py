@@ -71,7 +71,9 @@ def _refracted_frame(element: Any, port: str, frames: Mapping[str, Frame]) -> Fr
     along, normal = arriving.z + reflected.z, reflected.z - arriving.z
     along, normal = (_unit(vector) for vector in (along, normal))
     z = np.where(front > 0.0, np.sin(behind) * along, 0.0) - np.cos(behind) * normal
-    return Frame.from_direction(z, arriving.x)
+    frame = Frame.from_direction(z, arriving.x)
+    rounding = max(arriving.rounding, reflected.rounding)
+    return Frame.trusted(frame.x, frame.y, frame.z, rounding)
 
 
 def _unit(vector: Any) -> Any:
@@ -82,7 +84,8 @@ def _unit(vector: Any) -> Any:
 def _meeting_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[str]:
     if not {"in", "reflected"} <= frames.keys():
         return
-    found = incidence_between(frames["in"], frames["reflected"])
+    arriving, reflected = frames["in"], frames["reflected"]
+    found = incidence_between(arriving, reflected)
     problem = f"the frames of '{owner}' meet at an incidence of {_degrees(found)}"
     if element.incidence is FOLLOWS:
         return  # What it takes over is looked at.
@@ -90,7 +93,7 @@ def _meeting_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> It
         name = element.incidence.name
         yield f"{problem}; give that, not the parameter '{name}'"
     angles = _angles(owner, element)
-    if angles and not _agree(found, angles[0]):
+    if angles and not _agree(found, angles[0], arriving.rounding_to(reflected)):
         yield f"{problem}, but its incidence is {_degrees(angles[0])}; make them agree"
 
 
@@ -100,8 +103,9 @@ def _passing_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> It
         return
     front, behind = angles
     if {"back", "transmitted"} <= frames.keys():
-        found = incidence_between(frames["back"], frames["transmitted"])
-        if not _agree(found, behind):
+        arriving, reflected = frames["back"], frames["transmitted"]
+        found = incidence_between(arriving, reflected)
+        if not _agree(found, behind, arriving.rounding_to(reflected)):
             yield (
                 f"the frames of '{owner}.back' and '{owner}.transmitted' meet at an incidence of "
                 f"{_degrees(found)}, but behind '{owner}' it is {_degrees(behind)}; make them agree"
@@ -109,7 +113,8 @@ def _passing_faults(owner: str, element: Any, frames: Mapping[str, Frame]) -> It
     for enters, leaves in (("in", "transmitted"), ("back", "reflected")):
         if {enters, leaves} <= frames.keys():
             found = angle_between(frames[enters], frames[leaves])
-            if not _agree(found, np.abs(front - behind)):
+            rounding = frames[enters].rounding_to(frames[leaves])
+            if not _agree(found, np.abs(front - behind), rounding):
                 yield (
                     f"light from '{owner}.{enters}' to '{owner}.{leaves}' is turned by "
                     f"{_degrees(found)} in the world, but by {_degrees(np.abs(front - behind))} "
@@ -144,10 +149,10 @@ def _complex(index: Any) -> Any:
     return Operand(index).numbers({})
 
 
-def _agree(found: Any, given: Any) -> bool:
+def _agree(found: Any, given: Any, rounding: float) -> bool:
     if broadcast_fault({"found": np.shape(found), "given": np.shape(given)}):
         return True  # Named with all other shapes.
-    return bool(np.all(np.abs(found - given) <= _TOLERANCE))
+    return bool(np.all(np.abs(found - given) <= max(_TOLERANCE, rounding)))
 
 
 def _degrees(angle: Any) -> str:
