@@ -10,6 +10,7 @@ import numpy as np
 from optipath.composer.meetings import Meetings, keys_of
 from optipath.composer.one_plane import OnePlane
 from optipath.composer.same_medium import SameMedium
+from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.values.agreement import first_faults
@@ -58,7 +59,7 @@ class Media:
 
     @property
     def _all(self) -> tuple[Agreement, ...]:
-        return *self._media, *self._planes, *self._angles
+        return *self._media, *self._planes, *self._angles, *self._rounds
 
     @cached_property
     def _media(self) -> tuple[SameMedium, ...]:
@@ -112,6 +113,19 @@ class Media:
                     plane = OnePlane(operands, ".".join(leaves), ".".join(enters), follows)
                     found.setdefault((leaves, enters, keys_of(meeting.turns)), plane)
         return tuple(found.values())
+
+    @cached_property
+    def _rounds(self) -> tuple[SameTurn, ...]:
+        found = []
+        first: dict[Any, Meeting] = {}
+        for meeting in self.meetings.in_layers:
+            if meeting.sides in self.meetings.to_and_fro:
+                one = first.setdefault(meeting.sides, meeting)
+                if keys_of(one.turns) != keys_of(meeting.turns):
+                    operands = tuple(map(Operand, (*one.turns, *meeting.turns)))
+                    ways = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, meeting)]
+                    found.append(SameTurn(operands, len(one.turns), *ways))
+        return tuple(found)
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""
