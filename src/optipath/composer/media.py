@@ -13,6 +13,7 @@ from optipath.composer.same_medium import SameMedium
 from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
 from optipath.elements.boundary_frames import BoundaryElement
+from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
 from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from optipath.composer.meetings import Meeting
     from optipath.composer.travel import Port
     from optipath.composer.wiring import Wiring
+    from optipath.elements.world_angle import WorldAngle
     from optipath.values.agreement import Agreement
 
 FOLLOWING = "following"
@@ -50,7 +52,7 @@ class Media:
     @cached_property
     def open(self) -> tuple[Agreement, ...]:
         """What is looked at when the path runs, since a value is given only then."""
-        return tuple(agreement for agreement in self._all if agreement.is_open)
+        return tuple(a for a in (*self._all, *self._in_space) if a.is_open)
 
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""
@@ -126,6 +128,15 @@ class Media:
                     ways = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, meeting)]
                     found.append(SameTurn(operands, len(one.turns), *ways))
         return tuple(found)
+
+    @property
+    def _in_space(self) -> Iterator[WorldAngle]:
+        """What frames in the world say of angles; what is known of it is told with the frames."""
+        for name, element in self.elements.items():
+            if isinstance(element, BoundaryElement):
+                yield from world_angles(
+                    name, element, self.meetings.wiring.graph.nodes[name]["frames"]
+                )
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""
