@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from optipath.values.agreement import Agreement
 
 FOLLOWING = "following"
-"""By what a graph knows the boundaries that have taken an incidence over."""
+"""By what a graph knows the boundaries that have taken something over, and of which fields."""
 
 
 class Media:
@@ -46,7 +46,7 @@ class Media:
 
     def __init__(self, wiring: Wiring) -> None:
         self.elements = wiring.elements
-        self.following = wiring.graph.graph.get(FOLLOWING, frozenset())
+        self.following = wiring.graph.graph.get(FOLLOWING, {})
         self.meetings = Meetings(wiring)
 
     @cached_property
@@ -77,7 +77,8 @@ class Media:
                 operands = index_of(first), index_of(second), *([] if k is None else [k])
                 measures = enters[1] == "in" and self._measures_in_front(enters)
                 ports = ".".join(leaves), ".".join(enters)
-                found.append(SameMedium(operands, *ports, field, measures))
+                follows = enters[1] == "in" and self._follows(enters[0], "outside")
+                found.append(SameMedium(operands, *ports, field, measures, follows))
         return tuple(found)
 
     @cached_property
@@ -98,6 +99,7 @@ class Media:
                         ".".join(enters),
                         ends=self._ends(meeting),
                         may_be_told=self.meetings.may_be_told(meeting),
+                        follows=self._follows(enters[0], "incidence"),
                     )
                     found.setdefault((meeting.sides, keys_of(turns)), law)
         return tuple(found.values())
@@ -107,7 +109,7 @@ class Media:
         found: dict[Any, OnePlane] = {}
         for meeting in self.meetings.in_layers:
             leaves, enters = meeting.leaves, meeting.enters
-            follows = enters[0] in self.following
+            follows = self._follows(enters[0], "incidence")
             if meeting.turns and (follows or meeting.sides in self.meetings.to_and_fro):
                 first: Any = self.elements[leaves[0]]
                 operands = tuple(map(Operand, (first.incidence, *meeting.turns)))
@@ -143,6 +145,9 @@ class Media:
         first, second = meeting.leaves, meeting.enters
         refracts = first[1] == "transmitted" and self._measures_in_front(first)
         return refracts, second[1] == "in" and self._measures_in_front(second)
+
+    def _follows(self, name: str, field: str) -> bool:
+        return field in self.following.get(name, ())
 
     def _medium(self, port: Port) -> Any:
         element: Any = self.elements[port[0]]
