@@ -267,5 +267,5 @@ def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], 
     if frame.z.ndim == 1:
         return frame
     axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]
-    parts = [np.stack([change(axis[..., i]) for i in range(3)], axis=-1) for axis in axes]
-    return Frame.trusted(*parts)
+    x, y, z = [np.stack([change(axis[..., i]) for i in range(3)], axis=-1) for axis in axes]
+    return Frame.trusted(x, y, z, frame.rounding)
