@@ -100,6 +100,8 @@ def mueller_alone(
                 matrix = coupling.matrix(method)
             found_in = _frame_at(element, enters, frames) or _turned(before, element, enters)
             found_out = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
+            # An azimuth is in the frames alone.
+            matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
             return Mueller.of(matrix, found_in, found_out)
     raise PathError(_no_way(owner, enters, leaves, couplings))
 
