@@ -192,28 +192,6 @@ class Mueller(KnownNoise, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging)
             diattenuator=Mueller.of(diattenuator, self.frame_in, self.frame_in),
         )
 
-    def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
-        """Tell whether some mixture of Jones matrices acts like this, shape (...).
-
-        Parameters
-        ----------
-        tolerance : float, optional
-            How far below 0, against the largest, an eigenvalue of `coherency` may be. By
-            default 1e-9, or a hundred roundings of a matrix of less than double precision:
-            1.2e-5 for float32.
-
-        Raises
-        ------
-        ValueFault
-            If the tolerance is no finite number >= 0.
-
-        Examples
-        --------
-        >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
-        False
-        """
-        return cloude.is_physical(self.matrix, tolerance)
-
     def nearest_physical(self) -> Mueller:
         """Return the physical matrix with the least sum of squared differences.
 
