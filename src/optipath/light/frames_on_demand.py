@@ -79,4 +79,5 @@ def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], 
     if frame.z.ndim == 1:
         return frame
     axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]
-    return Frame.trusted(*(each_number(axis, change) for axis in axes), rounding=frame.rounding)
+    x, y, z = [each_number(axis, change) for axis in axes]
+    return Frame.trusted(x, y, z, frame.rounding)

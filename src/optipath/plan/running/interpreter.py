@@ -241,9 +241,9 @@ class Interpreter:
             operands, solvers = self.operands(part), []
             begin = emitted and emitted(part)
             closer = CloserLook(self.program, part, operands, self.dtype)
-            shared = closer.evaluations()
+            longer = closer.evaluations()
             again = execute(
-                self.program, operands, carrier, begin, self.number, shared, solvers, closer.meet
+                self.program, operands, carrier, begin, self.number, longer, solvers, closer.meet
             )
             check_gains(solvers)
         return again if part is given else _instead(found, again, doubtful)
