@@ -61,7 +61,12 @@ class Parameter(AffineArithmetic):
     scale, offset : float, optional
         It stands for ``scale * value + offset``; arithmetic says so.
     offset_dimension : str, optional
-        That of the unit, where the offset was given as a text with one.
+        That of the unit, where the offset was given as a text; ``"pure number"`` without one.
+
+    Attributes
+    ----------
+    is_listed : bool
+        Whether the default was given as a list, which may be one value by its parts.
 
     Raises
     ------
@@ -113,7 +118,6 @@ class Parameter(AffineArithmetic):
                 f"plan runs, or give an angle"
             )
         if self.default is not None:
-            # Whoever lists numbers by hand may mean one of several parts; arrays are of paths.
             vars(self)["is_listed"] = isinstance(self.default, (list, tuple))
             default = read_only(self._as_number(self.default), (low, high), widened=False)
             object.__setattr__(self, "default", default)
