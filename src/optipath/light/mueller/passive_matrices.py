@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from optipath.values.roundings import Array
 
 _AT_ONCE = 4096
-"""How many matrices are looked at together, so that they stay in the cache; of twice as many, memory is asked for anew."""
+"""How many matrices are looked at together: they stay in the cache, and in memory that is there."""
 
 _FEW = 4
 """How many are quicker looked at one after the other."""
