@@ -15,8 +15,8 @@ from optipath.values.arrays.jax_values import is_traced, namespace
 if TYPE_CHECKING:
     from optipath.values.roundings import Array
 
-_AT_ONCE = 8192
-"""How many matrices are looked at together, so that they stay in the cache."""
+_AT_ONCE = 4096
+"""How many matrices are looked at together: they stay in the cache, and in memory that is there."""
 
 _FEW = 4
 """How many are quicker looked at one after the other."""
