@@ -41,7 +41,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         antidiagonal, S3 > 0 for a field that turns from x to y (see `handedness`). A
         component that a detector does not read is NaN.
     frame : Frame, optional
-        The frame the components refer to; the unit frame by default.
+        The frame the components refer to; the unit frame by default. That of light from a path
+        placed relatively is the one that leaves the last element, called the unit frame.
     exponent : int or array_like of int, shape (...), optional
         Light too faint for a float is given as ``stokes`` times two to this power. The
         attribute `stokes` is 0 then, but `normalized`, `dop` and `log10_intensity`
