@@ -155,6 +155,8 @@ def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
     assert "by 17.18873385 deg on the way from 'front.transmitted' to 'back.in', and by" in fault
     assert f"and by {second}" in fault
     assert "let the azimuths on either way add up to the same" in fault
+    several = op.Interface(1.0, F, outside=F, azimuth=np.array([0.0, np.pi, 0.3]))
+    assert fault_of(slab(op.Interface(1.5, 0.0), several)).endswith("(at 2, of 3 paths)")
     # A half turn is none to polarised light.
     half = slab(op.Interface(1.5, 0.0), turned, azimuth=0.3 - np.pi)
     assert half.trace().intensity == pytest.approx(2 * 1.5 / (1 + 1.5**2), rel=1e-12)
