@@ -181,9 +181,10 @@ def angles_of(
     """
     refract = refraction(of_module(xp))
     c, s = xp.cos(incidence), xp.sin(incidence)
-    if before:
-        c, s = refract(before[0], outside, 0.0 * outside, c, s)
-    behind, across = refract(outside, n, k, c, s)
+    with np.errstate(all="ignore"):
+        if before:
+            c, s = refract(before[0], outside, 0.0 * outside, c, s)
+        behind, across = refract(outside, n, k, c, s)
     return xp.arctan2(s, c), xp.arctan2(across, behind)
 
 
