@@ -155,9 +155,33 @@ def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
     assert "by 17.18873385 deg on the way from 'front.transmitted' to 'back.in', and by" in fault
     assert f"and by {second}" in fault
     assert "let the azimuths on either way add up to the same" in fault
+    several = op.Interface(1.0, F, outside=F, azimuth=np.array([0.0, np.pi, 0.3]))
+    assert fault_of(slab(op.Interface(1.5, 0.0), several)).endswith("(at 2, of 3 paths)")
     # A half turn is none to polarised light.
     half = slab(op.Interface(1.5, 0.0), turned, azimuth=0.3 - np.pi)
     assert half.trace().intensity == pytest.approx(2 * 1.5 / (1 + 1.5**2), rel=1e-12)
+
+
+def test_a_ring_may_turn_its_light():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))
+    path.add("both", op.Combiner())
+    path.add("a", op.Interface(1.5, 0.0))
+    path.add("b", op.Interface(1.0, F, outside=F, azimuth=op.Parameter("turn")))
+    path.add("half", op.Attenuator(0.5))
+    path.add("R", op.Detector())
+    for start, end in (("lamp", "both"), ("both", "a"), ("a.transmitted", "b"), ("half", "both")):
+        path.connect(start, end)
+    path.connect("b.transmitted", "half")
+    path.connect("a.reflected", "R")
+    turn = np.array([0.0, 0.3])
+    # What goes round is turned by as much each time: a geometric series in exp(-2i turn).
+    once = 0.5 * 0.96**2
+    linear = 0.04 / (1 - once * np.exp(-2j * turn))
+    light = path.trace(turn=turn)
+    np.testing.assert_allclose(light.S0, 0.04 / (1 - once), rtol=1e-12)
+    np.testing.assert_allclose(light.S1, linear.real, rtol=1e-12)
+    np.testing.assert_allclose(light.S2, -linear.imag, rtol=0, atol=1e-15)
 
 
 def test_light_does_not_come_back_from_a_face_at_an_angle():

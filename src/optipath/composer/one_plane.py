@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optipath.values.agreement import Agreement, text_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 TURNED = 1e-3
 """From what sine on a turn makes another plane of incidence: less is none in a laboratory."""
@@ -43,7 +46,8 @@ class OnePlane(Agreement):
         angle, *turns = numbers
         return ~((abs(xp.sin(sum(turns))) > TURNED) & (abs(xp.sin(angle)) > _NORMAL))
 
-    def sentence(self, *numbers: float) -> str:
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
         name, own = (port.rpartition(".")[0] for port in (self.leaves, self.enters))
         cure = "let the azimuths on the way add up to 0"
         if self.follows:
@@ -81,6 +85,15 @@ def turn_text(operands: Any, turns: Any) -> str:
 
 def way_text(leaves: str, enters: str) -> str:
     """Write where light leaves one boundary and enters another.
+
+    Parameters
+    ----------
+    leaves, enters : str
+        The ports, as ``"node.port"``.
+
+    Returns
+    -------
+    str
 
     Examples
     --------

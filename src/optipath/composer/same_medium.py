@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optipath.values.agreement import Agreement, is_single, text_of
 from optipath.values.cures import cure
 from optipath.values.follows import FOLLOWS
 from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 _ROUNDING, _SINGLE_ROUNDING = 1e-9, 2.0**-23
 """How far apart two indices may be, as a share of them."""
@@ -51,7 +54,7 @@ class SameMedium(Agreement):
         differs = abs(n1 - n2) > rounding * xp.maximum(n1, n2)
         return ~(differs | (k[0] != 0.0) if k else differs)
 
-    def sentence(self, *numbers: float) -> str:
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         before, behind, *k = (text_of(o, n) for o, n in zip(self.operands, numbers, strict=True))
         name, _, port = self.leaves.rpartition(".")
         side = "behind" if port == "transmitted" else "in front of"
@@ -70,7 +73,7 @@ class SameMedium(Agreement):
                 f"{_called(behind)}; light of several media merges there: give each light a face "
                 f"of its own"
             )
-        cures = [] if self._is_one_parameter else [self._cure(numbers[0])]
+        cures = [] if self._is_one_parameter or 0 in varying else [self._cure(numbers[0])]
         if not self.enters.endswith(".back"):
             cures.append(f"{cure('op.FOLLOWS', FOLLOWS.in_file)} for {self.field}")
         elif not cures:

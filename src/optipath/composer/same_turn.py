@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optipath.composer.one_plane import TURNED, turn_text, way_text
 from optipath.values.agreement import Agreement
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +40,8 @@ class SameTurn(Agreement):
     def fits(self, xp: Any, *numbers: Any) -> Any:
         return ~(abs(xp.sin(sum(numbers[: self.count]) - sum(numbers[self.count :]))) > TURNED)
 
-    def sentence(self, *numbers: float) -> str:
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
         name, own = (port.rpartition(".")[0] for port in self.first)
         parts = slice(self.count), slice(self.count, None)
         first, second = (turn_text(self.operands[part], numbers[part]) for part in parts)

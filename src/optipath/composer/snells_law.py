@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from optipath.composer.one_plane import TURNED, turn_text
 from optipath.values.agreement import Agreement, is_single, text_of
 from optipath.values.cures import cure
+from optipath.values.digits import digits_until
 from optipath.values.follows import FOLLOWS
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
 
 _ROUNDING, _SINGLE_ROUNDING = 3e-8, 2.0**-22
 """How far apart two angles may be, in radians."""
@@ -74,16 +80,15 @@ class SnellsLaw(Agreement):
             differs = differs & ~((abs(xp.cos(angle2)) <= rounding) & (there < here))
         return ~differs
 
-    def sentence(self, *numbers: float) -> str:
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         angle1, n1, angle2, n2, *turns = numbers
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
         here, there = n1 * math.sin(angle1), n2 * math.sin(angle2)
         cures = [cure("op.FOLLOWS", FOLLOWS.in_file)]
-        if n1 != n2:
-            cures.insert(0, f"{math.degrees(angle1):.10g} deg with incidence_in = {n1:.12g}")
-        if here <= n2:
-            exact = f"{math.degrees(math.asin(here / n2)):.10g} deg"
-            cures.insert(0, f"{exact} in n = {n2:.12g}")
+        if not {0, 1, 3}.intersection(varying):
+            cures = [*self._angles(angle1, n1, n2), *cures]
+        digits = digits_until(lambda d: f"{here:.{d}g}" != f"{there:.{d}g}")
+        sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
         given = text_of(self.operands[2], math.degrees(angle2), " deg")
         given += f" in n = {text_of(self.operands[3], n2)}"
         if turns:
@@ -92,9 +97,9 @@ class SnellsLaw(Agreement):
         if self.follows:
             return (
                 f"light of '{self.leaves}' enters '{self.enters}', but '{own}' has taken its "
-                f"incidence over (FOLLOWS) from other light: n sin(incidence) is {here:.10g} at "
-                f"'{name}' and {there:.10g} at '{own}' ({given}); light of several directions "
-                f"merges there: give each light a face of its own"
+                f"incidence over (FOLLOWS) from other light: n sin(incidence) is {sines} "
+                f"({given}); light of several directions merges there: give each light a face of "
+                f"its own"
             )
         if self.may_be_told:
             why = (
@@ -105,7 +110,26 @@ class SnellsLaw(Agreement):
         else:
             why = "light goes to and fro between them, so they are parallel"
         return (
-            f"light of '{self.leaves}' enters '{self.enters}', but n sin(incidence) is {here:.10g} "
-            f"at '{name}' and {there:.10g} at '{own}' ({given}); give '{own}' an incidence of "
-            f"{', or '.join(cures)} ({why})"
+            f"light of '{self.leaves}' enters '{self.enters}', but n sin(incidence) is {sines} "
+            f"({given}); give '{own}' an incidence of {', or '.join(cures)} ({why})"
         )
+
+    def _angles(self, angle: float, n: float, own_n: float) -> list[str]:
+        """Return what the second may say of its angle, with as many digits as it takes to pass."""
+        found = []
+        there = math.degrees(angle)
+        if (sine := n * math.sin(angle) / own_n) <= 1.0:
+            exact = math.degrees(math.asin(sine))
+            digits = digits_until(
+                lambda d: self.fits(np, angle, n, math.radians(float(f"{exact:.{d}g}")), own_n)
+            )
+            found.append(f"{exact:.{digits}g} deg in n = {own_n:.12g}")
+        if n != own_n:
+            elsewhere = replace(self, ends=(self.ends[0], False))
+            digits = digits_until(
+                lambda d: elsewhere.fits(
+                    np, angle, n, math.radians(float(f"{there:.{d}g}")), float(f"{n:.{d + 2}g}")
+                )
+            )
+            found.append(f"{there:.{digits}g} deg with incidence_in = {n:.{digits + 2}g}")
+        return found

@@ -48,7 +48,8 @@ class Interface(BoundaryElement, kind="interface"):
     incidence_in : float, array_like, Material or Parameter, optional
         The index of the medium in which the incidence is measured; ``outside`` by default.
         With it, one angle serves all parallel interfaces of a stack, refracted from the medium
-        in front of the stack by Snell's law.
+        in front of the stack by Snell's law. Where that gets no light into ``outside``, since
+        all has been reflected before, all is reflected here, too.
     parallel : bool, optional
         Whether it is parallel to a boundary before whose refracted light enters it, so that
         n sin(incidence) must be the same; False for a face that stands at an angle to that one,

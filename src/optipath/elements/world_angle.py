@@ -18,7 +18,7 @@ from optipath.values.follows import FOLLOWS
 from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Collection, Iterator, Mapping
 
     from optipath.light.frames import Frame
     from optipath.values.operands import Operand
@@ -67,7 +67,8 @@ class WorldAngle(Agreement):
         differs = abs(found - self._expected(front, behind)) > allowed
         return ~differs | xp.isnan(sum(given))
 
-    def sentence(self, *numbers: float) -> str:
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        del varying  # No number is a cure.
         found, *given = numbers
         front, behind = angles_of(np, *given)
         there, expected = _degrees(found), _degrees(self._expected(front, behind))
@@ -180,9 +181,10 @@ def angles_of(
     """
     refract = refraction(of_module(xp))
     c, s = xp.cos(incidence), xp.sin(incidence)
-    if before:
-        c, s = refract(before[0], outside, 0.0 * outside, c, s)
-    behind, across = refract(outside, n, k, c, s)
+    with np.errstate(all="ignore"):
+        if before:
+            c, s = refract(before[0], outside, 0.0 * outside, c, s)
+        behind, across = refract(outside, n, k, c, s)
     return xp.arctan2(s, c), xp.arctan2(across, behind)
 
 

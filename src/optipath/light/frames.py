@@ -196,7 +196,7 @@ class Frame(Unchanging):
         >>> Frame().rounding_to(Frame())
         1e-08
         >>> single = Frame(x=np.float32([1, 0, 0]))
-        >>> Frame().rounding_to(single) == 2 * np.finfo(np.float32).eps
+        >>> Frame().rounding_to(single) == 2.0**-22
         True
         """
         return max(_TOLERANCE, 2.0 * (self.rounding + other.rounding))

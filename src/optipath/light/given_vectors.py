@@ -50,7 +50,7 @@ def rounding_in(*given: npt.ArrayLike) -> float:
 
     Examples
     --------
-    >>> rounding_in([0, 0, 1], np.ones(3, np.float32)) == np.finfo(np.float32).eps
+    >>> rounding_in([0, 0, 1], np.ones(3, np.float32)) == 2.0**-23
     True
     """
     return max(rounding_of(as_given("a vector", value, FrameError)) for value in given)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,12 +12,12 @@ from optipath.errors import OptipathError
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_traced, namespace
-from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.arrays.shapes import broadcast_fault, place_text
 from optipath.values.operands import NOTHING, Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from optipath.values.resolved import Resolved
 
@@ -53,8 +54,20 @@ class Agreement:
         """
         raise NotImplementedError
 
-    def sentence(self, *numbers: float) -> str:
-        """Say of numbers of one path that they do not fit, and the cure."""
+    def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
+        """Say of numbers of one path that they do not fit, and the cure.
+
+        Parameters
+        ----------
+        *numbers : float
+            One for each operand.
+        varying : collection of int, optional
+            The places of those that are others on other paths, and no cure for all.
+
+        Returns
+        -------
+        str
+        """
         raise NotImplementedError
 
     @property
@@ -95,20 +108,35 @@ class Agreement:
         shapes = {str(place): array.shape for place, array in enumerate(arrays)}
         if any(array.dtype.kind not in "iuf" for array in arrays) or broadcast_fault(shapes):
             return ""
+        found = self._first_misfit(arrays)
+        if found is None:
+            return ""
+        at, misfit = found
+        varying = [place for place, array in enumerate(arrays) if np.any(array != array.flat[0])]
+        return self.sentence(*misfit, varying=varying) + _path_text(arrays, at)
+
+    def _first_misfit(self, arrays: list[Any]) -> tuple[int, list[float]] | None:
+        """Return the first path whose numbers do not fit, and these; None where all do."""
         # A grid is never laid out as a whole.
         cut: Any = np.nditer(
             arrays,
             ["external_loop", "buffered", "zerosize_ok"],
+            order="C",
             op_dtypes=[np.float64] * len(arrays),
             casting="same_kind",
             buffersize=_AT_ONCE,
         )
+        passed = 0
         with np.errstate(all="ignore"):
-            for part in cut:
+            for columns in cut:
+                # Of one operand alone, NumPy gives no tuple.
+                part = columns if isinstance(columns, tuple) else (columns,)
                 bad = ~self.fits(np, *part)
                 if np.any(bad):
-                    return self.sentence(*(float(column[bad][0]) for column in part))
-        return ""
+                    at = int(np.argmax(bad))
+                    return passed + at, [float(column[at]) for column in part]
+                passed += len(bad)
+        return None
 
     def inside(self, given: Mapping[str, Resolved]) -> Any:
         """Return for which paths numbers fit that JAX traces; True where it traces none.
@@ -149,6 +177,13 @@ def first_faults(
     first = [fault for law, fault in found if spoilt.isdisjoint(law.rests_on)]
     # In a ring, each may follow from the one before.
     return first or [fault for _, fault in found[:1]]
+
+
+def _path_text(arrays: list[Any], at: int) -> str:
+    """Say which path of how many has a fault; nothing of a single one."""
+    shape = np.broadcast_shapes(*(array.shape for array in arrays))
+    count = math.prod(shape)
+    return f" ({place_text(shape, at).strip()}, of {count} paths)" if count > 1 else ""
 
 
 def _number(operand: Operand, given: Mapping[str, Resolved]) -> Any:
@@ -213,6 +248,7 @@ def is_single(xp: Any, numbers: Any) -> Any:
     >>> is_single(np, np.array([1.33, np.float32(1.33), 1.5]))
     array([False,  True, False])
     """
+    numbers = xp.asarray(numbers)
     grains = numbers * 4096.0
-    rounded = xp.asarray(numbers).astype(np.float32)
+    rounded = numbers.astype(np.float32)
     return (rounded == numbers) & (grains != xp.floor(grains))

@@ -13,6 +13,7 @@ from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import read_only, same
+from optipath.values.arrays.shapes import first_place
 from optipath.values.degrees import called
 from optipath.values.displayed import displayed, format_range
 from optipath.values.resolved import THERE, Resolved
@@ -312,10 +313,11 @@ class Parameter(AffineArithmetic):
             return
         value = array[bad].ravel()[0]
         if not np.isfinite(value):
-            place = tuple(map(int, np.argwhere(~np.isfinite(array))[0]))
-            where = f" at {place if len(place) > 1 else place[0]}" if place else ""
+            where = first_place(~np.isfinite(array))
             raise ParameterError(f"parameter '{self.name}' is {value}{where}; give a finite number")
         number, limits = float(value), (self.minimum, self.maximum)
         given, meant = called(number, self.text(number), dimension_of(self.unit), limits)
-        wrong = f"parameter '{self.name}' is {given}, outside its range; give {self.range_text()}"
-        raise ParameterError(wrong + meant)
+        raise ParameterError(
+            f"parameter '{self.name}' is {given}{first_place(bad)}, outside its range; give "
+            f"{self.range_text()}{meant}"
+        )

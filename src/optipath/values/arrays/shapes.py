@@ -166,3 +166,37 @@ def real_array(what: str, value: Any, tail: tuple[int, ...]) -> npt.NDArray[Any]
         shape = ", ".join(map(str, ("...", *tail)))
         raise ShapeError(f"{what} is real and of shape ({shape}), not {array.dtype} {array.shape}")
     return array
+
+
+def place_text(shape: tuple[int, ...], at: int) -> str:
+    """Say where something stands in an array, ready to be put behind it; nothing of one alone.
+
+    Parameters
+    ----------
+    shape : tuple of int
+        That of the array.
+    at : int
+        The place in its entries, one row after the other.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> place_text((5,), 3), place_text((2, 3), 4), place_text((), 0)
+    (' at 3', ' at (1, 1)', '')
+    """
+    place = tuple(int(i) for i in np.unravel_index(at, shape))
+    return f" at {place if len(place) > 1 else place[0]}" if place else ""
+
+
+def first_place(bad: npt.NDArray[np.bool_]) -> str:
+    """Say where the first of an array is true, as `place_text` does.
+
+    Examples
+    --------
+    >>> first_place(np.array([False, True, True]))
+    ' at 1'
+    """
+    return place_text(bad.shape, int(np.argmax(bad)))

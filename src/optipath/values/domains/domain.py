@@ -14,6 +14,7 @@ from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import changed, read_only
+from optipath.values.arrays.shapes import first_place
 from optipath.values.degrees import TURN, called
 from optipath.values.parameters import Parameter
 from optipath.values.roundings import as_doubles, doubles, rounding_of
@@ -89,7 +90,8 @@ class Domain:
             raise ValueFault(f"{owner} {self._no_number(value, array)}")
         self._check_shape(owner, array.shape)
         if not np.all(np.isfinite(array)):
-            found = array[~np.isfinite(array)].ravel()[0]
+            bad = ~np.isfinite(array)
+            found = f"{array[bad].ravel()[0]}{first_place(bad)}"
             raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
         self._check_numbers(owner, array, rounding_of(given))
         return array
@@ -268,7 +270,9 @@ class Domain:
         if np.any(bad):
             number = float(array[bad].ravel()[0])
             value, meant = self.called(number)
-            raise ValueFault(f"{owner} is {value}; give {self.described()}{meant}")
+            raise ValueFault(
+                f"{owner} is {value}{first_place(bad)}; give {self.described()}{meant}"
+            )
 
     def called(self, number: float) -> tuple[str, str]:
         """Return how a number that is not allowed is called, and what it was meant to be."""

@@ -12,6 +12,7 @@ from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.read_only import read_only
+from optipath.values.arrays.shapes import first_place
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.pair import is_pair
@@ -80,7 +81,7 @@ class IndexDomain(Domain):
         if np.any(bad):
             value = array[bad].ravel()[0]
             cure = " (the field is exp(-iwt): k > 0 absorbs)" if value.imag < 0.0 else ""
-            raise ValueFault(f"{owner} is {value}; give {self.described()}{cure}")
+            raise ValueFault(f"{owner} is {value}{first_place(bad)}; give {self.described()}{cure}")
 
 
 class OutsideDomain(Domain):
