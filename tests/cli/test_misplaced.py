@@ -25,6 +25,8 @@ from optipath.cli import main
         ("run --hepl", "option '--hepl' is unknown; did you mean '--help'?"),
         ("run npgr026 -delta 30", "option '-delta' is unknown; did you mean '--delta'?"),
         ("run npgr026 -delta=30", "option '-delta' is unknown; did you mean '--delta'?"),
+        ("run npgr026 --del 30", "option '--del' is unknown; did you mean '--delta'?"),
+        ("run npgr026 --n1 0,170", "'0,170' is not a quantity; did you mean '0.170'?"),
         ("run npgr026 --n1 0,17", "'0,17' is not a quantity; did you mean '0.17'?"),
         (
             "run npgr026 --delta '30,5 deg'",
