@@ -21,6 +21,8 @@ from optipath.cli import main
         ("run npgr026 delta=30", "'delta=30' is no option; write --delta 30"),
         ("run npgr026 —delta 30", "'—delta' is no option; write --delta 30"),
         ("run npgr026 delta '30 deg'", "'delta' is no option; write --delta '30 deg'"),
+        ("run npgr026 json", "'json' is no option; write --json\n"),
+        ("run npgr026 delta --rho 3", "'delta' is no option; write --delta VALUE"),
         ("run npgr026 --delta= 30", "'30' is cut off from --delta=; write --delta 30"),
         ("run --hepl", "option '--hepl' is unknown; did you mean '--help'?"),
         ("run npgr026 -delta 30", "option '-delta' is unknown; did you mean '--delta'?"),
