@@ -197,3 +197,46 @@ def test_light_may_pass_an_element_twice_by_different_ways():
     path.connect("two.d", "eye.in")
     assert path.trace().intensity == 0.5
     assert draw(path).splitlines()[0].startswith("lamp")
+
+
+CROSSED = op.Polarizer(0.0, azimuth=np.pi / 2)
+
+
+def in_a_path(*elements):
+    chain = op.Source(stokes=[1.0, 1.0, 0.0, 0.0])
+    for element in elements:
+        chain = chain >> element
+    return chain >> op.Detector()
+
+
+@pytest.mark.parametrize(
+    "found",
+    [
+        lambda light: CROSSED.mueller() @ light,
+        lambda light: CROSSED @ light,
+        lambda light: CROSSED.mueller() @ op.Polarizer(0.0).mueller() @ light,
+        lambda light: CROSSED.mueller() @ op.Polarizer(0.0) @ light,
+        lambda light: CROSSED @ op.Polarizer(0.0).mueller() @ light,
+        lambda light: op.Polarizer(0.0).mueller() @ CROSSED.mueller() @ light,
+        lambda _: in_a_path(CROSSED).trace(),
+        lambda light: in_a_path(CROSSED).mueller() @ light,
+    ],
+)
+def test_an_azimuth_turns_an_element_alone_as_in_a_path(found):
+    assert abs(found(op.Light([1.0, 1.0, 0.0, 0.0])).S0) < 1e-15
+
+
+def test_an_azimuth_turns_the_frames_of_the_matrix():
+    turned = op.Frame().turned(0.3)
+    straight, aside = op.Retarder(0.4, azimuth=0.3), op.Interface(1.5, 0.8, azimuth=0.3)
+    splitter = op.BeamSplitter(0.5, azimuth=0.3)
+    assert (straight.mueller().frame_in, straight.mueller().frame_out) == (turned, turned)
+    assert (aside.mueller().frame_in, aside.mueller().frame_out) == (turned, op.Frame())
+    assert aside.mueller("back", "reflected").frame_in == op.Frame()
+    assert splitter.mueller("in", "transmitted").frame_out == turned
+
+
+@pytest.mark.parametrize("port", ["frame_in", "frame_out"])
+def test_a_world_frame_and_an_azimuth_are_refused_together(port):
+    with pytest.raises(op.PathError, match="world frames and by an azimuth; give one of them"):
+        CROSSED.mueller(**{port: op.Frame()})

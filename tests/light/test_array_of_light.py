@@ -82,7 +82,13 @@ def test_a_single_light_is_no_batch_and_says_so(call):
     assert issubclass(op.LightError, TypeError)
 
 
-@pytest.mark.parametrize("key", [0, (..., 0), "S0", 1.5, [True, False]])
+@pytest.mark.parametrize(
+    "key",
+    [
+        *[0, (..., 0), "S0", 1.5, [True, False]],
+        *[slice("a", "b"), slice(0, 2, 0), [[0, 1], [2]]],
+    ],
+)
 def test_an_index_that_does_not_fit_names_the_components(key):
     for light in (op.Light(THREE[0]), op.Light(THREE)[:, None]):
         if light.ndim and key in (0, (..., 0)):
@@ -109,7 +115,7 @@ def test_factors_broadcast_over_the_batch():
 
 def test_multiples_neither_fade_nor_lose_precision():
     assert (1e-200 * op.Light([1e-200, 0, 0, 0])).log10_intensity == pytest.approx(-400)
-    assert (2 * FAINT).exponent == -4999
+    assert op.Light([1.0, 0.6, 0.0, 0.8], exponent=-4999) == 2 * FAINT
     assert (2 * FAINT).dop == pytest.approx(1.0)
     single = op.Light(np.array([1.0, 0.5, 0.0, 0.0], np.float32))
     assert (0.1 * single).stokes.dtype == np.float32
@@ -133,6 +139,8 @@ def test_multiples_neither_fade_nor_lose_precision():
         (lambda light: light + 1.0, "1.0 is no light"),
         (lambda light: 1.0 + light, "1.0 is no light"),
         (lambda light: light @ np.eye(4), "element @ light"),
+        (lambda light: op.Polarizer(0) * light, "write element @ light"),
+        (lambda light: light * op.Mueller(np.eye(4)), "matrix @ light"),
         (lambda light: np.eye(4) @ light, r"Mueller\(matrix\) @ light"),
         (np.sin, "numpy.sin takes numbers"),
         (np.sum, "numpy.sum takes numbers"),
@@ -272,3 +280,66 @@ def test_factors_that_jax_traces_are_taken():
     jax = pytest.importorskip("jax")
     slope = jax.grad(lambda factor: (factor * op.Light(THREE[1])).S0)(3.0)
     assert slope == 2.0
+
+
+@pytest.mark.parametrize("shape", [-1, (12,), (4, 3), (2, -1, 2)])
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_numpy_gives_light_another_shape(shape, order):
+    places = np.arange(12.0).reshape(3, 4)
+    light = op.Light(np.stack([places, places, 0 * places, 0 * places], axis=-1))
+    found = np.reshape(light, shape, order=order)
+    assert isinstance(found, op.Light)
+    np.testing.assert_array_equal(found.S1, np.reshape(places, shape, order=order))
+
+
+SINGLE = op.Light(np.array([[1.0, 0.6, 0.0, 0.8]] * 2, np.float32))
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        SINGLE + SINGLE,
+        SINGLE + op.Light([1.0, 0.0, 0.0, 0.0]),
+        op.Light([1.0, 0.0, 0.0, 0.0]) + SINGLE,
+        SINGLE * np.float64(0.3),
+        SINGLE / [0.3, 0.7],
+        SINGLE.in_frame(op.Frame().turned(0.3)),
+        op.Retarder(0.3, 0.2) @ SINGLE,
+        op.Mueller(op.Retarder(0.3).mueller().matrix.astype("f4")) @ op.Light([1.0, 0, 0, 1.0]),
+    ],
+)
+def test_light_keeps_the_coarser_precision_and_is_light(made):
+    assert made.mantissa.dtype == made.stokes.dtype == np.float32
+    assert op.Light.from_("mitsuba", made.to("mitsuba")).dop.max() <= 1 + 2.0**-22
+
+
+def test_light_in_less_precision_keeps_its_range():
+    faint = op.Light([1e-300, 0.0, 0.0, 0.0]) + op.Light(np.zeros(4, np.float32))
+    assert faint.log10_intensity == pytest.approx(-300)
+    assert (SINGLE[0] * 1e-300).log10_intensity == pytest.approx(-300)
+
+
+@pytest.mark.parametrize("factor", [1e-320, 5e-324, 1e-30])
+def test_light_that_is_dimmed_keeps_its_digits(factor):
+    light = op.Light([1.0, 0.5, 0.0, 0.2])
+    for dimmed in (light * factor, light * factor * factor, light * factor / 3.0):
+        np.testing.assert_allclose(dimmed.dop, np.sqrt(0.29), rtol=1e-15)
+        np.testing.assert_allclose(dimmed.normalized, light.stokes, rtol=1e-15)
+
+
+def test_several_lights_are_made_one_batch_as_the_sentence_says():
+    a, b = op.Light(THREE[0]), op.Light(THREE[1])
+    with pytest.raises(op.ShapeError, match=r"op\.Light\(\[a\.stokes, b\.stokes\], a\.frame\)"):
+        op.Light([a, b])
+    assert op.Light([a.stokes, b.stokes], a.frame)[1] == b
+
+
+def test_light_carried_as_jones_columns_is_shown_as_its_numbers():
+    path = op.load_preset("npgr026", case=8)
+    light = op.Composer(composing="jones").compose(path).run()
+    assert str(light) == str(path.trace()) == repr(light)
+
+
+def test_one_light_is_equal_to_itself_by_other_powers_of_two():
+    assert op.Light([0.5, 0.25, 0.0, 0.0], exponent=1) == op.Light([1.0, 0.5, 0.0, 0.0])
+    assert op.Light([0.5, 0.25, 0.0, 0.0], exponent=2) != op.Light([1.0, 0.5, 0.0, 0.0])

@@ -1,3 +1,6 @@
+import copy
+import pickle
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
@@ -68,6 +71,51 @@ def test_directions_may_differ_by_rounding_and_no_more():
     off = op.Frame.from_direction(z=(0, 2e-8, 1), x=(1, 0, 0))
     with pytest.raises(op.FrameError, match="one direction"):
         op.Frame().turn_to(off)
+
+
+@pytest.mark.parametrize("angle", ["2e-08", "1e-05"])
+def test_directions_that_differ_by_little_are_told_with_their_angle(angle):
+    off = op.Frame.from_direction(z=(0, float(angle), 1), x=(1, 0, 0))
+    with pytest.raises(op.FrameError, match=f", {angle} rad beside it; only frames"):
+        op.Light([1, 0, 0, 0]) + op.Light([1, 0, 0, 0], off)
+
+
+def rounded(frame, dtype=np.float32):
+    return op.Frame(*(axis.astype(dtype) for axis in (frame.x, frame.y, frame.z)))
+
+
+@given(rotation=rotations(), angle=ANGLES, dtype=st.sampled_from([np.float32, np.float16]))
+def test_frames_rounded_to_less_precision_are_aligned_with_others(rotation, angle, dtype):
+    frame = op.Frame().rotated(rotation)
+    turned = frame.turned(angle)
+    several = rounded(frame.turned([0.0, 1.0]), dtype)
+    (one,) = op.Light([[1, 1, 0, 0]] * 2, several)[:1]
+    wanted = [1, np.cos(2 * angle), -np.sin(2 * angle), 0]
+    tolerance = 8 * np.finfo(dtype).eps
+    for off in (rounded(frame, dtype), pickle.loads(pickle.dumps(rounded(frame, dtype)))):
+        for start, end in (
+            (off, turned),
+            (frame, rounded(turned, dtype)),
+            (off, off.turned(angle)),
+        ):
+            light = op.Light([1, 1, 0, 0], start).in_frame(end)
+            np.testing.assert_allclose(light.stokes, wanted, rtol=0, atol=tolerance)
+    direction = frame.z.astype(dtype)
+    frame.turn_to(op.Frame.from_direction(direction, frame.x))
+    frame.turn_to(op.plane_of_incidence(direction, frame.x + frame.z).arriving)
+    frame.turn_to(one.frame)
+
+
+def test_axes_of_doubles_may_say_what_they_were_rounded_to():
+    x, y, z = np.float32([[0.6, 0.8, 0], [-0.8, 0.6, 0], [0, 0, 1]]).astype(float)
+    with pytest.raises(op.FrameError, match="off by"):
+        op.Frame(x, y, z)
+    frame = op.Frame(x, y, z, rounding=np.finfo(np.float32).eps)
+    assert abs(np.linalg.norm(frame.x) - 1) <= 1e-15
+    assert copy.copy(frame) == frame
+    for wrong in (-1, 0.1, np.nan, "1e-7"):
+        with pytest.raises(op.FrameError, match=r"from 0 to 0.0009765625, not .*; leave it out"):
+            op.Frame(rounding=wrong)
 
 
 @pytest.mark.parametrize("stretch", [1e-7, -1e-7])

@@ -32,6 +32,13 @@ NOT_TRACED = [
 ]
 
 
+@pytest.fixture
+def x64():
+    jax.config.update("jax_enable_x64", val=True)
+    yield
+    jax.config.update("jax_enable_x64", val=False)
+
+
 def matrix():
     return np.array(op.Interface(0.6 + 2.1j, 0.8).mueller().matrix)
 
@@ -152,3 +159,66 @@ def test_a_default_that_jax_traces_has_a_slope():
         jax.config.update("jax_enable_x64", val=False)
     # Half of cos^2 has the slope -sin cos.
     np.testing.assert_allclose(found, -np.sin(0.3) * np.cos(0.3), rtol=1e-12)
+
+
+def test_an_index_may_be_traced():
+    lights, matrices = op.Light(STOKES), op.Retarder([0.1, 0.2]).mueller()
+    np.testing.assert_allclose(jax.jit(lambda i: lights[i].S0)(1), 1.0)
+    np.testing.assert_allclose(jax.jit(lambda i: lights[None][0, i].S1)(0), 0.6, rtol=1e-6)
+    found = jax.jit(lambda i: matrices[i].matrix)(1)
+    np.testing.assert_allclose(found, matrices.matrix[1], rtol=1e-6)
+
+
+@pytest.mark.parametrize("done", [lambda light, x: light * x, lambda light, x: light / x])
+def test_a_factor_that_light_does_not_have_makes_it_nan_with_its_slopes(done):
+    light = op.Light(STOKES[1])
+    for made in (lambda x: done(light, x).S0, lambda x: done(op.Light(abs(x) * STOKES[1]), x).S0):
+        found = jax.vmap(jax.value_and_grad(made))(jnp.array([-1.0, jnp.inf, jnp.nan]))
+        assert np.isnan(found).all()
+    found = jax.vmap(jax.value_and_grad(lambda x: (light * x).S0))(jnp.array([0.0, 2.0]))
+    np.testing.assert_array_equal(found, [[0.0, 2.0], [1.0, 1.0]])
+    assert np.isnan(jax.jit(lambda x: (light / x).S0)(0.0))
+
+
+def test_a_traced_matrix_that_makes_no_light_of_light_gives_nan_with_its_slopes():
+    def made(x, light):
+        return (
+            op.Mueller(jnp.diag(jnp.array([3.0, 0.0, 0.0, 1.0]) * x ** jnp.arange(4))) @ light
+        ).S3
+
+    light = op.Light([1.0, 0.0, 0.0, 1.0])
+    value, slope = jax.vmap(jax.value_and_grad(lambda x: made(x, light)))(jnp.array([1.0, 2.0]))
+    # x^3 is no more than 3.
+    np.testing.assert_allclose(value, [1.0, np.nan])
+    np.testing.assert_allclose(slope, [3.0, np.nan])
+    free = op.Light([1.0, 0.0, 0.0, 1.0], physical=False)
+    np.testing.assert_allclose(jax.jit(lambda x: made(x, free))(2.0), 8.0)
+
+
+def test_numpy_is_told_where_traced_light_has_its_numbers():
+    with pytest.raises(op.ParameterError, match=r"take light\.stokes, inside of jit"):
+        jax.jit(lambda s: jnp.asarray(op.Light(s)))(STOKES)
+
+
+@pytest.mark.parametrize(
+    "done",
+    [
+        lambda light, _: (2 * light).stokes,
+        lambda light, _: (light / 3 + 2 * light).stokes,
+        lambda light, _: light[0].stokes,
+        lambda light, _: jnp.stack([one.stokes for one in light]),
+        lambda light, _: light.reshape(2, 1)[:, 0].stokes,
+        lambda _, matrix: matrix.matrix,
+        lambda _, matrix: matrix[0].matrix,
+    ],
+)
+@pytest.mark.usefixtures("x64")
+def test_frames_of_traced_vertices_are_made_where_somebody_asks_alone(done):
+    plan = op.path_from_vertices(op.Parameter("points"), materials=[1.5, 1.3 + 3.4j]).compose()
+    points = np.array([[0, 0, 2], [0, 0, 0], [0, 2, 0], [1, 2, 1.0]])
+    both = np.stack([points, points * [1, 2, 1]])
+
+    def found(points):
+        return done(plan.run(points=points), plan.mueller(points=points))
+
+    np.testing.assert_allclose(jax.jit(found)(both), found(both), rtol=1e-12, atol=1e-14)

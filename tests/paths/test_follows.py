@@ -139,20 +139,75 @@ def test_what_is_taken_over_has_no_arithmetic(arithmetic):
         arithmetic()
 
 
-def test_light_of_several_media_gives_none():
+def merged(*boundaries):
+    """Boundaries whose lights meet at one face, which takes over what they have."""
     path = op.PathGraph()
     path.add("both", op.Combiner())
-    for index in (1.5, 1.6):
-        path.add(f"lamp {index:.0%}", op.Source())
-        path.add(f"glass {index:.0%}", op.Interface(index, 0.3))
-        path.connect(f"lamp {index:.0%}.out", f"glass {index:.0%}.in")
-        path.connect(f"glass {index:.0%}.transmitted", "both.in")
+    for number, boundary in enumerate(boundaries):
+        path.add(f"lamp{number}", op.Source())
+        path.add(f"b{number}", boundary)
+        path.connect(f"lamp{number}", f"b{number}")
+        path.connect(f"b{number}.transmitted", "both")
     path.add("face", SECOND)
     path.add("eye", op.Detector())
     path.connect("both.out", "face.in")
     path.connect("face.transmitted", "eye.in")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("boundaries", "given", "words"),
+    [
+        (
+            [op.Interface(1.5, 0.3), op.Interface(1.6, 0.3)],
+            {},
+            "light of several media comes to 'face.in'; give each light a face of its own",
+        ),
+        (
+            [op.Interface(op.Parameter("n"), 0.3), op.Interface(2 * op.Parameter("m"), 0.3)],
+            {"n": 1.5, "m": 0.8},
+            (
+                "lit from 2 * m = 1.6 behind 'b1' (by 'b1.transmitted'), but has taken its outside "
+                "over (FOLLOWS) from other light, in n = 1.5 (parameter 'n'); light of several "
+                "media merges there: give each light a face of its own"
+            ),
+        ),
+        *(
+            (
+                [op.Interface(1.5, "40 deg"), op.Interface(1.5, second)],
+                given,
+                (
+                    "'face' has taken its incidence over (FOLLOWS) from other light: "
+                    "n sin(incidence) is 0.5 at 'b1' and 0.6427876097 at 'face' (40 deg in n = 1); "
+                    "light of several directions merges there: give each light a face of its own"
+                ),
+            )
+            for second, given in (("30 deg", {}), (op.Parameter("t"), {"t": "30 deg"}))
+        ),
+    ],
+)
+def test_lights_that_differ_and_merge_have_nothing_to_take_over(boundaries, given, words):
+    path = merged(*boundaries)
+    with pytest.raises(op.OptipathError) as error:
+        path.trace(**given)
+    (fault,) = error.value.faults
+    assert words in fault
+
+
+def test_a_face_in_space_is_told_that_its_frames_keep_it_from_taking_over():
+    frames = {"in": op.Frame(), "transmitted": op.Frame()}
+    path = op.PathGraph()
+    path.add("lamp", op.Source(), {"out": op.Frame()})
+    path.add("front", op.Interface(1.5, 0.0), frames)
+    path.add("back", SECOND, frames)
+    path.add("eye", op.Detector())
+    for link in (("lamp", "front"), ("front.transmitted", "back"), ("back.transmitted", "eye")):
+        path.connect(*link)
     (fault,) = faults_of(path)
-    assert "light of several media comes to 'face.in'" in fault
+    assert fault == (
+        "'back' takes its incidence over (FOLLOWS), but its world frames say how it stands to what "
+        "is before it; give the angle"
+    )
 
 
 def test_boundaries_that_only_take_over_from_each_other_have_nothing():

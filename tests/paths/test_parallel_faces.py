@@ -111,9 +111,53 @@ def test_at_normal_incidence_any_azimuth_will_do():
     for azimuth in (0.7, op.Parameter("a", 0.7)):
         back = op.Interface(1.0, F, outside=F, azimuth=azimuth)
         for to in (None, "front.back"):
-            light = slab(op.Interface(1.5, 0.0), back, to=to).trace()
+            light = slab(op.Interface(1.5, 0.0), back, to=to, azimuth=azimuth if to else None)
             loss = 2 * 1.5 / (1 + 1.5**2) if to else 0.96**2
-            assert light.intensity == pytest.approx(loss, rel=1e-12)
+            assert light.trace().intensity == pytest.approx(loss, rel=1e-12)
+
+
+@pytest.mark.parametrize("indices", [[1, 1.5, 1], [1, 1.5, 1.3, 1.7]])
+def test_a_stack_that_is_turned_about_its_normal_does_the_same(indices):
+    state, turn = np.array([1, 0.4, 0.3, 0.2]), 0.3
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(stokes=state))
+    light, incidence = "lamp.out", op.Parameter("t", 0.0)
+    for number, index in enumerate(indices[1:]):
+        azimuth = op.Parameter(f"a{number}", 0.0 if number == 0 else turn * (-2) ** number)
+        face = op.Interface(index, F if number else incidence, F if number else 1, azimuth=azimuth)
+        path.add(f"f{number}", face)
+        path.connect(light, f"f{number}.in")
+        if number:
+            path.connect(f"f{number}.reflected", f"f{number - 1}.back", azimuth=azimuth)
+        light = f"f{number}.transmitted"
+    path.add("T", op.Detector())
+    path.add("R", op.Detector())
+    path.connect(light, "T.in")
+    path.connect("f0.reflected", "R.in")
+    # Of layers that lose nothing and do not interfere, (1 - T) / T adds up.
+    pairs = np.array(list(itertools.pairwise(indices)))
+    loss = np.sum((pairs[:, 0] - pairs[:, 1]) ** 2 / (4 * pairs[:, 0] * pairs[:, 1]))
+    through, back = 1 / (1 + loss), loss / (1 + loss)
+    both = 2 * sum(turn * (-2) ** number for number in range(1, len(indices) - 1))
+    c, s = np.cos(both), np.sin(both)
+    turned = [1, c * state[1] + s * state[2], c * state[2] - s * state[1], state[3]]
+    found = path.trace_all()
+    np.testing.assert_allclose(found["T"].stokes, through * np.array(turned), atol=1e-14)
+    np.testing.assert_allclose(found["R"].stokes, back * state * [1, 1, -1, -1], atol=1e-14)
+
+
+@pytest.mark.parametrize("back", [None, -0.3, op.Parameter("b")])
+def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
+    turned = op.Interface(1.0, F, outside=F, azimuth=0.3)
+    late = {"b": [0.3, -0.3]} if isinstance(back, op.Parameter) else {}
+    fault = fault_of(slab(op.Interface(1.5, 0.0), turned, azimuth=back), **late)
+    second = "0 deg" if back is None else "-17.18873385 deg"
+    assert "by 17.18873385 deg on the way from 'front.transmitted' to 'back.in', and by" in fault
+    assert f"and by {second}" in fault
+    assert "let the azimuths on either way add up to the same" in fault
+    # A half turn is none to polarised light.
+    half = slab(op.Interface(1.5, 0.0), turned, azimuth=0.3 - np.pi)
+    assert half.trace().intensity == pytest.approx(2 * 1.5 / (1 + 1.5**2), rel=1e-12)
 
 
 def test_light_does_not_come_back_from_a_face_at_an_angle():

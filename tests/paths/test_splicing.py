@@ -399,9 +399,12 @@ def test_a_port_that_feeds_several_links_is_asked_which_is_taken_out():
     assert not path.graph.has_edge("S", "A")
 
 
-def test_an_element_without_a_name_is_told_how_to_add_it():
-    with pytest.raises(op.PathError, match=r"path\.add\('rotator', Rotator\(angle=0\.2\)\)$"):
-        op.PathGraph().add(op.Rotator(0.2))
+@pytest.mark.parametrize(
+    ("element", "name"), [(op.Rotator(0.2), "rotator"), (op.Rotator(0.2).named("a"), "a")]
+)
+def test_an_element_without_a_name_is_told_how_to_add_it(element, name):
+    with pytest.raises(op.PathError, match=rf"path\.add\('{name}', Rotator\(angle=0\.2\)\)$"):
+        op.PathGraph().add(element)
 
 
 def test_a_link_that_is_not_there_is_not_taken_out():

@@ -52,7 +52,11 @@ def vanishes(operand: Operand) -> bool:
 def known_numbers(
     program: Program,
 ) -> tuple[list[float | None], list[tuple[float, ...] | None]]:
-    """Return the number of each operand, and those of each evaluation, as far as known."""
+    """Return the number of each operand, and those of each evaluation, as far as known.
+
+    Where light goes round, evaluations may be done in twice the digits, in which what floats
+    give as 0 or 1 may be neither: none is known.
+    """
     operands = [number_of(operand) for operand in program.operands]
     found: list[tuple[float, ...] | None] = []
     for evaluation in program.evaluations:
@@ -63,7 +67,8 @@ def known_numbers(
                 given.append(None if results is None else results[argument.place])
             else:
                 given.append(operands[argument])
-        found.append(None if None in given else _evaluated(evaluation.kernel, tuple(given)))
+        unknown = None in given or program.loops
+        found.append(None if unknown else _evaluated(evaluation.kernel, tuple(given)))
     return operands, found
 
 

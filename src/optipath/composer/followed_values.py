@@ -55,9 +55,7 @@ def with_followed(
     taking = _Taking(elements, Meetings(Wiring(graph)))
     faults = {name: [*taking.faults(name)] for name in names if name not in unsure}
     found = graph.copy()
-    found.graph[FOLLOWING] = frozenset(
-        name for name in names if "incidence" in elements[name].followed()
-    )
+    found.graph[FOLLOWING] = {name: elements[name].followed() for name in names}
     found.graph[TAKEN_OVER] = frozenset(
         (name, field) for name in names for field in _filled(elements[name])
     )
@@ -87,6 +85,7 @@ class _Taking:
         self.given, self.elements = elements, dict(elements)
         self.fronts = _by_end(m for m in meetings.all if m.enters[1] == "in")
         self.layers = _by_end(meetings.in_layers)
+        self.in_space = _by_end(meetings.in_space)
         behind: dict[str, set[str]] = {}
         for into in (self.fronts, self.layers):
             for name, several in into.items():
@@ -143,7 +142,7 @@ class _Taking:
         elif took and any(_differ(index, element.medium_at("in")) for index in self._media(name)):
             yield (
                 f"'{name}' takes its {field} over (FOLLOWS), but light of several media comes to "
-                f"{port}; give the index of the medium in front"
+                f"{port}; give each light a face of its own"
             )
         if "incidence" in missing and not (_may_measure(element) and self.layers.get(name)):
             why = (
@@ -151,6 +150,8 @@ class _Taking:
                 if not _may_measure(element)
                 else "is not parallel to what is before it; give the angle"
                 if not element.parallel
+                else "its world frames say how it stands to what is before it; give the angle"
+                if name in self.in_space
                 else "no parallel boundary before it sends it light that it has refracted; give "
                 "the angle"
             )

@@ -10,8 +10,10 @@ import numpy as np
 from optipath.composer.meetings import Meetings, keys_of
 from optipath.composer.one_plane import OnePlane
 from optipath.composer.same_medium import SameMedium
+from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
 from optipath.elements.boundary_frames import BoundaryElement
+from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
 from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
@@ -24,10 +26,11 @@ if TYPE_CHECKING:
     from optipath.composer.meetings import Meeting
     from optipath.composer.travel import Port
     from optipath.composer.wiring import Wiring
+    from optipath.elements.world_angle import WorldAngle
     from optipath.values.agreement import Agreement
 
 FOLLOWING = "following"
-"""By what a graph knows the boundaries that have taken an incidence over."""
+"""By what a graph knows the boundaries that have taken something over, and of which fields."""
 
 
 class Media:
@@ -43,13 +46,13 @@ class Media:
 
     def __init__(self, wiring: Wiring) -> None:
         self.elements = wiring.elements
-        self.following = wiring.graph.graph.get(FOLLOWING, frozenset())
+        self.following = wiring.graph.graph.get(FOLLOWING, {})
         self.meetings = Meetings(wiring)
 
     @cached_property
     def open(self) -> tuple[Agreement, ...]:
         """What is looked at when the path runs, since a value is given only then."""
-        return tuple(agreement for agreement in self._all if agreement.is_open)
+        return tuple(a for a in (*self._all, *self._in_space) if a.is_open)
 
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""
@@ -58,7 +61,7 @@ class Media:
 
     @property
     def _all(self) -> tuple[Agreement, ...]:
-        return *self._media, *self._planes, *self._angles
+        return *self._media, *self._planes, *self._angles, *self._rounds
 
     @cached_property
     def _media(self) -> tuple[SameMedium, ...]:
@@ -74,7 +77,8 @@ class Media:
                 operands = index_of(first), index_of(second), *([] if k is None else [k])
                 measures = enters[1] == "in" and self._measures_in_front(enters)
                 ports = ".".join(leaves), ".".join(enters)
-                found.append(SameMedium(operands, *ports, field, measures))
+                follows = enters[1] == "in" and self._follows(enters[0], "outside")
+                found.append(SameMedium(operands, *ports, field, measures, follows))
         return tuple(found)
 
     @cached_property
@@ -95,6 +99,7 @@ class Media:
                         ".".join(enters),
                         ends=self._ends(meeting),
                         may_be_told=self.meetings.may_be_told(meeting),
+                        follows=self._follows(enters[0], "incidence"),
                     )
                     found.setdefault((meeting.sides, keys_of(turns)), law)
         return tuple(found.values())
@@ -104,7 +109,7 @@ class Media:
         found: dict[Any, OnePlane] = {}
         for meeting in self.meetings.in_layers:
             leaves, enters = meeting.leaves, meeting.enters
-            follows = enters[0] in self.following
+            follows = self._follows(enters[0], "incidence")
             if meeting.turns and (follows or meeting.sides in self.meetings.to_and_fro):
                 first: Any = self.elements[leaves[0]]
                 operands = tuple(map(Operand, (first.incidence, *meeting.turns)))
@@ -113,11 +118,36 @@ class Media:
                     found.setdefault((leaves, enters, keys_of(meeting.turns)), plane)
         return tuple(found.values())
 
+    @cached_property
+    def _rounds(self) -> tuple[SameTurn, ...]:
+        found = []
+        first: dict[Any, Meeting] = {}
+        for meeting in self.meetings.in_layers:
+            if meeting.sides in self.meetings.to_and_fro:
+                one = first.setdefault(meeting.sides, meeting)
+                if keys_of(one.turns) != keys_of(meeting.turns):
+                    operands = tuple(map(Operand, (*one.turns, *meeting.turns)))
+                    ways = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, meeting)]
+                    found.append(SameTurn(operands, len(one.turns), *ways))
+        return tuple(found)
+
+    @property
+    def _in_space(self) -> Iterator[WorldAngle]:
+        """What frames in the world say of angles; what is known of it is told with the frames."""
+        for name, element in self.elements.items():
+            if isinstance(element, BoundaryElement):
+                yield from world_angles(
+                    name, element, self.meetings.wiring.graph.nodes[name]["frames"]
+                )
+
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""
         first, second = meeting.leaves, meeting.enters
         refracts = first[1] == "transmitted" and self._measures_in_front(first)
         return refracts, second[1] == "in" and self._measures_in_front(second)
+
+    def _follows(self, name: str, field: str) -> bool:
+        return field in self.following.get(name, ())
 
     def _medium(self, port: Port) -> Any:
         element: Any = self.elements[port[0]]

@@ -151,7 +151,12 @@ class Meetings:
     @cached_property
     def _straight(self) -> list[Meeting]:
         """The meetings of two faces whose directions no frames in the world give."""
-        return [m for m in self.all if self._of_faces(m) and not self._in_space(m)]
+        return [m for m in self.all if self._of_faces(m) and not self._is_in_space(m)]
+
+    @property
+    def in_space(self) -> list[Meeting]:
+        """The meetings of two faces whose directions their frames in the world give."""
+        return [m for m in self.all if self._of_faces(m) and self._is_in_space(m)]
 
     @cached_property
     def _told(self) -> set[frozenset[Port]]:
@@ -189,7 +194,7 @@ class Meetings:
             return (name, "in") in lit
         return (name, "back") in lit and (name, "in") not in lit
 
-    def _in_space(self, meeting: Meeting) -> bool:
+    def _is_in_space(self, meeting: Meeting) -> bool:
         nodes = (self.wiring.graph.nodes[name] for name, _ in (meeting.leaves, meeting.enters))
         return all(len(node["frames"]) > 1 for node in nodes)
 

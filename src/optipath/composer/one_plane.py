@@ -34,6 +34,11 @@ class OnePlane(Agreement):
     enters: str
     follows: bool
 
+    @property
+    def spoils(self) -> tuple[str, ...]:
+        """What else is said of the turns on this way."""
+        return (way_text(self.leaves, self.enters),)
+
     def fits(self, xp: Any, *numbers: Any) -> Any:
         angle, *turns = numbers
         return ~((abs(xp.sin(sum(turns))) > TURNED) & (abs(xp.sin(angle)) > _NORMAL))
@@ -47,7 +52,7 @@ class OnePlane(Agreement):
         else:
             why = f"light goes to and fro between '{name}' and '{own}', which are parallel then"
         return (
-            f"{why}, but the way from '{self.leaves}' to '{self.enters}' turns the plane of "
+            f"{why}, but the way from {way_text(self.leaves, self.enters)} turns the plane of "
             f"incidence by {turn_text(self.operands[1:], numbers[1:])}; {cure} (a polarizer or "
             f"retarder is turned by its angle, which turns nothing behind it)"
         )
@@ -68,4 +73,18 @@ def turn_text(operands: Any, turns: Any) -> str:
     str
     """
     each = [text_of(o, math.degrees(t), " deg") for o, t in zip(operands, turns, strict=True)]
-    return each[0] if len(each) == 1 else f"{math.degrees(sum(turns)):.10g} deg ({', '.join(each)})"
+    if len(each) == 1:
+        return each[0]
+    several = f" ({', '.join(each)})" if each else ""
+    return f"{math.degrees(sum(turns)):.10g} deg{several}"
+
+
+def way_text(leaves: str, enters: str) -> str:
+    """Write where light leaves one boundary and enters another.
+
+    Examples
+    --------
+    >>> way_text("front.transmitted", "back.in")
+    "'front.transmitted' to 'back.in'"
+    """
+    return f"'{leaves}' to '{enters}'"

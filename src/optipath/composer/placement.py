@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.wiring import link_text
+from optipath.elements.azimuths import azimuth_at
 from optipath.elements.coupling import Operation
 from optipath.errors import OptipathError, shown
 from optipath.kernels.catalogue import GIVEN_TURN, TURN
@@ -76,18 +77,7 @@ def azimuth_of(wiring: Wiring, link: Link) -> Any:
         In radians.
     """
     own = wiring.graph.edges[link]["azimuth"]
-    return _element_turn(wiring, link) if own is None else own
-
-
-def _element_turn(wiring: Wiring, link: Link) -> Any:
-    """Return the azimuth of the element that a link leads to, which is that of its ``in``.
-
-    Light that comes from behind is in the plane of the element already, or its link says how
-    it stands to it.
-    """
-    element, enters = wiring.elements[link[1]], link[2][1]
-    is_other = enters != "in" and "in" in element.inputs
-    return 0.0 if is_other else getattr(element, "azimuth", 0.0)
+    return azimuth_at(wiring.elements[link[1]], link[2][1]) if own is None else own
 
 
 def alignment(wiring: Wiring, link: Link) -> Operation | None:
@@ -172,7 +162,8 @@ def _between_faults(wiring: Wiring) -> Iterator[str]:
 def _link_faults(wiring: Wiring, link: Link) -> list[str]:
     start, end, (leaves, enters) = link
     arriving, expected = frame_at(wiring, start, leaves), frame_at(wiring, end, enters)
-    own, element_turn = wiring.graph.edges[link]["azimuth"], _element_turn(wiring, link)
+    own = wiring.graph.edges[link]["azimuth"]
+    element_turn = azimuth_at(wiring.elements[end], enters)
     text = f"link '{link_text(link)}'"
     if own is not None and not is_zero(element_turn):
         turns = f"{turn_text(own)} and {turn_text(element_turn)}"

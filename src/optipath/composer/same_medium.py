@@ -29,12 +29,15 @@ class SameMedium(Agreement):
         What the second index is called by its element.
     measures : bool
         Whether the incidence at the second is measured in its medium.
+    follows : bool
+        Whether the second has taken its medium over from other light.
     """
 
     leaves: str
     enters: str
     field: str
     measures: bool = False
+    follows: bool = False
 
     @property
     def spoils(self) -> tuple[str, ...]:
@@ -58,16 +61,21 @@ class SameMedium(Agreement):
                 f"'{name}' (by '{self.leaves}'); give '{name}' an index without k there, and link "
                 f"a Medium between, which absorbs on the way"
             )
+        is_lit = (
+            f"'{self.enters}' is lit from {_called(before)} {side} '{name}' (by '{self.leaves}')"
+        )
+        if self.follows:
+            return (
+                f"{is_lit}, but has taken its {self.field} over (FOLLOWS) from other light, in "
+                f"{_called(behind)}; light of several media merges there: give each light a face "
+                f"of its own"
+            )
         cures = [] if self._is_one_parameter else [self._cure(numbers[0])]
         if not self.enters.endswith(".back"):
             cures.append(f"{cure('op.FOLLOWS', FOLLOWS.in_file)} for {self.field}")
         elif not cures:
             cures.append(f"the same for {self.field} as there")
-        lit = before if "=" in before else f"n = {before}"
-        return (
-            f"'{self.enters}' is lit from {lit} {side} '{name}' (by '{self.leaves}'), but "
-            f"its {self.field} is {behind}; give {', or '.join(cures)}"
-        )
+        return f"{is_lit}, but its {self.field} is {behind}; give {', or '.join(cures)}"
 
     @property
     def _is_one_parameter(self) -> bool:
@@ -80,3 +88,8 @@ class SameMedium(Agreement):
         value: Any = self.operands[1].value
         given = value.formula if isinstance(value, Parameter) else self.field
         return f"{given} = {number:.12g}"
+
+
+def _called(number: str) -> str:
+    """Return how an index is called; a multiple of a parameter says it."""
+    return number if "=" in number else f"n = {number}"

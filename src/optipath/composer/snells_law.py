@@ -34,12 +34,15 @@ class SnellsLaw(Agreement):
         first, since it lets none through, and at the second, which none reaches then.
     may_be_told : bool
         Whether the second could say ``parallel=False``.
+    follows : bool
+        Whether the second has taken its incidence over from other light.
     """
 
     leaves: str
     enters: str
     ends: tuple[bool, bool] = (False, False)
     may_be_told: bool = True
+    follows: bool = False
 
     @property
     def rests_on(self) -> tuple[str, ...]:
@@ -86,6 +89,13 @@ class SnellsLaw(Agreement):
         if turns:
             turned = turn_text(self.operands[4:], turns)
             given += f"; their planes of incidence are one where azimuths come to {turned}"
+        if self.follows:
+            return (
+                f"light of '{self.leaves}' enters '{self.enters}', but '{own}' has taken its "
+                f"incidence over (FOLLOWS) from other light: n sin(incidence) is {here:.10g} at "
+                f"'{name}' and {there:.10g} at '{own}' ({given}); light of several directions "
+                f"merges there: give each light a face of its own"
+            )
         if self.may_be_told:
             why = (
                 f"faces are taken as parallel behind one that refracts; if '{own}' stands at an "

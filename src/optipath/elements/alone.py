@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from optipath.elements.azimuths import azimuth_at
 from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.own_couplings import couplings_of
 from optipath.elements.own_ways import own_ways
@@ -15,6 +18,7 @@ from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.made import faults_of
 from optipath.values.operands import Operand
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling
@@ -25,7 +29,12 @@ _TWO_MATRICES = 256
 
 
 def mueller_alone(
-    element: Any, enters: str, leaves: str, method: str, placed: tuple[Frame | None, Frame | None]
+    element: Any,
+    enters: str = "in",
+    leaves: str = "",
+    method: str = "stable",
+    placed: tuple[Frame | None, Frame | None] = (None, None),
+    before: Frame | None = None,
 ) -> Mueller:
     """Return the Mueller matrix of an element.
 
@@ -33,17 +42,22 @@ def mueller_alone(
     ----------
     element : Element
         The element, all of whose values are known.
-    enters, leaves : str
+    enters, leaves : str, optional
         The ports; an empty out-port is the natural one.
-    method : str
+    method : str, optional
         How Fresnel's equations are computed.
-    placed : tuple of Frame or None
+    placed : tuple of Frame or None, optional
         The world frames of the two ports, where they are given.
+    before : Frame, optional
+        The frame that light arrives in, against which an azimuth turns the element; the unit
+        frame by default.
 
     Returns
     -------
     Mueller
-        Between the two frames, or those that the element has by its values.
+        Between the two frames, or those that the element has by its values, or else as in a path:
+        from the frame before, turned by the azimuth, to the same where light goes straight
+        through, and to a unit frame where it goes another way.
 
     Raises
     ------
@@ -70,12 +84,12 @@ def mueller_alone(
     for given in placed:
         if given is not None and not isinstance(given, Frame):
             raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
-    if frame_in is not None and element.straight:
-        frame_out = frame_out or frame_in
     pairs = ((enters, frame_in), (leaves, frame_out))
     frames = {port: frame for port, frame in pairs if frame is not None}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
+    if not faults and element.frame_of(enters, frames) is not None:
+        faults = _twice_turned(owner, element, enters)
     if faults:
         raise PathError(*faults)
     batch = joint_shape(*shapes.values())
@@ -86,8 +100,11 @@ def mueller_alone(
             with enough_for(batch, _TWO_MATRICES, error=PathError):
                 _refuse_unphysical(own_ways(owner, element, entering, method))
                 matrix = coupling.matrix(method)
-            frame_in = frame_in or _own_frame(element, enters)
-            return Mueller.of(matrix, frame_in, frame_out or _own_frame(element, leaves))
+            found_in = _frame_at(element, enters, frames) or _turned(before, element, enters)
+            found_out = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
+            # An azimuth is in the frames alone.
+            matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
+            return Mueller.of(matrix, found_in, found_out)
     raise PathError(_no_way(owner, enters, leaves, couplings))
 
 
@@ -112,6 +129,21 @@ def _refuse_unphysical(ways: list[OwnWays]) -> None:
         raise PathError(*faults)
 
 
-def _own_frame(element: Any, port: str) -> Frame:
+def _twice_turned(owner: str, element: Any, enters: str) -> list[str]:
+    """Return the fault of an element that has a world frame and an azimuth, as a path does."""
+    if not np.any(Operand(azimuth_at(element, enters)).numbers()):
+        return []
+    return [f"{owner} is turned by its world frames and by an azimuth; give one of them"]
+
+
+def _frame_at(element: Any, port: str, frames: dict[str, Frame]) -> Frame | None:
+    """Return the frame of a port: given, or that which the element has by its values."""
     own = element.own_frame(port)
-    return own.frame({}) if own is not None else Frame()
+    return element.frame_of(port, frames) if own is None else own.frame({})  # type: ignore[no-any-return]
+
+
+def _turned(before: Frame | None, element: Any, enters: str) -> Frame:
+    """Return the frame that light arrives in, turned by the azimuth of an element."""
+    frame, azimuth = before or Frame(), Operand(azimuth_at(element, enters)).numbers()
+    with units_are_written():  # The angle was looked at when the element was made.
+        return frame.turned(azimuth) if np.any(azimuth) else frame

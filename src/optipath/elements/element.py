@@ -286,13 +286,14 @@ class Element(Chainable, ActsOnLight):
         method : str, optional
             How Fresnel's equations are computed.
         frame_in, frame_out : Frame, optional
-            The world frames of the two ports, for an element that stands in space; one
-            will do where light goes straight through.
+            The world frames of the two ports, for an element that stands in space and has no
+            azimuth; one will do where light goes straight through.
 
         Returns
         -------
         Mueller
-            Between these frames, or those that the element has by its values.
+            Between these frames, or those that the element has by its values: its azimuth turns
+            the unit frame.
 
         Raises
         ------

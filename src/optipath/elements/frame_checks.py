@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 
     from optipath.light.frames import Frame
 
-_TOLERANCE = 1e-8
-
 
 def same_frame(first: Frame, second: Frame) -> bool:
     """Tell whether two frames are one, to rounding.
@@ -34,7 +32,8 @@ def same_frame(first: Frame, second: Frame) -> bool:
     False
     """
     pairs = ((first.x, second.x), (first.z, second.z))
-    return all(bool(np.all(np.abs(one - other) <= _TOLERANCE)) for one, other in pairs)
+    rounding = first.rounding_to(second)
+    return all(bool(np.all(np.abs(one - other) <= rounding)) for one, other in pairs)
 
 
 def share_x(first: Frame, second: Frame) -> bool:
@@ -57,7 +56,7 @@ def share_x(first: Frame, second: Frame) -> bool:
     True
     """
     across = np.linalg.norm(np.cross(first.x, second.x), axis=-1)
-    return bool(np.all(across <= _TOLERANCE))
+    return bool(np.all(across <= first.rounding_to(second)))
 
 
 def incidence_between(arriving: Frame, reflected: Frame) -> npt.NDArray[np.float64]:

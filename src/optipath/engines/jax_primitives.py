@@ -11,11 +11,13 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.kernels.numbers.primitives import Primitives, is_below_rounding, product_and_rest
+from optipath.kernels.numbers.primitives import of_module
 from optipath.values.arrays.jax_values import is_jax
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+
+    from optipath.kernels.numbers.primitives import Primitives
 
 
 def _scaling(number: Any) -> int:
@@ -73,22 +75,8 @@ def _not_inlined() -> Any:
     return set_xla_metadata(inlineable="false")
 
 
-JAX = Primitives(
-    where=jnp.where,
-    sqrt=jnp.sqrt,
-    absolute=jnp.abs,
-    maximum=jnp.maximum,
-    minimum=jnp.minimum,
-    sin=jnp.sin,
-    cos=jnp.cos,
-    exp=jnp.exp,
-    atan2=jnp.arctan2,
-    scaling=_scaling,
-    ldexp=_ldexp,
-    two_product=product_and_rest,
-    below_rounding=is_below_rounding,
-    fixed=jax.lax.stop_gradient,
-    apart=_apart,
+JAX = replace(
+    of_module(jnp), scaling=_scaling, ldexp=_ldexp, fixed=jax.lax.stop_gradient, apart=_apart
 )
 
 

@@ -7,24 +7,31 @@ from typing import TYPE_CHECKING, Any, NoReturn, Self
 import numpy as np
 
 from optipath.errors import LightError, shown
+from optipath.light.array_axes import ArrayAxes
 from optipath.light.array_of_light import ArrayOfLight
+from optipath.light.frames_on_demand import FramesOnDemand
 from optipath.light.inherited_noise import inheriting
 from optipath.light.refused_products import why_refused
-from optipath.light.underflow import folded, normalise_exponent, times_two_to
+from optipath.light.underflow import (
+    folded,
+    normalise_exponent,
+    rounded_to,
+    times_two_to,
+)
 from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import is_jax, is_traced, known
+from optipath.values.arrays.jax_values import is_traced, known, namespace
 from optipath.values.arrays.shapes import check_broadcast
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.light.frames import Frame
-    from optipath.values.roundings import Array
 
 _CURE = "light adds up, light + light, and is taken times numbers >= 0, 0.5 * light, light / 2"
 
 
-class Arithmetic(ArrayOfLight):
+class Arithmetic(FramesOnDemand, ArrayOfLight):
     """What can be computed with light: incoherent sums, and multiples that are no negative."""
 
     frame: Frame
@@ -34,9 +41,12 @@ class Arithmetic(ArrayOfLight):
         if not isinstance(other, Arithmetic):
             self._refuse(f"{shown(other)} is no light to be added")
         check_broadcast({"light": self.shape, "other light": other.shape})
-        aligned = other.in_frame(self.frame)
+        # Frames that are known to be one need not be made.
+        is_one = other._kept_frame("frame") is self._kept_frame("frame")
+        aligned = other if is_one else other.in_frame(self.frame)
         if is_traced(self.mantissa) or is_traced(aligned.mantissa):
-            return self._like(self.stokes + aligned.stokes)
+            total = self.stokes + aligned.stokes
+            return self._like(total.astype(coarser(self.stokes, aligned.stokes)))
         one, two = self._numbers, aligned._numbers
         # Dark light has no exponent of its own.
         mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
@@ -45,6 +55,7 @@ class Arithmetic(ArrayOfLight):
         with np.errstate(over="ignore", invalid="ignore"):
             total = times_two_to(one, self.exponent - power)
             total = total + times_two_to(two, aligned.exponent - power)
+        total, power = rounded_to(coarser(one, two), total, power)
         return self._like(total, power, inheriting((self, aligned)))
 
     def __radd__(self, other: object) -> Self:
@@ -64,32 +75,45 @@ class Arithmetic(ArrayOfLight):
         return self._times(divisor, np.divide)
 
     def _times(self, factor: Any, done: Callable[[Any, Any], Any]) -> Self:
-        factor = self._factor(factor, least=0.0 if done is np.multiply else np.nextafter(0.0, 1.0))
+        multiplied = done is np.multiply
+        factor = self._factor(factor, dark=multiplied)
         batch = check_broadcast({"light": self.shape, "factor": factor.shape})
-        factor = factor[..., np.newaxis]
         if is_traced(self.mantissa) or is_traced(factor):
-            return self._like(self.stokes * factor if done is np.multiply else self.stokes / factor)
+            factor = factor[..., np.newaxis]
+            product = self.stokes * factor if multiplied else self.stokes / factor
+            return self._like(product.astype(coarser(product, self.stokes)))
+        # The power of two is the exponent's, so that no factor costs digits.
+        share, power = np.frexp(factor)
         stokes, exponent = normalise_exponent(self._numbers, self.exponent)
-        with np.errstate(over="ignore", invalid="ignore"):
-            stokes = done(stokes, factor)
-        share = factor[..., 0] if done is np.multiply else 1.0 / factor[..., 0]
+        stokes = done(stokes, share[..., np.newaxis]).astype(stokes.dtype, copy=False)
+        exponent = exponent + (power if multiplied else -power)
         stokes, exponent = folded(stokes, np.broadcast_to(exponent, batch))
-        return self._like(stokes, exponent, self._inherited(factor=share))
+        with np.errstate(over="ignore"):
+            left = factor if multiplied else 1.0 / factor
+        return self._like(stokes, exponent, self._inherited(factor=left))
 
-    def _factor(self, factor: Any, least: float) -> Array:
-        """Return a factor as an array of what keeps the precision of the light."""
-        if is_traced(factor):
-            return factor  # type: ignore[no-any-return]
+    def _factor(self, factor: Any, *, dark: bool) -> Any:
+        """Return an array of finite numbers above 0, or of 0 where that makes light dark."""
         if isinstance(factor, ArrayOfLight):
             self._refuse("light times light has no meaning")
-        array = as_given("a factor of light", known(factor), LightError)
+        if hasattr(factor, "mueller") or isinstance(factor, ArrayAxes):
+            raise LightError(
+                f"{shown(factor)} is what light meets; write element @ light, matrix @ light or "
+                f"path.mueller() @ light"
+            )
+        if is_traced(factor):
+            array = factor
+        else:
+            array = as_given("a factor of light", known(factor), LightError)
         if array.dtype.kind not in "biuf":
             self._refuse(f"{shown(factor)} is no real number")
-        if not np.all((array >= least) & (array < np.inf)):
-            bad = array[~((array >= least) & (array < np.inf))].ravel()[0]
-            self._refuse(f"light has no {bad!s}-fold" if least == 0.0 else f"{bad!s} divides none")
-        if type(factor) in (bool, int, float) and not is_jax(self.mantissa):
-            return array.astype(self.mantissa.dtype)
+        allowed = (array >= 0.0 if dark else array > 0.0) & (array < np.inf)
+        if is_traced(array):
+            # A product, since a choice would have slopes of 0.
+            array = array * namespace(array).where(allowed, 1.0, np.nan)
+        elif not np.all(allowed):
+            bad = array[~allowed].ravel()[0]
+            self._refuse(f"light has no {bad!s}-fold" if dark else f"{bad!s} divides none")
         return array if array.dtype.kind == "f" else array.astype(np.float64)
 
     def __matmul__(self, other: object) -> NoReturn:

@@ -1,20 +1,18 @@
-"""What light has of an array: a shape, an index, and its Stokes numbers for NumPy."""
+"""What light has of an array besides its axes: components, and what NumPy does with it."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
-from optipath.errors import IndexFault, LightError, ShapeError, shown
-from optipath.light.frames import Frame
+from optipath.errors import LightError
+from optipath.light.array_axes import ArrayAxes
 from optipath.light.polarization_state import PolarizationState
-from optipath.values.arrays.jax_values import check_known, is_traced, known
+from optipath.values.arrays.jax_values import is_traced, known
 from optipath.values.arrays.read_only import locked
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from optipath.values.roundings import Array
 
 _OPERATORS = {
@@ -49,8 +47,8 @@ _COPIED = 1 << 16
 """Of how many lights components are copied when somebody asks for them."""
 
 
-class ArrayOfLight(PolarizationState):
-    """Light as an array of lights: whatever concerns its axes, and not what light is.
+class ArrayOfLight(ArrayAxes, PolarizationState):
+    """Light as an array of lights, and not what light is.
 
     Light does not change. `stokes` is read-only; a component is a copy, which may be scaled in
     place, but of more than 65536 lights, where it is read-only, too.
@@ -58,6 +56,10 @@ class ArrayOfLight(PolarizationState):
 
     stokes: Array
     exponent: Array
+
+    _kind, _several = "light", "lights"
+    _attribute, _axes = "stokes", 1
+    _written, _entry = "light.stokes", "light.S0 .. light.S3, or light.stokes[..., 0]"
 
     @property
     def S0(self) -> Array:  # noqa: N802 - as everybody writes it
@@ -82,107 +84,6 @@ class ArrayOfLight(PolarizationState):
     def _component(self, place: int) -> Array:
         component: Array = handed_out(known(self.stokes)[..., place])
         return component
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The shape of the batch; () for a single light."""
-        return tuple(self.stokes.shape[:-1])
-
-    @property
-    def ndim(self) -> int:
-        """How many axes the batch has."""
-        return len(self.shape)
-
-    @property
-    def size(self) -> int:
-        """How many lights there are."""
-        return int(np.prod(self.shape, dtype=np.int64))
-
-    def __len__(self) -> int:
-        """Return how many lights there are along the first axis."""
-        self._check_batch("has no length")
-        return self.shape[0]
-
-    def __iter__(self) -> Iterator[Self]:
-        """Yield the lights along the first axis."""
-        self._check_batch("cannot be gone through")
-        return (self[place] for place in range(len(self)))
-
-    def _check_batch(self, problem: str) -> None:
-        if not self.shape:
-            raise LightError(
-                f"a single light {problem}; its numbers are light.S0 .. light.S3, or light.stokes"
-            )
-
-    def __bool__(self) -> NoReturn:
-        """Refuse to be true or false: dark light would be either."""
-        raise LightError("light is neither true nor false; ask for its intensity, light.S0 > 0")
-
-    def __getitem__(self, key: Any) -> Self:
-        """Return a part of a batch, by an index of its axes: NumPy's integers, slices, masks.
-
-        Frames that are a batch go along.
-
-        Raises
-        ------
-        IndexFault
-            If the index does not fit the batch.
-
-        Examples
-        --------
-        >>> from optipath import Light
-        >>> lights = Light([[1.0, 0.0, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]])
-        >>> lights[1]
-        Light([2., 1., 0., 0.])
-        >>> lights[lights.S1 == 0].shape
-        (1,)
-        """
-        try:
-            return self._each(lambda numbers: numbers[key])
-        except IndexError as fault:
-            if not self.shape:
-                self._refuse_index(key, "a single light has no axes")
-            self._refuse_index(key, f"a batch of shape {self.shape}: {fault}")
-
-    @staticmethod
-    def _refuse_index(key: Any, problem: str) -> NoReturn:
-        raise IndexFault(
-            f"index {shown(key)} does not fit, {problem}; components are light.S0 .. light.S3, "
-            f"or light.stokes[..., 0]"
-        ) from None
-
-    def reshape(self, *shape: Any) -> Self:
-        """Return the same lights as a batch of another shape.
-
-        Parameters
-        ----------
-        *shape : int
-            As ``numpy.reshape`` takes it, for the axes of the batch alone.
-
-        Returns
-        -------
-        Light
-
-        Raises
-        ------
-        ShapeError
-            If that is another number of lights.
-        """
-        try:
-            return self._each(lambda numbers: numbers.reshape(*shape))
-        except (TypeError, ValueError):
-            raise ShapeError(
-                f"{self.size} lights of shape {self.shape} cannot be given the shape {shown(shape)}"
-            ) from None
-
-    def _each(self, change: Callable[[Any], Any]) -> Self:
-        """Return the light whose axes are changed, component by component."""
-        raise NotImplementedError
-
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:  # noqa: FBT001 - NumPy's
-        """Return the Stokes numbers, of shape (..., 4), for NumPy; read-only but for a copy."""
-        check_known("numpy.asarray(light)", self.stokes)
-        return np.array(known(self.stokes), dtype=dtype, copy=copy)
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
         """Add, dim, compare; refuse what would lose the frame."""
@@ -242,30 +143,18 @@ def handed_out(component: Any) -> Any:
     return locked(component) if kept else np.array(component)
 
 
-def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], Any]) -> Frame:
-    """Return the frames that belong to a part of a batch.
-
-    Parameters
-    ----------
-    frame : Frame
-        One for all, or a batch that broadcasts to that of the light.
-    batch : tuple of int
-        The shape of the light.
-    change : callable
-        What makes an array of the part out of one of the batch.
-
-    Returns
-    -------
-    Frame
+def stacked_components(components: tuple[Any, Any, Any, Any]) -> Array:
+    """Return four components, floats or arrays of one shape, as one array (..., 4).
 
     Examples
     --------
-    >>> frames = Frame().turned([0.0, 0.5, 1.0])
-    >>> indexed_frame(frames, (3,), lambda numbers: numbers[1]) == Frame().turned(0.5)
-    True
+    >>> stacked_components((1.0, 0.5, 0.0, 0.0))
+    array([1. , 0.5, 0. , 0. ])
     """
-    if frame.z.ndim == 1:
-        return frame
-    axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]
-    parts = [np.stack([change(axis[..., i]) for i in range(3)], axis=-1) for axis in axes]
-    return Frame.trusted(*parts)
+    arrays = [component for component in components if isinstance(component, np.ndarray)]
+    if not arrays:
+        return np.array(components)
+    stokes: Array = np.empty((4, *arrays[0].shape), arrays[0].dtype)
+    for row, component in enumerate(components):
+        stokes[row] = component
+    return np.moveaxis(stokes, 0, -1)

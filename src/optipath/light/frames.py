@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -9,18 +10,25 @@ import numpy as np
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels.catalogue import ALIGN
 from optipath.kernels.numbers.primitives import NUMPY
-from optipath.values.arrays.array_likes import array_of, as_given
+from optipath.light.given_vectors import floats, rounding_in, vectors
+from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.read_only import Unchanging, read_only
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.domains.quantities import ANGLE
-from optipath.values.roundings import Array, as_doubles, rounding_of
+from optipath.values.roundings import Array, rounding_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
 _TOLERANCE = 1e-8
 _PARALLEL = 1e-12
+_ORTHOGONAL = 2.0**-49
+_COARSEST = 2.0**-10
+"""The rounding of half precision."""
+
+_SMALL = 1e-3
+"""Up to what angle two directions may look alike in a sentence."""
 
 
 class Frame(Unchanging):
@@ -31,12 +39,15 @@ class Frame(Unchanging):
     x, y, z : array_like, shape (..., 3), optional
         Unit vectors in world coordinates with ``y = z cross x``; by default the
         axes of the world itself. They broadcast together over the leading axes.
+    rounding : float, optional
+        The rounding of the numbers that the axes were computed from, where it is more than
+        their own precision has, such as ``np.finfo(np.float32).eps``; 2^-10 at most.
 
     Raises
     ------
     FrameError
-        If the axes are no right-handed set of orthogonal unit vectors, to 1e-8, or to the
-        rounding of less precision than double, out of which they are made orthogonal again.
+        If the axes are no right-handed set of orthogonal unit vectors, to 1e-8, or to their
+        rounding, out of which they are made orthogonal again.
 
     Examples
     --------
@@ -44,48 +55,56 @@ class Frame(Unchanging):
     array([0., 1., 0.])
     """
 
-    __slots__ = ("x", "y", "z")
+    __slots__ = ("rounding", "x", "y", "z")
 
     x: npt.NDArray[np.float64]
     y: npt.NDArray[np.float64]
     z: npt.NDArray[np.float64]
+    rounding: float
 
     def __init__(
         self,
         x: npt.ArrayLike = (1.0, 0.0, 0.0),
         y: npt.ArrayLike = (0.0, 1.0, 0.0),
         z: npt.ArrayLike = (0.0, 0.0, 1.0),
+        rounding: float = 0.0,
     ) -> None:
-        given = {
-            name: as_given(f"axis {name} of a frame", axis, FrameError)
-            for name, axis in zip("xyz", (x, y, z), strict=True)
-        }
-        rounding = max(map(rounding_of, given.values()))
-        self._set([vectors(f"axis {name} of a frame", a) for name, a in given.items()], rounding)
+        if not isinstance(rounding, Real) or not 0.0 <= rounding <= _COARSEST:
+            raise FrameError(
+                f"the rounding of a frame must be a number from 0 to {_COARSEST}, not "
+                f"{shown(rounding)}; leave it out for axes of doubles"
+            )
+        given = zip("xyz", (x, y, z), strict=True)
+        axes = [vectors(f"axis {name} of a frame", axis) for name, axis in given]
+        self._set(axes, max(float(rounding), rounding_in(x, y, z)))
 
     def _set(self, axes: list[npt.NDArray[np.float64]], rounding: float) -> None:
-        """Check axes and keep them; those of less precision than double are made orthogonal."""
+        """Check axes and keep them; those that are off by their rounding are made orthogonal."""
         try:
             check_broadcast({n: axis.shape[:-1] for n, axis in zip("xyz", axes, strict=True)})
         except ShapeError as fault:
             raise FrameError(f"axes of a frame: {fault}") from None
         x, y, z = np.broadcast_arrays(*axes)
-        _check(np.stack([x, y, z], axis=-2), max(_TOLERANCE, 2.0 * rounding))
-        if rounding:
+        off = _check(np.stack([x, y, z], axis=-2), max(_TOLERANCE, 2.0 * rounding))
+        # What is orthogonal stays as it is, so that copies are equal.
+        if rounding and off > _ORTHOGONAL:
             z = _unit("z", z)
             x = _across(z, x)
             y = np.cross(z, x)
         for name, axis in zip("xyz", (x, y, z), strict=True):
             object.__setattr__(self, name, read_only(axis))
+        object.__setattr__(self, "rounding", rounding)
 
     @classmethod
-    def trusted(cls, x: Array, y: Array, z: Array) -> Frame:
+    def trusted(cls, x: Array, y: Array, z: Array, rounding: float = 0.0) -> Frame:
         """Return the frame of axes of one shape that are known to be right, unchecked.
 
         Parameters
         ----------
         x, y, z : ndarray, shape (..., 3)
             The axes, which become read-only.
+        rounding : float, optional
+            As a frame has it.
 
         Returns
         -------
@@ -96,6 +115,7 @@ class Frame(Unchanging):
         for name, axis in zip("xyz", (x, y, z), strict=True):
             axis.flags.writeable = False
             object.__setattr__(frame, name, axis)
+        object.__setattr__(frame, "rounding", rounding)
         return frame
 
     @classmethod
@@ -127,7 +147,7 @@ class Frame(Unchanging):
         towards = _unit("x", vectors("axis x of a frame", x))
         check_broadcast({"z": along.shape[:-1], "x": towards.shape[:-1]})
         across = _across(along, towards)
-        return cls(across, np.cross(along, across), along)
+        return cls(across, np.cross(along, across), along, rounding_in(z, x))
 
     def turned(self, angle: npt.ArrayLike) -> Frame:
         """Return this frame turned about its z by an angle in radians (right-hand rule).
@@ -138,11 +158,12 @@ class Frame(Unchanging):
         (2, 3)
         """
         warn_of_degrees("the angle of a turn", angle)
-        a = _floats("the angle of a turn", ANGLE.read("the angle of a turn", angle))
+        a = floats("the angle of a turn", ANGLE.read("the angle of a turn", angle))
         check_broadcast({"frame": self.z.shape[:-1], "angle": a.shape})
         a = a[..., np.newaxis]
         c, s = np.cos(a), np.sin(a)
-        return Frame(c * self.x + s * self.y, c * self.y - s * self.x, self.z)
+        x, y = c * self.x + s * self.y, c * self.y - s * self.x
+        return Frame(x, y, self.z, self.rounding)
 
     def rotated(self, rotation: npt.ArrayLike) -> Frame:
         """Return this frame carried along by a rotation of the world.
@@ -158,14 +179,27 @@ class Frame(Unchanging):
         array([0., 1., 0.])
         """
         given = as_given("a rotation", rotation, FrameError)
-        matrix = _floats("a rotation", given)
+        matrix = floats("a rotation", given)
         if matrix.shape[-2:] != (3, 3):
             raise FrameError(f"a rotation must have shape (..., 3, 3), not {matrix.shape}")
         check_broadcast({"frame": self.z.shape[:-1], "rotation": matrix.shape[:-2]})
         axes = [np.einsum("...ij,...j->...i", matrix, axis) for axis in (self.x, self.y, self.z)]
         frame = Frame.__new__(Frame)
-        frame._set(axes, rounding_of(given))  # noqa: SLF001 - its own
+        frame._set(axes, max(self.rounding, rounding_of(given)))  # noqa: SLF001 - its own
         return frame
+
+    def rounding_to(self, other: Frame) -> float:
+        """Return how far the axes of this frame and of another may be apart, and be the same.
+
+        Examples
+        --------
+        >>> Frame().rounding_to(Frame())
+        1e-08
+        >>> single = Frame(x=np.float32([1, 0, 0]))
+        >>> Frame().rounding_to(single) == 2 * np.finfo(np.float32).eps
+        True
+        """
+        return max(_TOLERANCE, 2.0 * (self.rounding + other.rounding))
 
     def turn_to(self, other: Frame) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
         """Return (cos 2a, sin 2a) of the turn a about z that takes this frame to another.
@@ -185,14 +219,8 @@ class Frame(Unchanging):
             raise FrameError(f"a frame is aligned with a Frame, not with {shown(other)}")
         check_broadcast({"frame": self.z.shape[:-1], "other frame": other.z.shape[:-1]})
         apart = np.linalg.norm(self.z - other.z, axis=-1)
-        if np.any(apart > _TOLERANCE):
-            where = np.unravel_index(np.argmax(apart), apart.shape)
-            first = np.broadcast_to(self.z, (*apart.shape, 3))[where]
-            second = np.broadcast_to(other.z, (*apart.shape, 3))[where]
-            raise FrameError(
-                f"light that travels along {_text(first)} cannot be aligned with a frame that "
-                f"travels along {_text(second)}; only frames with one direction can be aligned"
-            )
+        if np.any(apart > self.rounding_to(other)):
+            raise FrameError(_other_direction(self, other, apart))
         d = np.sum(self.x * other.x, axis=-1)
         e = np.sum(self.z * np.cross(self.x, other.x), axis=-1)
         c, s = ALIGN.made_for(NUMPY)(d, e)
@@ -207,7 +235,7 @@ class Frame(Unchanging):
     __hash__ = None  # type: ignore[assignment]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Frame, (self.x, self.y, self.z)
+        return Frame, (self.x, self.y, self.z, self.rounding)
 
     def __repr__(self) -> str:
         if self.z.ndim > 1:
@@ -215,49 +243,20 @@ class Frame(Unchanging):
         return f"Frame(x={_text(self.x)}, y={_text(self.y)}, z={_text(self.z)})"
 
 
-def vectors(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    """Return vectors of three finite components.
-
-    Parameters
-    ----------
-    what : str
-        What a sentence calls them.
-    value : array_like, shape (..., 3)
-        The vectors.
-
-    Returns
-    -------
-    ndarray of float64
-        Of the same shape.
-
-    Raises
-    ------
-    FrameError
-        If they are none.
-
-    Examples
-    --------
-    >>> vectors("a normal", [0, 0, 1])
-    array([0., 0., 1.])
-    """
-    array = _floats(what, value)
-    if array.ndim == 0 or array.shape[-1] != 3:
-        raise FrameError(f"{what} must have shape (..., 3), not {array.shape}")
-    return array
+def _other_direction(first: Frame, second: Frame, apart: Array) -> str:
+    """Say of two frames that they cannot be aligned, where their directions differ most."""
+    where = np.unravel_index(np.argmax(apart), apart.shape)
+    one, other = (_text(np.broadcast_to(f.z, (*apart.shape, 3))[where]) for f in (first, second))
+    # As good as the angle, where it is small.
+    by = f", {apart[where]:.2g} rad beside it" if apart[where] < _SMALL else ""
+    return (
+        f"light that travels along {one} cannot be aligned with a frame that travels along "
+        f"{other}{by}; only frames with one direction can be aligned"
+    )
 
 
-def _floats(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
-    array = array_of(what, value, FrameError)
-    if array.dtype.kind not in "iufb":
-        raise FrameError(f"{what} must be numbers, not {shown(value)}")
-    array = as_doubles(array)
-    if not np.all(np.isfinite(array)):
-        raise FrameError(f"{what} must be finite; check for NaN and infinity")
-    return array
-
-
-def _check(axes: npt.NDArray[np.float64], tolerance: float) -> None:
-    """Refuse axes, shape (..., 3, 3), that are no right-handed set of unit vectors."""
+def _check(axes: npt.NDArray[np.float64], tolerance: float) -> float:
+    """Refuse axes, shape (..., 3, 3), that are no right-handed set; return how far they are off."""
     if np.any(np.abs(axes) > 2.0):
         raise FrameError("the axes of a frame must be unit vectors; use Frame.from_direction")
     off = np.abs(axes @ np.swapaxes(axes, -1, -2) - np.eye(3)).max(axis=(-1, -2), initial=0.0)
@@ -268,6 +267,7 @@ def _check(axes: npt.NDArray[np.float64], tolerance: float) -> None:
         )
     if np.any(np.linalg.det(axes) < 0.0):
         raise FrameError("the axes of a frame must be right-handed, y = z cross x; turn y round")
+    return float(np.max(off, initial=0.0))
 
 
 def _across(along: Array, towards: Array) -> Array:

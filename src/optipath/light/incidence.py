@@ -10,7 +10,8 @@ from optipath.errors import FrameError, shown
 from optipath.kernels.geometry.vectors import Vector, cross, dot
 from optipath.kernels.numbers.double_double import DoubleDouble
 from optipath.kernels.numbers.primitives import NUMPY
-from optipath.light.frames import Frame, vectors
+from optipath.light.frames import Frame
+from optipath.light.given_vectors import rounding_in, vectors
 from optipath.light.underflow import normalise_exponent
 from optipath.values.arrays.shapes import check_broadcast
 
@@ -79,6 +80,7 @@ def plane_of_incidence(
     (True, array([0., 1., 0.]), array([0.707, 0.   , 0.707]))
     """
     k, n = _given("the direction of light", direction), _given("a normal", normal)
+    rounding = rounding_in(direction, normal)
     check_broadcast({"direction": k.shape[:-1], "normal": n.shape[:-1]})
     k, n = np.broadcast_arrays(k, n)
     along = _dot(k, n)
@@ -89,18 +91,20 @@ def plane_of_incidence(
     parallel = sin < _PARALLEL
     if keep is not None and not isinstance(keep, Frame):
         raise FrameError(f"keep must be the Frame that the light has, not {shown(keep)}")
-    x = _axis(across, k, parallel, keep)
+    x = _axis(across, k, parallel, keep, rounding)
     z = k / _length(k)[..., np.newaxis]
     unit = n / _length(n)[..., np.newaxis]
     back = z + 2.0 * cos[..., np.newaxis] * unit
     back /= _length(back)[..., np.newaxis]
-    arriving, reflected = (Frame(x, np.cross(axis, x), axis) for axis in (z, back))
+    arriving, reflected = (Frame(x, np.cross(axis, x), axis, rounding) for axis in (z, back))
     return PlaneOfIncidence(
         arriving, reflected, np.where(parallel, 1.0, cos), np.where(parallel, 0.0, sin)
     )
 
 
-def _axis(across: Any, k: Any, parallel: Any, keep: Frame | None) -> npt.NDArray[np.float64]:
+def _axis(
+    across: Any, k: Any, parallel: Any, keep: Frame | None, rounding: float
+) -> npt.NDArray[np.float64]:
     length = _length(across)
     x = across / np.where(parallel, 1.0, length)[..., np.newaxis]
     if not np.any(parallel):
@@ -114,7 +118,7 @@ def _axis(across: Any, k: Any, parallel: Any, keep: Frame | None) -> npt.NDArray
     # Only the frame of this very light says what is kept; the others keep nothing.
     z = np.where(parallel[..., np.newaxis], k, keep.z)
     kept = Frame.from_direction(z, keep.x)
-    keep.turn_to(kept)
+    keep.turn_to(Frame(kept.x, kept.y, kept.z, rounding))
     return np.where(parallel[..., np.newaxis], kept.x, x)
 
 

@@ -9,16 +9,19 @@ import numpy as np
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels.carriers.structures import turn_linear
 from optipath.light.arithmetic import Arithmetic
-from optipath.light.array_of_light import handed_out, indexed_frame
+from optipath.light.array_axes import each_number
+from optipath.light.array_of_light import handed_out, stacked_components
 from optipath.light.exchange import LightExchange
 from optipath.light.frames import Frame
 from optipath.light.inherited_noise import noise_in
+from optipath.light.light_text import text_of
 from optipath.light.physical_light import check_physical, nearest_light
-from optipath.light.underflow import times_two_to
+from optipath.light.underflow import folded, normalise_exponent, times_two_to
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,9 +29,6 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
 _LARGEST = 2.0**40
-
-_SHOWN = 6
-"""How many lights of a batch are shown."""
 
 
 class Light(Arithmetic, LightExchange, Unchanging):
@@ -115,6 +115,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         self.__dict__.update(
             stokes=locked(plain), frame=frame, exponent=exponent, mantissa=mantissa
         )
+        if not physical:
+            self.__dict__["_measured"] = True
 
     @classmethod
     def of(
@@ -141,7 +143,9 @@ class Light(Arithmetic, LightExchange, Unchanging):
         light = cls.__new__(cls)
         own = light.__dict__
         if not isinstance(exponent, int) or exponent:
-            mantissa = _stacked(stokes) if type(stokes) is tuple else stokes
+            mantissa = stokes
+            if type(stokes) is tuple:  # As it was carried, be it faint or not.
+                mantissa, exponent = folded(stacked_components(stokes), exponent)
             exponent = np.broadcast_to(np.asarray(exponent), mantissa.shape[:-1])
             plain = times_two_to(mantissa, exponent) if exponent.any() else mantissa
             own.update(stokes=locked(plain), mantissa=locked(mantissa), exponent=exponent)
@@ -156,28 +160,18 @@ class Light(Arithmetic, LightExchange, Unchanging):
 
         def __getattr__(self, name: str) -> Any:
             own = self.__dict__
-            if name == "frame" and "_frame" in own:
-                own["frame"] = own["_frame"]()
-                return own["frame"]
             if "_stokes" not in own or name not in ("stokes", "mantissa", "exponent"):
-                raise AttributeError(f"a Light has no attribute '{name}'", name=name, obj=self)
+                return super().__getattr__(name)
             if name == "exponent":
                 own["exponent"] = np.broadcast_to(np.int64(0), self.stokes.shape[:-1])
             else:
                 stokes = own["_stokes"]
-                stokes = _stacked(stokes) if type(stokes) is tuple else stokes
+                stokes = stacked_components(stokes) if type(stokes) is tuple else stokes
                 own["stokes"] = own["mantissa"] = locked(stokes)
             return own[name]
 
     def __repr__(self) -> str:
-        told = [_text(self._numbers)]
-        if self.frame != Frame():
-            told.append(f"frame={self.frame!r}")
-        if self.exponent.any():
-            told.append(f"exponent={_text(self.exponent)}")
-        if self.size > _SHOWN:
-            told.append(f"shape={self.shape}")
-        return f"Light({', '.join(told)})"
+        return text_of(self._numbers, self.frame, self.exponent)
 
     def __str__(self) -> str:
         """Return what `repr` does, with 0 for what is no more than rounding."""
@@ -185,7 +179,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
         if is_traced(floor):
             return repr(self)
         quiet = np.where(np.abs(numbers) < floor[..., np.newaxis], 0.0, numbers)
-        return repr(Light.of(quiet, self.frame, self.exponent))
+        return text_of(quiet, self.frame, self.exponent)
 
     @property
     def noise(self) -> npt.NDArray[Any]:
@@ -218,7 +212,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
 
     def __getstate__(self) -> dict[str, Any]:
         # What computes the noise stays here.
-        own = dict(self.__dict__)
+        own = super().__getstate__()
         if "_noise" in own:
             own["_noise"] = self.noise_floor
         return own
@@ -251,7 +245,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         >>> print(noisy.dop.round(4), noisy.nearest_physical().stokes.round(4))
         1.0817 [1.     0.8321 0.     0.5547]
         """
-        return self._like(nearest_light(self._numbers), self.exponent, self._inherited())
+        nearest = nearest_light(self._numbers)
+        return Light.of(nearest, self._kept_frame("frame"), self.exponent, self._inherited())
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.
@@ -261,6 +256,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         FrameError
             If the other frame has another direction.
         """
+        if frame is self._kept_frame("frame"):
+            return self
         if isinstance(frame, Frame):
             check_broadcast({"light": self.stokes.shape[:-1], "frame": frame.z.shape[:-1]})
         stokes = self._numbers
@@ -269,47 +266,53 @@ class Light(Arithmetic, LightExchange, Unchanging):
         with np.errstate(over="ignore", invalid="ignore"):
             parts = (s0, *turn_linear(turn, s1, s2), s3)
         turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
-        return Light.of(turned, frame, self.exponent, self._inherited())
+        turned = turned.astype(coarser(turned, stokes), copy=False)
+        return self.made_into(turned, frame, self.exponent, self._inherited())
+
+    def made_into(self, mantissa: Any, frame: Any, exponent: Any = 0, noise: Any = None) -> Light:
+        """Return light that is made of this one, and like it is free to be no light or is not.
+
+        Parameters
+        ----------
+        mantissa, frame, exponent, noise
+            As `of` takes them.
+
+        Returns
+        -------
+        Light
+        """
+        light = Light.of(mantissa, frame, exponent, noise)
+        if self.is_measured:
+            light.__dict__["_measured"] = True
+        return light
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether it is, or is made of, ``Light(..., physical=False)``."""
+        return "_measured" in self.__dict__
 
     def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Light:
-        return Light.of(mantissa, self.frame, exponent, noise)
+        return self.made_into(mantissa, self._kept_frame("frame"), exponent, noise)
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
-        numbers = self._numbers
-        stokes = namespace(numbers).stack([change(numbers[..., i]) for i in range(4)], axis=-1)
         exponent = change(self.exponent) if self.exponent.any() else 0
-        frame = indexed_frame(self.frame, self.shape, change)
-        return Light.of(stokes, frame, exponent, self._inherited(part=change))
+        noise = self._inherited(part=change)
+        frame = self._part_of_frame("frame", self.shape, change)
+        return self.made_into(each_number(self._numbers, change), frame, exponent, noise)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):
             return NotImplemented
         for light in (self, other):
             check_known("light == light", light.mantissa)
-        # What a detector does not read is equal to itself.
-        return (
-            np.array_equal(self.mantissa, other.mantissa, equal_nan=True)
-            and same(self.exponent, other.exponent)
-            and self.frame == other.frame
+        mine, theirs = (
+            (light.mantissa, light.exponent)
+            if same(self.exponent, other.exponent)
+            else normalise_exponent(light.mantissa, light.exponent)
+            for light in (self, other)
         )
+        # What a detector does not read is equal to itself.
+        numbers = np.array_equal(mine[0], theirs[0], equal_nan=True)
+        return numbers and same(mine[1], theirs[1]) and self.frame == other.frame
 
     __hash__ = None  # type: ignore[assignment]
-
-
-def _stacked(components: tuple[Any, Any, Any, Any]) -> npt.NDArray[Any]:
-    """Return four components, floats or arrays of one shape, as one array (..., 4)."""
-    arrays = [component for component in components if isinstance(component, np.ndarray)]
-    if not arrays:
-        return np.array(components)
-    stokes = np.empty((4, *arrays[0].shape), arrays[0].dtype)
-    for row, component in enumerate(components):
-        stokes[row] = component
-    return np.moveaxis(stokes, 0, -1)
-
-
-def _text(numbers: Any) -> str:
-    """Return numbers as they are shown, a few of very many."""
-    if is_traced(numbers):
-        return repr(numbers)
-    most = _SHOWN * (4 if numbers.dtype.kind == "f" else 1)
-    return np.array2string(numbers, separator=", ", threshold=most, edgeitems=2, prefix="Light(")

@@ -41,26 +41,34 @@ def check_physical(stokes: Array) -> None:
     """
     endless = np.asarray(np.isinf(stokes).any(axis=-1))
     told = np.where(np.isnan(stokes) | endless[..., np.newaxis], 0.0, stokes)
-    negative = np.asarray(told[..., 0] < 0.0)
     beyond = ~(can_be_light(told, rounding_of(stokes)) | np.isnan(stokes[..., 0]))
-    bad = endless | negative | beyond
+    bad = endless | (told[..., 0] < 0.0) | beyond
     if not bad.any():
         return
     place = tuple(int(i) for i in np.argwhere(bad)[0])
-    vector = stokes[place]
-    if endless[place]:
-        problem = "which is not finite"
-    elif negative[place]:
-        problem = f"whose intensity {vector[0]!s} is negative"
-    elif vector[0] == 0.0:
-        problem = "which is polarised, and dark"
-    else:
-        share = 100.0 * float(length(*told[place][1:]) / vector[0])
-        problem = f"polarised by {share:.6g} %"
-        problem += " and a little" if f"{share:.6g}" == "100" else ""
     which = f"light {list(place)}" if place else "light"
     more = f" (one of {bad.sum()} such)" if bad.sum() > 1 else ""
-    raise ValueFault(f"{which} is {shown(vector.tolist())}, {problem}{more}; {_CURE}")
+    vector = stokes[place]
+    raise ValueFault(f"{which} is {shown(vector.tolist())}, {problem_of(vector)}{more}; {_CURE}")
+
+
+def problem_of(vector: Array) -> str:
+    """Say why a Stokes vector is no light.
+
+    Examples
+    --------
+    >>> problem_of(np.array([1.0, 3.0, 0.0, 4.0]))
+    'polarised by 500 %'
+    """
+    if np.isinf(vector).any():
+        return "which is not finite"
+    if vector[0] < 0.0:
+        return f"whose intensity {vector[0]!s} is negative"
+    if vector[0] == 0.0:
+        return "which is polarised, and dark"
+    share = 100.0 * float(length(*np.where(np.isnan(vector), 0.0, vector)[1:]) / vector[0])
+    text = f"polarised by {share:.6g} %"
+    return f"{text} and a little" if f"{share:.6g}" == "100" else text
 
 
 def nearest_light(stokes: Any) -> Any:

@@ -95,6 +95,36 @@ def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
     return np.where(faint[..., np.newaxis], stokes, plain), np.where(faint, exponent, 0)
 
 
+def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:
+    """Return the same light in a precision, whatever range that has.
+
+    Parameters
+    ----------
+    dtype : dtype
+        The precision.
+    stokes : ndarray, shape (..., 4)
+        Stokes vectors.
+    exponent : int or ndarray, shape (...)
+        Of the power of two times them.
+
+    Returns
+    -------
+    stokes : ndarray, shape (..., 4)
+        The vectors.
+    exponent : ndarray of int, shape (...)
+        As it was where they have that precision; else as `folded` returns it.
+
+    Examples
+    --------
+    >>> rounded_to(np.dtype("f4"), np.array([1e-300, 0.0, 0.0, 0.0]), 0)[1]
+    array(-996)
+    """
+    if stokes.dtype == dtype:
+        return stokes, exponent
+    stokes, exponent = normalise_exponent(stokes, exponent)
+    return folded(stokes.astype(dtype), exponent)
+
+
 def underflows(intensity: Array) -> npt.NDArray[np.bool_]:
     """Tell where light is so weak that what underflows on the way may be seen in it.
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.composer.placement import placement_faults
 from optipath.composer.wiring import Wiring, link_text
+from optipath.elements.chaining import NamedElement
 from optipath.elements.element import Element
 from optipath.errors import PathError, did_you_mean, listed, shown, there_are
 from optipath.light.frames import Frame
@@ -56,9 +57,10 @@ def add(graph: nx.MultiDiGraph, name: Any, element: Any, frames: Any) -> None:
     name, element, frames
         As that takes them.
     """
-    if isinstance(name, Element):
+    if isinstance(name, (Element, NamedElement)):
+        meant = name.named(name_by_kind(name)) if isinstance(name, Element) else name
         raise PathError(
-            f"an element is added by a name: path.add('{name_by_kind(name)}', {shown(name)})"
+            f"an element is added by a name: path.add('{meant.name}', {shown(meant.element)})"
         )
     if not isinstance(name, str) or not name or "." in name:
         raise PathError(f"node name {shown(name)} must be a text without a dot; choose another")

@@ -97,7 +97,7 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
 def _turn_back(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
     """Turn what stands behind a node by as much as another element turns it less."""
     if graph.nodes[name]["frames"]:
-        return
+        return  # World frames say how it stands.
     old = _own_turn(graph.nodes[name]["element"])
     cure = f"take '{name}' out by path.remove('{name}'), and put the new one in by path.insert"
     for link in [link for link in graph.out_edges(name, keys=True) if link[1] != name]:
@@ -119,11 +119,10 @@ def _link_for(graph: nx.MultiDiGraph, name: Any, behind: Any, before: Any) -> Li
     links = (wiring.links_from if is_behind else wiring.links_to).get(port, [])
     if len(links) == 1:
         return links[0]
-    text, ends = ".".join(port), (f"'{'.'.join(port)}'", f"'{name}'")
-    feeds = "feeds" if is_behind else "is fed by"
+    text, feeds = ".".join(port), "feeds" if is_behind else "is fed by"
     if not links:
-        both = ", ".join(ends if is_behind else ends[::-1])
-        cure = f"write path.add('{name}', ...) and path.connect({both})"
+        ends = f"'{text}', '{name}'" if is_behind else f"'{name}', '{text}'"
+        cure = f"write path.add('{name}', ...) and path.connect({ends})"
     elif is_behind:
         cure = f"take all but one out first, by {taken_out(wiring, links)}"
     else:

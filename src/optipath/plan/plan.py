@@ -235,7 +235,7 @@ class Plan(PlanDetails):
         frames = (
             self.answers.framed(f, parameters) for f in (program.sources[begin][1], reading.frame)
         )
-        found = Mueller.of(matrix, *(f if isinstance(f, Frame) else f() for f in frames))
+        found = Mueller.of(matrix, *frames)
         return found.with_noise(partial(matrix_noise_at, self.answers, begin, end, parameters))
 
     @property

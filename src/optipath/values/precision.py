@@ -75,3 +75,14 @@ def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
     dtype('float64')
     """
     return np.result_type(dtype, np.float64)
+
+
+def coarser(*numbers: Any) -> Any:
+    """Return the dtype of that array which has the least precision, which is what all have.
+
+    Examples
+    --------
+    >>> coarser(np.ones(2), np.ones(2, np.float32))
+    dtype('float32')
+    """
+    return min((number.dtype for number in numbers), key=lambda dtype: dtype.itemsize)

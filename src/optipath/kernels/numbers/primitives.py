@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, TypeAlias, TypeVar
 
@@ -188,22 +188,27 @@ def _fused_two_product(a: float, b: float) -> tuple[float, float]:
     return product, math.fma(a, b, -product)  # type: ignore[attr-defined,unused-ignore] # Python 3.13
 
 
-NUMPY = Primitives(
-    where=np.where,
-    sqrt=np.sqrt,
-    absolute=np.absolute,
-    maximum=np.maximum,
-    minimum=np.minimum,
-    sin=np.sin,
-    cos=np.cos,
-    exp=np.exp,
-    atan2=np.arctan2,
-    scaling=lambda number: np.frexp(number)[1],
-    ldexp=np.ldexp,
-    two_product=product_and_rest,
-    below_rounding=_below_rounding_in_arrays,
-    fixed=_itself,
-)
+def of_module(xp: Any) -> Primitives:
+    """Return the primitives of a module with NumPy's functions, ``numpy`` or ``jax.numpy``."""
+    return Primitives(
+        where=xp.where,
+        sqrt=xp.sqrt,
+        absolute=xp.absolute,
+        maximum=xp.maximum,
+        minimum=xp.minimum,
+        sin=xp.sin,
+        cos=xp.cos,
+        exp=xp.exp,
+        atan2=xp.arctan2,
+        scaling=lambda number: xp.frexp(number)[1],
+        ldexp=xp.ldexp,
+        two_product=product_and_rest,
+        below_rounding=is_below_rounding,
+        fixed=_itself,
+    )
+
+
+NUMPY = replace(of_module(np), below_rounding=_below_rounding_in_arrays)
 
 FLOAT = Primitives(
     where=lambda condition, yes, no: yes if condition else no,

@@ -154,7 +154,8 @@ def _exact(
 
 def _digits(wiring: Wiring, scout: Reader) -> int:
     """Return how many digits are needed: numbers far from 1 leave little of each other."""
-    _Walk(wiring, scout).stokes()
+    with mpmath.workdps(WORKING_DIGITS):
+        _Walk(wiring, scout).stokes()
     return WORKING_DIGITS + 4 * scout.decades
 
 

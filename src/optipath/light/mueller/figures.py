@@ -135,6 +135,29 @@ class MatrixFigures:
         """
         return cloude.eigenvalues(self.matrix)
 
+    def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
+        """Tell whether some mixture of Jones matrices acts like this, shape (...).
+
+        Parameters
+        ----------
+        tolerance : float, optional
+            How far below 0, against the largest, an eigenvalue of `coherency` may be. By
+            default 1e-9, or a hundred roundings of a matrix of less than double precision:
+            1.2e-5 for float32.
+
+        Raises
+        ------
+        ValueFault
+            If the tolerance is no finite number >= 0.
+
+        Examples
+        --------
+        >>> from optipath import Mueller
+        >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
+        False
+        """
+        return cloude.is_physical(self.matrix, tolerance)
+
     @property
     def noise(self) -> Array:
         """Which entries of `matrix` are no more than rounding, of shape (...)."""

@@ -10,21 +10,27 @@ import numpy as np
 from optipath.errors import FrameError, LightError
 from optipath.kernels.carriers.structures import ROTATION
 from optipath.kernels.numbers.primitives import NUMPY
+from optipath.light.array_axes import ArrayAxes, each_number
 from optipath.light.exchange import MuellerExchange
 from optipath.light.frames import Frame
-from optipath.light.inherited_noise import inheriting, rounding
+from optipath.light.inherited_noise import inheriting
 from optipath.light.light import Light
 from optipath.light.mueller import cloude
 from optipath.light.mueller.figures import MatrixFigures
-from optipath.light.mueller.matrix_noise import noise_of_product
+from optipath.light.mueller.matrix_noise import KnownNoise, noise_of_product
+from optipath.light.mueller.measured_matrices import (
+    check_becomes_light,
+    nan_where_no_light,
+)
 from optipath.light.mueller.polar_decomposition import polar_parts
 from optipath.light.mueller.sphere_rotations import turn_of
 from optipath.light.mueller.stacking import stacked
 from optipath.light.refused_products import why_refused
-from optipath.light.underflow import folded, normalise_exponent
-from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
+from optipath.light.underflow import folded, normalise_exponent, rounded_to
+from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known
 from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
+from optipath.values.precision import coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +39,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Mueller(MatrixFigures, MuellerExchange, Unchanging):
+class Mueller(KnownNoise, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
     ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the numbers from the
@@ -42,7 +48,8 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
     Parameters
     ----------
     matrix : array_like, shape (..., 4, 4)
-        Acts on Stokes vectors.
+        Acts on Stokes vectors. As measured, of any scale; what it makes of light must be light,
+        though it be brighter, unless that is ``Light(..., physical=False)``.
     frame_in, frame_out : Frame, optional
         Those of the light that comes in and that goes out; unit frames by default.
 
@@ -59,6 +66,9 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
     """
 
     __array_ufunc__ = None  # NumPy's arrays leave products to it.
+    _kind, _several = "Mueller matrix", "Mueller matrices"
+    _attribute, _axes = "matrix", 2
+    _written, _entry = "mueller.matrix", "mueller.matrix[..., 0, 0]"
 
     matrix: Any
     frame_in: Frame = field(default_factory=Frame)
@@ -69,25 +79,32 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
             raise FrameError("the frames of a Mueller matrix must be Frames; use Frame(x, y, z)")
         matrix = real_array("a Mueller matrix", self.matrix, (4, 4))
         kept = matrix if is_jax(matrix) else read_only(matrix, widened=False)
-        object.__setattr__(self, "matrix", kept)
+        vars(self).update(matrix=kept, _given=True)
 
     @classmethod
-    def of(cls, matrix: Any, frame_in: Frame, frame_out: Frame) -> Mueller:
+    def of(
+        cls,
+        matrix: Any,
+        frame_in: Frame | Callable[[], Frame],
+        frame_out: Frame | Callable[[], Frame],
+    ) -> Mueller:
         """Return what has been computed as a Mueller matrix: the array becomes read-only.
 
         Parameters
         ----------
         matrix : ndarray, shape (..., 4, 4)
             Nobody else has it.
-        frame_in, frame_out : Frame
-            Those of the light that comes in and that goes out.
+        frame_in, frame_out : Frame or callable
+            Those of the light that comes in and that goes out, or what returns them when
+            somebody asks.
 
         Returns
         -------
         Mueller
         """
         found = cls.__new__(cls)
-        vars(found).update(matrix=locked(matrix), frame_in=frame_in, frame_out=frame_out)
+        vars(found)["matrix"] = locked(matrix)
+        found._keep_frames(frame_in=frame_in, frame_out=frame_out)  # noqa: SLF001 - its own
         return found
 
     @overload
@@ -95,74 +112,61 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
     @overload
     def __matmul__(self, other: Light) -> Light: ...
     def __matmul__(self, other: Mueller | Light) -> Mueller | Light:
-        matrix, batch = known(self.matrix), self.matrix.shape[:-2]
         if isinstance(other, Light):
-            shapes = {"matrix": batch, "light": other.stokes.shape[:-1]}
-            check_broadcast(shapes, fixed=("matrix",))
-            aligned = other.in_frame(self.frame_in)
-            if is_traced(matrix) or is_traced(aligned.mantissa):
-                return Light.of((matrix @ aligned.stokes[..., np.newaxis])[..., 0], self.frame_out)
-            stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
-            with np.errstate(over="ignore", invalid="ignore"):
-                product = (matrix @ stokes[..., np.newaxis])[..., 0]
-            stokes, exponent = folded(product, np.broadcast_to(exponent, product.shape[:-1]))
-            noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
-            return Light.of(stokes, self.frame_out, exponent, noise)
+            return self._attenuated(other)
         if isinstance(other, Mueller):
-            shapes = {"matrix": batch, "other matrix": other.matrix.shape[:-2]}
-            check_broadcast(shapes, fixed=shapes)
-            turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
-            with np.errstate(over="ignore", invalid="ignore"):
-                product = matrix @ turn @ known(other.matrix)
-            both = Mueller.of(product, other.frame_in, self.frame_out)
-            return both.with_noise(noise_of_product(*((m.matrix, m.noise) for m in (self, other))))
+            return self._behind(other)
         if hasattr(other, "dtype") or not hasattr(type(other), "__rmatmul__"):
             raise LightError(why_refused(other))
         return NotImplemented
+
+    def _attenuated(self, light: Light) -> Light:
+        matrix = known(self.matrix)
+        check_broadcast({"matrix": self.shape, "light": light.shape}, fixed=("matrix",))
+        aligned = light.in_frame(self.frame_in)
+        behind = self._kept_frame("frame_out")
+        judged = self.is_given and not light.is_measured
+        if is_traced(matrix) or is_traced(aligned.mantissa):
+            product = (matrix @ aligned.stokes[..., np.newaxis])[..., 0]
+            product = product.astype(coarser(matrix, aligned.stokes))
+            if judged:
+                product = nan_where_no_light(matrix, self.noise, aligned.stokes, product)
+            return light.made_into(product, behind)
+        stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
+        with np.errstate(over="ignore", invalid="ignore"):
+            product = (matrix @ stokes[..., np.newaxis])[..., 0]
+        exponent = np.broadcast_to(exponent, product.shape[:-1])
+        if judged:
+            check_becomes_light(matrix, self.noise, stokes, product)
+        noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
+        product, exponent = folded(*rounded_to(coarser(matrix, stokes), product, exponent))
+        return light.made_into(product, behind, exponent, noise)
+
+    def _behind(self, other: Mueller) -> Mueller:
+        matrix, before = known(self.matrix), known(other.matrix)
+        shapes = {"matrix": self.shape, "other matrix": other.shape}
+        check_broadcast(shapes, fixed=shapes)
+        turn = stacked(ROTATION.rows(NUMPY, other.frame_out.turn_to(self.frame_in)))
+        with np.errstate(over="ignore", invalid="ignore"):
+            product = matrix @ turn @ before
+        frames = other._kept_frame("frame_in"), self._kept_frame("frame_out")
+        noise = noise_of_product(*((m.matrix, m.noise) for m in (self, other)))
+        both = Mueller.of(product.astype(coarser(matrix, before), copy=False), *frames)
+        return both.with_noise(noise, given=self.is_given or other.is_given)
 
     def __rmatmul__(self, other: object) -> NoReturn:
         """Refuse what has no frames."""
         raise LightError(why_refused(other))
 
-    @property
-    def noise(self) -> npt.NDArray[Any]:
-        """Which entries of `matrix` are no more than rounding: those below it, shape (...).
-
-        The rounding of M00; of a product, and of the matrix of a path, what is left of the
-        roundings of all factors: of crossed polarisers it is larger than M00.
-
-        Examples
-        --------
-        >>> print(Mueller(np.eye(4)).noise)
-        2.220446049250313e-16
-        """
-        own = self.__dict__
-        if callable(own.get("_noise")):
-            own["_noise"] = own["_noise"](self.matrix)
-        if "_floor" not in own:
-            least = rounding(known(self.matrix)[..., 0, :])
-            own["_floor"] = locked(namespace(least).maximum(least, own.get("_noise", 0.0)))
-        return own["_floor"]  # type: ignore[no-any-return]
-
-    def with_noise(self, noise: npt.NDArray[Any] | Callable[[Any], Any]) -> Mueller:
-        """Return the same matrix, of which more is noise than its own rounding.
-
-        Parameters
-        ----------
-        noise : ndarray of shape (...), or callable
-            The noise, or what returns it for the matrix when somebody asks.
-
-        Returns
-        -------
-        Mueller
-        """
-        found = Mueller.of(self.matrix, self.frame_in, self.frame_out)
-        found.__dict__["_noise"] = noise
-        return found
-
-    def __getstate__(self) -> dict[str, Any]:
-        # What computes the noise stays here.
-        return {**self.__dict__, "_noise": self.noise}
+    def _each(self, change: Callable[[Any], Any]) -> Mueller:
+        numbers = known(self.matrix)
+        flat = each_number(numbers.reshape(*self.shape, 16), change)
+        frames = (
+            self._part_of_frame(name, self.shape, change) for name in ("frame_in", "frame_out")
+        )
+        matrix = flat.reshape(*flat.shape[:-1], 4, 4)
+        part = Mueller.of(matrix, *frames)
+        return part.with_noise(lambda _: change(self.noise), given=self.is_given)
 
     @property
     def retardance(self) -> npt.NDArray[Any]:
@@ -184,32 +188,10 @@ class Mueller(MatrixFigures, MuellerExchange, Unchanging):
         """
         depolarizer, retarder, diattenuator = polar_parts(self.matrix)
         return LuChipman(
-            depolarizer=Mueller(depolarizer, self.frame_out, self.frame_out),
-            retarder=Mueller(retarder, self.frame_in, self.frame_out),
-            diattenuator=Mueller(diattenuator, self.frame_in, self.frame_in),
+            depolarizer=Mueller.of(depolarizer, self.frame_out, self.frame_out),
+            retarder=Mueller.of(retarder, self.frame_in, self.frame_out),
+            diattenuator=Mueller.of(diattenuator, self.frame_in, self.frame_in),
         )
-
-    def is_physical(self, tolerance: float | None = None) -> npt.NDArray[np.bool_]:
-        """Tell whether some mixture of Jones matrices acts like this, shape (...).
-
-        Parameters
-        ----------
-        tolerance : float, optional
-            How far below 0, against the largest, an eigenvalue of `coherency` may be. By
-            default 1e-9, or a hundred roundings of a matrix of less than double precision:
-            1.2e-5 for float32.
-
-        Raises
-        ------
-        ValueFault
-            If the tolerance is no finite number >= 0.
-
-        Examples
-        --------
-        >>> print(Mueller(np.diag([1.0, 1.0, 1.0, -1.0])).is_physical())
-        False
-        """
-        return cloude.is_physical(self.matrix, tolerance)
 
     def nearest_physical(self) -> Mueller:
         """Return the physical matrix with the least sum of squared differences.

@@ -138,11 +138,13 @@ def _element(element: Element, frames: Mapping[str, Frame]) -> dict[str, Any]:
                 continue
             row[f.name] = _field(value, domain)
     if frames:
-        row["frames"] = {
-            port: {axis: getattr(frame, axis).tolist() for axis in "xyz"}
-            for port, frame in frames.items()
-        }
+        row["frames"] = {port: _frame(frame) for port, frame in frames.items()}
     return row
+
+
+def _frame(frame: Frame) -> dict[str, Any]:
+    axes = {axis: getattr(frame, axis).tolist() for axis in "xyz"}
+    return axes | ({"rounding": frame.rounding} if frame.rounding else {})
 
 
 def _field(value: Any, domain: Domain) -> Any:

@@ -61,6 +61,15 @@ class CloserLook:
         """Return the lights at the junctions of a loop."""
         return LoopSolver(self.program, loop, self.numbers, _TWICE, _longer, self._rounded)
 
+    def evaluations(self) -> dict[int, Numbers]:
+        """Return what every evaluation comes to, rounded, as `execute` may be given it.
+
+        What is reflected at a boundary, what enters a loop there and what comes back then belong
+        to the same boundary: next to a critical angle, each follows every digit of the angle.
+        """
+        used = (index for index, uses in enumerate(self.program.evaluation_uses) if uses)
+        return {index: tuple(map(self._rounded, self.numbers(index))) for index in used}
+
     def numbers(self, index: int) -> Numbers:
         """Return what an evaluation comes to."""
         if index not in self._numbers:

@@ -241,8 +241,9 @@ class Interpreter:
             operands, solvers = self.operands(part), []
             begin = emitted and emitted(part)
             closer = CloserLook(self.program, part, operands, self.dtype)
+            longer = closer.evaluations()
             again = execute(
-                self.program, operands, carrier, begin, self.number, None, solvers, closer.meet
+                self.program, operands, carrier, begin, self.number, longer, solvers, closer.meet
             )
             check_gains(solvers)
         return again if part is given else _instead(found, again, doubtful)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -44,6 +45,10 @@ class LaterFrame:
 
     def __call__(self) -> Frame:
         """Return the frame."""
+        return self._made
+
+    @cached_property
+    def _made(self) -> Frame:
         opened = self.inputs.open
         given = {
             name: opened[name].resolve(self.parameters.get(name, opened[name].default))

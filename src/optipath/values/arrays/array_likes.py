@@ -26,7 +26,8 @@ _ANY_CURE = "numpy.asarray(...)"
 _OURS = {
     "Light": (
         "and light is no number; only where a state is asked for give its Stokes vector, as in "
-        "op.Source(stokes=light.stokes), whose frame is not looked at"
+        "op.Source(stokes=light.stokes), whose frame is not looked at; several lights of one frame "
+        "are op.Light([a.stokes, b.stokes], a.frame)"
     ),
     "Mueller": (
         "whose frames are not looked at; only where a Mueller matrix is asked for give its numbers,"

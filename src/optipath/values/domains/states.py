@@ -123,7 +123,7 @@ class StokesDomain(Domain):
         if np.any(negative):
             value = array[..., 0][negative].ravel()[0]
             raise ValueFault(f"{owner} has the negative intensity {value}; give S0 >= 0")
-        if not self.physical or _surely_light(array):
+        if not self.physical or surely_light(array):
             return
         bad = ~can_be_light(array, rounding)
         if np.any(bad):
@@ -135,13 +135,20 @@ class StokesDomain(Domain):
             )
 
 
-def _surely_light(stokes: npt.NDArray[Any]) -> bool:
-    """Tell quickly, and never wrongly, whether all are polarised by 100 % at most."""
+def surely_light(stokes: npt.NDArray[Any]) -> bool:
+    """Tell quickly, and never wrongly, whether all are light, polarised by 100 % at most.
+
+    Examples
+    --------
+    >>> surely_light(np.array([[1.0, 0.6, 0.0, 0.8], [2.0, 0.0, 0.0, 0.0]]))
+    True
+    """
     with np.errstate(all="ignore"):
         squares = np.einsum("...i,...i->...", stokes, stokes)
         most = (2.0 + _ROUNDING) * stokes[..., 0] ** 2
         # Beyond, squares have lost digits.
-        return bool(np.all((squares <= most) & (most < _MOST) & (most > _LEAST)))
+        sure = (squares <= most) & (most < _MOST) & (most > _LEAST)
+        return bool(np.all(sure & (stokes[..., 0] > 0.0)))
 
 
 def can_be_light(stokes: Any, rounding: float) -> Any:

@@ -104,7 +104,7 @@ def read_frames(where: str, table: Any, faults: Faults) -> dict[str, Frame]:
     frames = {}
     for port, axes in table.items():
         at = f"{where}.frames.{port}"
-        wrong = schema.key_faults(at, axes, ("x", "y", "z"))
+        wrong = schema.key_faults(at, axes, ("x", "y", "z", "rounding"))
         wrong += [f"{at}: axis '{axis}' is missing" for axis in "xyz" if axis not in axes]
         faults += wrong
         frame = None if wrong else faults.attempt(at, Frame, **axes)

@@ -1,0 +1,195 @@
+"""WorldAngle: directions of light at a boundary in space, by its frames and by its values."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.coupling import numbers_of
+from optipath.elements.frame_checks import angle_between, incidence_between
+from optipath.kernels.fresnel.refraction import refraction
+from optipath.kernels.numbers.primitives import of_module
+from optipath.values.agreement import Agreement, is_single, text_of
+from optipath.values.domains.indices import INDEX
+from optipath.values.follows import FOLLOWS
+from optipath.values.operands import operand_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from optipath.light.frames import Frame
+    from optipath.values.operands import Operand
+
+_ROUNDING = 1e-7
+"""How far apart two angles may be, in radians."""
+
+_LAST_DIGITS, _LAST_SINGLE_DIGITS = 2.0**-50, 2.0**-22
+"""How far apart two sines may be, of which one comes by Snell's law."""
+
+
+@dataclass(frozen=True, eq=False)
+class WorldAngle(Agreement):
+    """The angle between the directions of two frames of a boundary, and that of its light.
+
+    The operands are that of the frames, and what `angles_of` takes.
+
+    Attributes
+    ----------
+    owner : str
+        What sentences call the boundary.
+    enters, leaves : str
+        Its ports.
+    rounding : float
+        How far the frames may be off.
+    """
+
+    owner: str
+    enters: str
+    leaves: str
+    rounding: float
+
+    @property
+    def rests_on(self) -> tuple[str, ...]:
+        """The incidence, which may be wrong itself."""
+        return (self.owner,)
+
+    def fits(self, xp: Any, *numbers: Any) -> Any:
+        found, *given = numbers
+        front, behind = angles_of(xp, *given)
+        single = [is_single(xp, number) for number in given]
+        last = xp.where(sum(single) > 0, _LAST_SINGLE_DIGITS, _LAST_DIGITS)
+        # An angle next to grazing has fewer digits than its sine.
+        cosine = xp.maximum(xp.minimum(xp.cos(front), xp.cos(behind)), xp.sqrt(last))
+        allowed = max(_ROUNDING, self.rounding) + last / cosine
+        differs = abs(found - self._expected(front, behind)) > allowed
+        return ~differs | xp.isnan(sum(given))
+
+    def sentence(self, *numbers: float) -> str:
+        found, *given = numbers
+        front, behind = angles_of(np, *given)
+        there, expected = _degrees(found), _degrees(self._expected(front, behind))
+        units = (" deg", *[""] * len(given))
+        shown = (math.degrees(given[0]), *given[1:])
+        several = zip(self.operands[1:], shown, units, strict=False)
+        open_ones = [text_of(o, number, unit) for o, number, unit in several if _is_told(o, number)]
+        by = f" ({', '.join(open_ones)})" if open_ones else ""
+        if self._is_passing:
+            return (
+                f"light from '{self.owner}.{self.enters}' to '{self.owner}.{self.leaves}' is "
+                f"turned by {there} in the world, but by {expected} by Snell's law{by}; make them "
+                f"agree"
+            )
+        if self.enters == "in":
+            return (
+                f"the frames of '{self.owner}' meet at an incidence of {there}, but its incidence "
+                f"is {expected}{by}; make them agree"
+            )
+        return (
+            f"the frames of '{self.owner}.back' and '{self.owner}.transmitted' meet at an "
+            f"incidence of {there}, but behind '{self.owner}' it is {expected}{by}; make them agree"
+        )
+
+    @property
+    def _is_passing(self) -> bool:
+        return (self.enters == "in") == (self.leaves == "transmitted")
+
+    def _expected(self, front: Any, behind: Any) -> Any:
+        if self._is_passing:
+            return abs(front - behind)
+        return front if self.enters == "in" else behind
+
+
+def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Iterator[WorldAngle]:
+    """Yield what must hold between the frames of a boundary and its values.
+
+    Parameters
+    ----------
+    owner : str
+        What sentences call the boundary.
+    element : BoundaryElement
+        The boundary.
+    frames : mapping of str to Frame
+        The world frames that its ports have been given.
+
+    Yields
+    ------
+    WorldAngle
+        For each two ports that light may pass between.
+    """
+    given = operands_of(element)
+    if any(operand.value is FOLLOWS for operand in given):
+        return  # What it takes over is looked at.
+    for enters, leaves in (
+        ("in", "reflected"),
+        ("back", "transmitted"),
+        ("in", "transmitted"),
+        ("back", "reflected"),
+    ):
+        if {enters, leaves} <= frames.keys():
+            first, second = frames[enters], frames[leaves]
+            bounces = (enters, leaves) in (("in", "reflected"), ("back", "transmitted"))
+            angle = (incidence_between if bounces else angle_between)(first, second)
+            needed = given
+            if (enters, leaves) == ("in", "reflected"):
+                # What is behind is of no account in front.
+                needed = (*given[:2], *map(operand_of, (1.0, 0.0)), *given[4:])
+                if len(given) == 4:
+                    needed = (given[0], *map(operand_of, (1.0, 1.0, 0.0)))
+            yield WorldAngle(
+                (operand_of(angle), *needed), owner, enters, leaves, first.rounding_to(second)
+            )
+
+
+def operands_of(element: Any) -> tuple[Operand, ...]:
+    """Return what `angles_of` takes of a boundary."""
+    before = getattr(element, "incidence_in", None)
+    indices = numbers_of(element.index, INDEX)
+    front = [
+        numbers_of(index, INDEX)[0] for index in (element.outside, before) if index is not None
+    ]
+    return tuple(map(operand_of, (element.incidence, front[0], *indices, *front[1:])))
+
+
+def angles_of(
+    xp: Any, incidence: Any, outside: Any, n: Any, k: Any, *before: Any
+) -> tuple[Any, Any]:
+    """Return the angles of light in front of a boundary and behind it.
+
+    Parameters
+    ----------
+    xp : module
+        ``numpy`` or ``jax.numpy``.
+    incidence, outside, n, k : array_like
+        The incidence, the index in front, and both parts of that behind.
+    *before : array_like
+        The index where the incidence is measured, if that is not in front.
+
+    Returns
+    -------
+    front, behind : array_like
+        In radians.
+
+    Examples
+    --------
+    >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 1.5, 0.0)
+    >>> print(np.degrees(behind).round(6))
+    25.373994
+    """
+    refract = refraction(of_module(xp))
+    c, s = xp.cos(incidence), xp.sin(incidence)
+    if before:
+        c, s = refract(before[0], outside, 0.0 * outside, c, s)
+    behind, across = refract(outside, n, k, c, s)
+    return xp.arctan2(s, c), xp.arctan2(across, behind)
+
+
+def _is_told(operand: Operand, number: float) -> bool:
+    """Tell whether a number is given when the path runs; no absorption is none."""
+    return not operand.known and (operand.part != "imag" or number != 0.0)
+
+
+def _degrees(angle: Any) -> str:
+    return f"{np.degrees(angle):.9g} deg"

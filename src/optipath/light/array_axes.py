@@ -1,0 +1,165 @@
+"""What light and Mueller matrices have of an array: a shape, an index, numbers for NumPy."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn, Self
+
+import numpy as np
+
+from optipath.errors import IndexFault, LightError, ParameterError, ShapeError, shown
+from optipath.values.arrays.jax_values import is_traced, known, namespace
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from optipath.values.roundings import Array
+
+
+class ArrayAxes:
+    """One of a kind, or an array of them: whatever concerns its axes, and not what it is."""
+
+    _kind: ClassVar[str]
+    """What sentences call one, and several."""
+    _several: ClassVar[str]
+    _attribute: ClassVar[str]
+    """The numbers, whose last axes are those of one; how many these are."""
+    _axes: ClassVar[int]
+    _written: ClassVar[str]
+    """How somebody writes the numbers, and one number of each."""
+    _entry: ClassVar[str]
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the batch; () for a single one."""
+        return tuple(getattr(self, self._attribute).shape[: -self._axes])
+
+    @property
+    def ndim(self) -> int:
+        """How many axes the batch has."""
+        return len(self.shape)
+
+    @property
+    def size(self) -> int:
+        """How many there are."""
+        return int(np.prod(self.shape, dtype=np.int64))
+
+    def __len__(self) -> int:
+        """Return how many there are along the first axis."""
+        self._check_batch("has no length")
+        return self.shape[0]
+
+    def __iter__(self) -> Iterator[Self]:
+        """Yield those along the first axis."""
+        self._check_batch("cannot be gone through")
+        return (self[place] for place in range(len(self)))
+
+    def _check_batch(self, problem: str) -> None:
+        if not self.shape:
+            raise LightError(f"a single {self._kind} {problem}; its numbers are {self._written}")
+
+    def __bool__(self) -> NoReturn:
+        """Refuse to be true or false: what is dark would be either."""
+        raise LightError(
+            f"{self._kind} is neither true nor false; ask its numbers, {self._written}"
+        )
+
+    def __getitem__(self, key: Any) -> Self:
+        """Return a part of a batch, by an index of its axes: integers, slices, masks.
+
+        Frames that are a batch go along; JAX may trace integers.
+
+        Raises
+        ------
+        IndexFault
+            If the index does not fit the batch.
+
+        Examples
+        --------
+        >>> from optipath import Light
+        >>> lights = Light([[1.0, 0.0, 0.0, 0.0], [2.0, 1.0, 0.0, 0.0]])
+        >>> lights[1]
+        Light([2., 1., 0., 0.])
+        >>> lights[lights.S1 == 0].shape
+        (1,)
+        """
+        parts = key if isinstance(key, tuple) else (key,)
+        traced = next((part for part in parts if is_traced(part)), None)
+
+        def part(numbers: Any) -> Any:
+            return (numbers if traced is None else namespace(traced).asarray(numbers))[key]
+
+        try:
+            return self._each(part)
+        except (IndexError, TypeError, ValueError) as fault:
+            problem = f"a batch of shape {self.shape}: {str(fault).partition(chr(10))[0]}"
+            problem = problem if self.shape else f"a single {self._kind} has no axes"
+            raise IndexFault(
+                f"index {shown(key)} does not fit, {problem}; numbers are {self._entry}"
+            ) from None
+
+    def reshape(self, *shape: Any, order: Any = "C", copy: bool | None = None) -> Self:
+        """Return the same as a batch of another shape.
+
+        Parameters
+        ----------
+        *shape : int
+            As ``numpy.reshape`` takes it, for the axes of the batch alone.
+        order : str, optional
+            In which order its axes are gone through, as ``numpy.reshape`` takes it.
+        copy : bool, optional
+            What ``numpy.reshape`` takes besides; nothing here can be written to.
+
+        Returns
+        -------
+        Light or Mueller
+
+        Raises
+        ------
+        ShapeError
+            If that is another number of them.
+        """
+        del copy
+        try:
+            return self._each(lambda numbers: numbers.reshape(*shape, order=order))
+        except (TypeError, ValueError):
+            raise ShapeError(
+                f"{self.size} {self._several} of shape {self.shape} cannot be given the shape "
+                f"{shown(shape[0] if len(shape) == 1 else shape)}"
+            ) from None
+
+    def _each(self, change: Callable[[Any], Any]) -> Self:
+        """Return the same with axes changed, number by number."""
+        raise NotImplementedError
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:  # noqa: FBT001 - NumPy's
+        """Return the numbers for NumPy, the axes of one behind; read-only but for a copy."""
+        numbers = getattr(self, self._attribute)
+        if is_traced(numbers):
+            raise ParameterError(
+                f"{self._kind} that JAX traces is no array of numbers; take "
+                f"{self._written}, inside of jit and grad as well"
+            )
+        return np.array(known(numbers), dtype=dtype, copy=copy)
+
+
+def each_number(numbers: Any, change: Callable[[Any], Any]) -> Any:
+    """Return vectors whose axes but the last are changed, number by number.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (..., n)
+        The vectors.
+    change : callable
+        What makes an array of the part out of one of the batch.
+
+    Returns
+    -------
+    ndarray, shape (..., n)
+
+    Examples
+    --------
+    >>> each_number(np.eye(3), lambda numbers: numbers[1])
+    array([0., 1., 0.])
+    """
+    parts = [change(numbers[..., place]) for place in range(numbers.shape[-1])]
+    return namespace(parts[0]).stack(parts, axis=-1)

@@ -1,0 +1,108 @@
+"""Matrices as they are measured, which may make of light what no light is."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import LightError, shown
+from optipath.light.mueller.cloude import tolerance_for
+from optipath.light.physical_light import problem_of
+from optipath.light.polarization_state import length
+from optipath.values.arrays.jax_values import namespace
+from optipath.values.domains.states import can_be_light, surely_light
+from optipath.values.roundings import rounding_of
+
+if TYPE_CHECKING:
+    from optipath.values.roundings import Array
+
+_CURE = (
+    "act with matrix.nearest_physical(); or, for measured noise, on Light(..., physical=False), "
+    "which may be what no light is"
+)
+
+
+def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
+    """Tell of which light a matrix makes what no light is, beyond the rounding of all three.
+
+    A matrix that is physical by the default of `Mueller.is_physical` does so of none.
+
+    Parameters
+    ----------
+    matrix : ndarray, shape (..., 4, 4)
+        The matrices.
+    noise : ndarray, shape (...)
+        What of their entries is rounding.
+    arriving, made : ndarray, shape (..., 4)
+        Stokes vectors near 1, and those behind the matrix.
+
+    Returns
+    -------
+    ndarray of bool, shape (...)
+        Not where what arrives is no light, or not known.
+
+    Examples
+    --------
+    >>> light = np.array([1.0, 0.0, 0.0, 1.0])
+    >>> print(becomes_no_light(np.eye(4), 0.0, light, np.array([1.0, 0.0, 0.0, 1.7])))
+    True
+    """
+    xp = namespace(made)
+    tolerance = max(tolerance_for(matrix), tolerance_for(arriving))
+    rounding = (tolerance * abs(matrix[..., 0, 0]) + noise) * arriving[..., 0]
+    is_light = can_be_light(arriving, rounding_of(arriving)) & (arriving[..., 0] >= 0.0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        beyond = length(made[..., 1], made[..., 2], made[..., 3]) - made[..., 0]
+    # Numbers below the smallest normal one have lost digits; of infinite ones nothing is said.
+    least = float(np.finfo(made.dtype).tiny)
+    return is_light & (beyond > xp.maximum(rounding, least)) & (beyond < np.inf)
+
+
+def check_becomes_light(matrix: Array, noise: Array, arriving: Array, made: Array) -> None:
+    """Refuse a matrix that makes of light what no light is.
+
+    Parameters
+    ----------
+    matrix, noise, arriving, made
+        As `becomes_no_light` takes them.
+
+    Raises
+    ------
+    LightError
+        Naming the first such light.
+    """
+    if surely_light(made):
+        return
+    bad = np.asarray(becomes_no_light(matrix, noise, arriving, made))
+    if not bad.any():
+        return
+    place = tuple(int(i) for i in np.argwhere(bad)[0])
+    intensity = arriving[..., :1]
+    before, behind = (
+        np.broadcast_to(stokes / np.where(intensity > 0.0, intensity, 1.0), made.shape)[place]
+        for stokes in (arriving, made)
+    )
+    more = f" (one of {bad.sum()} such)" if bad.sum() > 1 else ""
+    raise LightError(
+        f"light like {shown(before.tolist())} becomes {shown(behind.tolist())}, "
+        f"{problem_of(behind)}{more}, by a Mueller matrix that is unphysical; {_CURE}"
+    )
+
+
+def nan_where_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
+    """Return light that JAX traces, NaN where it is none, with its slopes.
+
+    Parameters
+    ----------
+    matrix, noise, arriving, made
+        As `becomes_no_light` takes them.
+
+    Returns
+    -------
+    jax.Array, shape (..., 4)
+    """
+    xp = namespace(made)
+    # A product, since a choice would have slopes of 0.
+    share = xp.where(becomes_no_light(matrix, noise, arriving, made), np.nan, 1.0)
+    return made * share[..., np.newaxis].astype(made.dtype)
