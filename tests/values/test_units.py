@@ -198,7 +198,7 @@ def test_of_an_unknown_unit_all_that_there_are_are_listed():
         ("30 grad", "a grad is 0.9 deg where it is a gon, and 1 deg in German; write it in deg"),
         ("30 gon", "a gon is 0.9 deg; write it in deg"),
         ("1,000 deg", "a decimal point or part thousands; write '1.000 deg' or '1000 deg'"),
-        ("0,125 deg", "did you mean '0.125 deg'?"),
+        ("30 grads", "in German; write it in deg"),
     ],
 )
 def test_a_text_that_may_be_read_in_two_ways_is_told_with_both(text, readings):

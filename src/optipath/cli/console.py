@@ -42,7 +42,7 @@ def say_wrapped(text: str) -> None:
     click.echo(wrapped(printable(text), _width()))
 
 
-def wrapped(text: str, width: int) -> str:
+def wrapped(text: str, width: int, *, whole_words: bool = False) -> str:
     """Return lines of which those that are longer go on in the next, which is indented.
 
     Parameters
@@ -51,6 +51,8 @@ def wrapped(text: str, width: int) -> str:
         Any lines.
     width : int
         How many characters a line has at most.
+    whole_words : bool, optional
+        Whether a word that is longer is left to the terminal to break.
 
     Returns
     -------
@@ -62,9 +64,9 @@ def wrapped(text: str, width: int) -> str:
     | out -->
         polariser.in
     """
+    keywords: Any = {"break_long_words": not whole_words, "break_on_hyphens": False}
     lines = (
-        wrap(line, width, subsequent_indent=_HANGING, break_on_hyphens=False)
-        for line in text.splitlines()
+        wrap(line, width, subsequent_indent=_HANGING, **keywords) for line in text.splitlines()
     )
     return "\n".join("\n".join(parts) for parts in lines)
 

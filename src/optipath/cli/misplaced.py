@@ -10,7 +10,7 @@ import click
 from optipath.cli.unknown_options import unknown_options_told
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Mapping, Sequence
 
 _DASHES = "-\u2010\u2011\u2012\u2013\u2014\u2212"
 """What a text that is pasted may have in place of the hyphen: other hyphens, dashes, a minus."""
@@ -38,13 +38,14 @@ class StrictCommand(click.Command):
         with unknown_options_told(ctx, words):
             left = super().parse_args(ctx, args)
         if left and not ctx.resilient_parsing:
-            flags = [flag for option in self.get_params(ctx) for flag in option.opts]
+            options = [one for one in self.get_params(ctx) if isinstance(one, click.Option)]
+            flags = {flag: one.is_flag for one in options for flag in one.opts}
             raise click.UsageError(_left_over(left[0], words, flags), ctx)
         return left
 
 
-def _left_over(word: str, words: Sequence[str], flags: Collection[str]) -> str:
-    """Say what is wrong with a word that no option of these takes."""
+def _left_over(word: str, words: Sequence[str], flags: Mapping[str, bool]) -> str:
+    """Say what is wrong with a word that no option takes; of each is known if it takes none."""
     # Not for every start of the command.
     from optipath.values.unit_names import usual_name  # noqa: PLC0415
     from optipath.values.units import UNITS  # noqa: PLC0415
@@ -53,8 +54,9 @@ def _left_over(word: str, words: Sequence[str], flags: Collection[str]) -> str:
     flag, value = ("", "", *words[:at])[-2:]
     name, _, given = word.partition("=")
     if (meant := f"--{name.lstrip(_DASHES)}") in flags:
-        given = given or "".join(words[at + 1 : at + 2]) or "..."
-        return f"'{word}' is no option; write {meant} {shlex.quote(given)}"
+        behind = [one for one in words[at + 1 : at + 2] if not one.startswith("--")]
+        given = "" if flags[meant] else shlex.quote(given or "".join(behind) or "VALUE")
+        return f"'{word}' is no option; write {meant} {given}".rstrip()
     if value.startswith("--") and value.endswith("="):
         return f"'{word}' is cut off from {value}; write {value[:-1]} {shlex.quote(word)}"
     if value.startswith("--") and "=" in value:

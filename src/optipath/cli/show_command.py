@@ -71,7 +71,8 @@ def _print(console: PlainConsole, path: PathGraph) -> None:
     if path.cases:
         text += ["", f"cases: {', '.join(path.cases)}"]
     text += [f"  {name}: {found.note}" for name, found in path.cases.items() if found.note]
-    console.print(cell(wrapped("\n".join(text), console.width)), soft_wrap=True)
+    shown = wrapped("\n".join(text), console.width, whole_words=True)
+    console.print(cell(shown), soft_wrap=True)
 
 
 def _row(parameter: Parameter) -> tuple[str, str, str, str]:

@@ -28,7 +28,7 @@ def comma_cure(text: str) -> str:
     Examples
     --------
     >>> comma_cure("30,5 deg")
-    "did you mean '30.5 deg'?"
+    "did you mean '30.5 deg'? (a text is one value; several are an array, in Python)"
     >>> comma_cure("1,000")
     "its comma may be a decimal point or part thousands; write '1.000' or '1000'"
     """
@@ -36,4 +36,5 @@ def comma_cure(text: str) -> str:
     if len(found) > 1:
         written = " or ".join(f"'{number}'" for number in found)
         return f"its comma may be a decimal point or part thousands; write {written}"
-    return f"did you mean '{found[0]}'?" if found else ""
+    several = "(a text is one value; several are an array, in Python)"
+    return f"did you mean '{found[0]}'? {several}" if found else ""

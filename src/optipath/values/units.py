@@ -161,8 +161,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
         if meant := comma_cure(text):
             raise UnitError(f"'{text}' is not a quantity; {meant}")
         if meant := _respelt(text, dimension):
-            several = " (a text is one value; several are an array, in Python)" * ("," in text)
-            raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?{several}")
+            raise UnitError(f"'{text}' is not a quantity; did you mean '{meant}'?")
         example = f"'30 {USUAL_UNITS[dimension]}'" if dimension else "'1.5' or '0.3+0.4j'"
         raise UnitError(f"'{text}' is not a quantity; write a number such as {example}")
     unit = match[2] or default_unit
