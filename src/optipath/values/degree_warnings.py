@@ -102,10 +102,8 @@ def warn_of_two_factors(what: str, value: Any, place: Affine) -> bool:
         entries = as_given("", value).ravel().tolist()
     except OptipathError:
         return False  # For validation to name.
-    texts = [entry for entry in entries if isinstance(entry, str)]
-    angles = (
-        text for text in texts if getattr(UNITS.get(unit_of(text)), "dimension", 0) == "angle"
-    )
+    texts = [entry for entry in entries if isinstance(entry, str) and unit_of(entry) in UNITS]
+    angles = (text for text in texts if UNITS[unit_of(text)].dimension == "angle")
     if (text := next(angles, None)) is None:
         return False
     angle = math.degrees(place.placed(parse_quantity(text, "angle")))
