@@ -39,7 +39,7 @@ def text_of(numbers: Any, frame: Frame, exponent: Array) -> str:
     """
     told = [_text(numbers)]
     if frame != Frame():
-        told.append(f"frame={frame!r}")
+        told.append("frame=" + repr(frame))
     if exponent.any():
         told.append(f"exponent={_text(exponent)}")
     if exponent.size > _SHOWN:

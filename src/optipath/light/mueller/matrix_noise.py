@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
@@ -25,10 +25,7 @@ class KnownNoise(FramesOnDemand):
 
     matrix: Any
 
-    @classmethod
-    def of(cls, matrix: Any, frame_in: Any, frame_out: Any) -> Self:
-        """Return what has been computed as a Mueller matrix."""
-        raise NotImplementedError
+    of: ClassVar[Callable[..., Any]]
 
     @property
     def noise(self) -> Array:
@@ -66,7 +63,7 @@ class KnownNoise(FramesOnDemand):
         Mueller
         """
         frames = self._kept_frame("frame_in"), self._kept_frame("frame_out")
-        found = self.of(self.matrix, *frames)
+        found: Self = self.of(self.matrix, *frames)
         vars(found).update(_noise=noise, _given=given)
         return found
 
