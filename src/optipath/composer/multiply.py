@@ -71,7 +71,7 @@ class _Multiplying:
                 found.append(item)
             elif constant.is_identity:
                 self.notes.append(f"{item.operation.kernel.name} at '{item.label}' changes nothing")
-            elif run and item.once and (both := run[-1][1].then(constant)):
+            elif run and (both := run[-1][1].then(constant)):
                 run[-1] = self._joined([run[-1][0], item], both), both
             else:
                 run.append((item, constant))
@@ -80,7 +80,7 @@ class _Multiplying:
     def _as_one(self, run: Sequence[tuple[Item, Constant]]) -> list[Item]:
         """Return neighbours as one matrix where that is less work and loses no digit."""
         items, constants = [item for item, _ in run], [constant for _, constant in run]
-        if not (self.matrices and len(run) > 1 and items[0].once):
+        if not (self.matrices and len(run) > 1):
             return items
         dear = sum(constant.cost for constant in constants) > Constant(FULL, ()).cost
         if not (dear and all(constant.lets_through for constant in constants)):

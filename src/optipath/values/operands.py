@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import prod
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY, made
 from optipath.values.arrays.jax_values import check_known, is_traced
 from optipath.values.arrays.read_only import same
-from optipath.values.multiples import affine
+from optipath.values.input_key import InputKey
 from optipath.values.parameters import Parameter
 from optipath.values.roundings import doubles
 
@@ -35,56 +35,6 @@ ZERO, ONE, MANY, WIDE, ABSENT = "zero", "one", "many", "wide", "absent"
 
 _COMPARED = 1 << 20
 """How many bytes of an array are compared with those of another."""
-
-
-class InputKey(NamedTuple):
-    """A number that is given for a parameter, before anything is done to it.
-
-    Attributes
-    ----------
-    name : str
-        The parameter.
-    part : str or int
-        As in `Operand`; cosines and sines are made of ``"value"``.
-    scale, offset : float
-        What the parameter is multiplied by, and what is added, where the number is not what is
-        given as it stands.
-    """
-
-    name: str
-    part: str | int = "value"
-    scale: float = 1.0
-    offset: float = 0.0
-
-    def __str__(self) -> str:
-        plain = f"{self.name} {self.part}"
-        return f"{self.scale} * {plain} + {self.offset}" if self.is_affine else plain
-
-    @property
-    def is_affine(self) -> bool:
-        """Whether it is a multiple of what is given, or has an offset."""
-        return self.scale != 1.0 or self.offset != 0.0
-
-    @property
-    def quantity(self) -> Hashable:
-        """What it is a part of: the parameter by its name, or a multiple of it with an offset."""
-        return (self.name, self.scale, self.offset) if self.is_affine else self.name
-
-    def placed(self, numbers: Any, limits: tuple[float, float]) -> Any:
-        """Return numbers for it.
-
-        Parameters
-        ----------
-        numbers : float or ndarray
-            Those that are given.
-        limits : tuple of float
-            What it must be within, as for `affine`.
-
-        Returns
-        -------
-        float or ndarray
-        """
-        return affine(self.scale, self.offset, numbers, limits) if self.is_affine else numbers
 
 
 def part_of(numbers: Any, part: str | int, tail: tuple[int, ...]) -> Any:

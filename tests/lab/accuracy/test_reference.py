@@ -11,6 +11,7 @@ from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.path_reference import exact_batch, exact_lights, exact_stokes
 from optipath.lab.accuracy.reference import reflection, transmission
 from published import npgr026
+from slabs import stack
 
 
 @pytest.mark.parametrize("case", sorted(npgr026.EXACT))
@@ -209,6 +210,12 @@ def test_an_angle_whose_rounding_is_a_turn_is_taken_as_it_is():
     lamp >> path.add("a", op.Polarizer("1e17 rad")) >> path.add("eye", op.Detector())
     exact = float(exact_lights(path)["eye"].stokes[0])
     assert exact == pytest.approx(float(mpmath.cos(mpmath.mpf(10) ** 17) ** 2), rel=1e-15)
+
+
+def test_light_that_goes_round_next_to_a_critical_angle_has_a_reference():
+    indices = 1.2013844143721588, 2.3154580605777224, 1.1992097736544047, 2.41156558882614
+    lights = exact_stokes(stack(*indices, theta=1.5106189446918221))
+    assert abs(lights["R"][0] + lights["T"][0] - 1) < 1e-45
 
 
 def test_a_reference_is_of_a_path():

@@ -9,7 +9,8 @@ from optipath.engines.formulas.stages import stages
 from optipath.engines.formulas.symbol import Symbol
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.plan.running.batch import Layout, sliced
-from optipath.values.operands import MANY, InputKey
+from optipath.values.input_key import InputKey
+from optipath.values.operands import MANY
 
 METAL = {"n1": 1.12, "k1": 2.16, "n2": 0.608, "k2": 2.12, "filter": 0.3}
 SHAPES = [

@@ -186,3 +186,11 @@ def test_several_detectors_are_given_their_own_light_by_every_run():
             np.testing.assert_allclose(stokes, batch[end].stokes[0], rtol=1e-13)
     total = sum(light.intensity for light in runs_of_one[-1].values())
     np.testing.assert_allclose(total, 1.0, rtol=1e-13)
+
+
+def test_an_index_on_both_sides_does_without_steps_though_it_absorbs_nothing():
+    # Indices in front of a boundary are never 0, which says nothing of what they absorb.
+    plan = op.load_preset("glass-slab").compose()
+    for _ in range(5):
+        plan.run_all(theta=0.5)
+    assert plan.answers.ran_by == ("floats",)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
     from optipath.kernels.carriers.carrier import Carrier
-    from optipath.values.operands import InputKey
+    from optipath.values.input_key import InputKey
 
 
 NO_AXES: Mapping[str, frozenset[int]] = MappingProxyType({})

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from optipath.engines.formulas.recorder import Recorder
     from optipath.engines.program.program import Program
     from optipath.kernels.numbers.primitives import Primitives
-    from optipath.values.operands import InputKey, Operand
+    from optipath.values.input_key import InputKey
+    from optipath.values.operands import Operand
 
 Limits = tuple[float, float]
 
@@ -109,7 +110,7 @@ class SymbolicInputs:
         return self.recorder.input(name, kind, axes=axes, left=left)
 
     def _given(self, key: InputKey, form: str) -> Any:
-        low, high = self.limits[key.quantity]
+        low, high = key.limits_in(self.limits)
         given = self._input(str(key), form)
         if form == WIDE:
             # What is looked at is the number that is given, not what is left of it.

@@ -61,7 +61,7 @@ class CloserLook:
         """Return the lights at the junctions of a loop."""
         return LoopSolver(self.program, loop, self.numbers, _TWICE, _longer, self._rounded)
 
-    def evaluations(self) -> dict[int, Numbers]:
+    def evaluations(self) -> dict[int, tuple[np.ndarray[Any, Any], ...]]:
         """Return what every evaluation comes to, rounded, as `execute` may be given it.
 
         What is reflected at a boundary, what enters a loop there and what comes back then belong

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     from optipath.elements.own_ways import OwnWays
     from optipath.plan.running.reading import ResolvedInputs
-    from optipath.values.operands import InputKey, Operand
+    from optipath.values.input_key import InputKey
+    from optipath.values.operands import Operand
 
 _LOOKED_AT = 16
 """How many paths of a batch."""

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from optipath.engines.formulas.formula import Formula
     from optipath.engines.program.program import Program
     from optipath.kernels.carriers.carrier import Carrier
+    from optipath.values.input_key import InputKey
     from optipath.values.inputs import Inputs
-    from optipath.values.operands import InputKey
 
 LONGEST = 200
 """How many steps are compiled in one piece."""

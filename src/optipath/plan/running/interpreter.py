@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.reading import ResolvedInputs
-    from optipath.values.operands import InputKey, Operand
+    from optipath.values.input_key import InputKey
+    from optipath.values.operands import Operand
 
 Shared: TypeAlias = Mapping[int, tuple[np.ndarray[Any, Any], ...]]
 

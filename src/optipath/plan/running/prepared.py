@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from optipath.plan.running.question import Question
     from optipath.plan.running.reading import InputReader, ResolvedInputs
     from optipath.plan.running.scalar_runner import FloatFunction, ScalarRunner
-    from optipath.values.operands import InputKey
+    from optipath.values.input_key import InputKey
 
 
 class BatchKind:

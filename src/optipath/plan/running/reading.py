@@ -8,7 +8,8 @@ import numpy as np
 
 from optipath.plan.running.batch import sliced
 from optipath.values.angles import CosSin
-from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, InputKey, part_of
+from optipath.values.input_key import InputKey
+from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, part_of
 from optipath.values.roundings import as_doubles, is_beyond
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ class ResolvedInputs(NamedTuple):
         for key, number in self.numbers.items():
             if isinstance(number, (np.ndarray, bool)) or key.part in _PAIR:
                 continue
-            low, high = limits[key.quantity]
+            low, high = key.limits_in(limits)
             if not (low <= number <= high and abs(number) < np.inf):
                 return False
         return True

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from optipath.plan.running.formula_maker import FormulaMaker
     from optipath.plan.running.interpreter import Interpreter
     from optipath.plan.running.reading import ResolvedInputs
+    from optipath.values.input_key import InputKey
     from optipath.values.inputs import Inputs
-    from optipath.values.operands import InputKey
 
 Lights: TypeAlias = list[tuple[Any, ...]]
 
