@@ -18,7 +18,7 @@ from optipath.values.degrees import called
 from optipath.values.displayed import displayed, format_range
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.roundings import doubles, traced_within, within
-from optipath.values.specification import check_types, checked_name, read_specification
+from optipath.values.specification import check_types, checked_name, limit_of, read_specification
 from optipath.values.units import dimension_of, format_quantity, parse_quantity
 from optipath.values.unknown_parameter import unknown_word
 
@@ -105,7 +105,7 @@ class Parameter(AffineArithmetic):
         check_types(self)
         scale, offset, dimension = self.checked_shape()
         vars(self).update(scale=scale, offset=offset, offset_dimension=dimension)
-        low, high = self._limit(self.minimum), self._limit(self.maximum)
+        low, high = [limit_of(self.name, end) for end in (self.minimum, self.maximum)]
         if not low <= high:
             raise ParameterError(
                 f"parameter '{self.name}' has the range {self.text(low)} .. "
@@ -125,15 +125,6 @@ class Parameter(AffineArithmetic):
             self.resolve(self.default)
         elif self.bound:
             raise ParameterError(f"parameter '{self.name}' is bound but has no value; give one")
-
-    def _limit(self, value: Any) -> float:
-        if type(value) is float:
-            return value
-        what = f"the range of parameter '{self.name}'"
-        array = array_of(what, value, ParameterError)
-        if array.ndim or array.dtype.kind not in "iuf":
-            raise ParameterError(f"{what} must be numbers, not {shown(value)}")
-        return float(array)
 
     def _word(self, word: Any, value: Any) -> float:
         if not isinstance(word, str) or word == ABSENT or not word[:1].isalpha():

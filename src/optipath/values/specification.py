@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ParameterError, shown
+from optipath.values.arrays.array_likes import array_of
 from optipath.values.degree_warnings import warn_of_degrees
 from optipath.values.degrees import is_within_a_turn
 from optipath.values.texts import numbers_for
@@ -53,6 +54,34 @@ def checked_name(name: Any) -> str:
         f"parameter name {shown(name)} must be letters, digits and underscores, "
         f"not starting with a digit"
     )
+
+
+def limit_of(name: str, value: Any) -> float:
+    """Return an end of the range of a parameter as a number.
+
+    Parameters
+    ----------
+    name : str
+        That of the parameter.
+    value : Any
+        What is given, texts read already.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ParameterError
+        If it is no real number.
+    """
+    if type(value) is float:
+        return value
+    what = f"the range of parameter '{name}'"
+    array = array_of(what, value, ParameterError)
+    if array.ndim or array.dtype.kind not in "iuf":
+        raise ParameterError(f"{what} must be numbers, not {shown(value)}")
+    return float(array)
 
 
 def read_specification(parameter: Any) -> dict[str, Any]:
