@@ -245,13 +245,7 @@ to = "eye.in"
 @pytest.mark.parametrize(
     ("default", "intensity", "r_s", "sentence"),
     [
-        (
-            "[1, 1, 0, 0]",
-            '"$i"',
-            "-1",
-            r"parameter 'i' .* write stokes = \[1.*, 0.0\] in its place",
-        ),
-        ("-1", "[1, 1, 0, 0]", '"$i"', r"Source intensity .* stokes = \[1, 0, 0, 0\] beside it"),
+        ("1", "1", "[-0.9, 0.1]", r"elements.mirror.r_s: .* write { re = -0.9, im = 0.1 }"),
         ("[-0.9, 0.1]", "1", '"$i"', r"parameters.i.default: .* write { re = -0.9, im = 0.1 }"),
     ],
 )
@@ -261,11 +255,20 @@ def test_a_file_asks_once_and_in_its_own_words(tmp_path, default, intensity, r_s
     with pytest.raises(op.PathError, match=sentence) as error:
         op.load_preset(file)
     assert len(error.value.faults) == 1
-    if "beside it" in sentence:
-        file.write_text(
-            file.read_text().replace("intensity =", "stokes = [1, 0, 0, 0]\nintensity =")
-        )
-        assert op.load_preset(file).trace().shape == (4,)
+
+
+FOUR = np.array([4.0, 3.0, 2.0, 1.0])
+
+
+@pytest.mark.parametrize("intensity", [FOUR, op.Parameter("i", FOUR), op.Parameter("i")])
+def test_four_intensities_go_to_a_file_and_back(tmp_path, intensity):
+    path, file = op.Source(intensity) >> op.Detector(), tmp_path / "four.toml"
+    if isinstance(intensity, op.Parameter):
+        path.cases["four"] = op.Case(values={"i": FOUR})
+    file.write_text(path.to_toml())
+    assert op.load_preset(file) == path
+    case = {"case": "four"} if path.cases else {}
+    np.testing.assert_array_equal(op.load_preset(file, **case).trace().S0, FOUR)
 
 
 def test_several_paths_are_given_by_arrays_and_lists():

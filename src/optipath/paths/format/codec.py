@@ -13,6 +13,7 @@ from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean,
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.references import named, referred
 from optipath.paths.format.schema import as_meant
+from optipath.values.arrays.array_likes import array_of
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
@@ -25,6 +26,7 @@ from optipath.values.domains.indices import (
 )
 from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import AMPLITUDE, ANGLE
+from optipath.values.domains.states import IntensityDomain
 from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
@@ -103,7 +105,12 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return named(raw, domain)
     if domain.complex_parts and is_pair(raw):
         raise PresetError(which_pair(raw, domain.complex_parts))
-    return domain.parse(raw) if isinstance(raw, str) else _number(raw, domain.unit)
+    if isinstance(raw, str):
+        return domain.parse(raw)
+    number = _number(raw, domain.unit)
+    # A file has a key of its own for a state, so four numbers are the intensities of paths.
+    several = isinstance(raw, list) and isinstance(domain, IntensityDomain)
+    return array_of("the value", number) if several else number
 
 
 def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
@@ -156,7 +163,9 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
             said = f"parameter '{parameter.name}': "
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
-        return [decode_given(entry, parameter) for entry in raw]
+        several = [decode_given(entry, parameter) for entry in raw]
+        # As for an intensity; pairs are asked about where they stand.
+        return several if len(raw) != 4 else array_of("the value", several)
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))

@@ -71,13 +71,9 @@ class IntensityDomain(Domain):
     def doubt(self, owner: str, value: Any) -> str:
         if not _may_be_a_state(value):
             return ""
-        which = cure(
-            f"give stokes={value} to the Source for the one, np.array({[*value]}) for the other",
-            f"write stokes = {value} in its place for the one, stokes = [1, 0, 0, 0] beside it for "
-            f"the other",
-        )
         return (
-            f"{owner} is {value}, which may be a state, or the intensities of four paths; {which}"
+            f"{owner} is {value}, which may be a state, or the intensities of four paths; give "
+            f"stokes={value} to the Source for the one, np.array({[*value]}) for the other"
         )
 
 
