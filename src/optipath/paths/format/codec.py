@@ -105,12 +105,8 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return named(raw, domain)
     if domain.complex_parts and is_pair(raw):
         raise PresetError(which_pair(raw, domain.complex_parts))
-    if isinstance(raw, str):
-        return domain.parse(raw)
-    number = _number(raw, domain.unit)
-    # A file has a key of its own for a state, so four numbers are the intensities of paths.
-    several = isinstance(raw, list) and isinstance(domain, IntensityDomain)
-    return array_of("the value", number) if several else number
+    number = _intensities if isinstance(domain, IntensityDomain) else _number
+    return domain.parse(raw) if isinstance(raw, str) else number(raw, domain.unit)
 
 
 def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
@@ -164,8 +160,8 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
         several = [decode_given(entry, parameter) for entry in raw]
-        # As for an intensity; pairs are asked about where they stand.
-        return several if len(raw) != 4 else array_of("the value", several)
+        is_plain = all(isinstance(entry, float) for entry in several)
+        return _intensities(several) if is_plain and len(raw) == 4 else several
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))
@@ -290,6 +286,12 @@ def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngle
 def _unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
     unknown = [key for key in raw if key not in names]
     return Faults(f"key '{key}' is unknown{did_you_mean(key, names)}" for key in unknown)
+
+
+def _intensities(raw: Any, unit: str = "") -> Any:
+    """Return numbers of which four are no state, for which a file has a key of its own."""
+    number = _number(raw, unit)
+    return array_of("the value", number) if isinstance(number, list) else number
 
 
 def _number(raw: Any, unit: str) -> Any:
