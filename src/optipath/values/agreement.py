@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from optipath.values.operands import NOTHING, Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping
+    from collections.abc import Collection, Hashable, Iterable, Mapping
 
     from optipath.values.resolved import Resolved
 
@@ -84,6 +84,12 @@ class Agreement:
     def is_open(self) -> bool:
         """Whether a number is only known when the path runs."""
         return any(not operand.known or operand.traced for operand in self.operands)
+
+    def key(self) -> Hashable:
+        """Return what equal agreements share; None where an operand has no such."""
+        keys = tuple(operand.key() for operand in self.operands)
+        others = (getattr(self, f.name) for f in fields(self) if f.name != "operands")
+        return None if None in keys else (type(self), keys, *others)
 
     def fault(self, given: Mapping[str, Resolved] = NOTHING) -> str:
         """Say what does not fit; nothing where all does, or cannot be compared.

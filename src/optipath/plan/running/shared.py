@@ -76,7 +76,8 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
     """Return what equal programs share, names included; None for what is not kept."""
     operands = [operand.key() for operand in program.operands]
     size = sum([getattr(operand.value, "nbytes", 0) for operand in program.operands])
-    if None in operands or size > _LARGEST or inputs.known:
+    agreements = [agreement.key() for agreement in inputs.agreements]
+    if None in (*operands, *agreements) or size > _LARGEST or inputs.known:
         return None
     parameters = (*inputs.open.values(), *inputs.bound.values())
     if any(is_traced(parameter.default) for parameter in parameters):
@@ -99,6 +100,7 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
             [(u.owner, u.value.name, u.value.scale, u.value.offset, u.domain) for u in inputs.uses]
         ),
         tuple(inputs.shapes.items()),
+        tuple(agreements),
     )
 
 
