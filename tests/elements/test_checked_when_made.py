@@ -257,6 +257,16 @@ def test_a_file_asks_once_and_in_its_own_words(tmp_path, default, intensity, r_s
     assert len(error.value.faults) == 1
 
 
+@pytest.mark.parametrize("give", ["trace", "bind", "with_defaults"])
+def test_a_material_stands_for_an_index_alone(give):
+    told, material = "a Material stands for an index of refraction", op.Material(0.5, 0.1)
+    path = op.Source() >> op.Mirror(op.Parameter("r"), 0.5) >> op.Detector()
+    with pytest.raises(op.OptipathError, match=told):
+        getattr(path, give)(r=material)
+    with pytest.raises(op.ValueFault, match=told):
+        op.Mirror(op.Parameter("r", material))
+
+
 FOUR = np.array([4.0, 3.0, 2.0, 1.0])
 
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
-_NOT_OF_THE_VALUE = {"scale", "offset", "offset_dimension", "is_listed"}
+_NOT_OF_THE_VALUE = {"scale", "offset", "offset_dimension", "is_listed", "is_material"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,6 +68,8 @@ class Parameter(AffineArithmetic):
     ----------
     is_listed : bool
         Whether the default was given as a list, which may be one value by its parts.
+    is_material : bool
+        Whether it was given as a `Material`, which stands for an index of refraction.
 
     Raises
     ------
@@ -98,6 +100,7 @@ class Parameter(AffineArithmetic):
     offset: float = 0.0
     offset_dimension: str = ""
     is_listed: bool = field(default=False, init=False, repr=False)
+    is_material: bool = field(default=False, init=False, repr=False)
 
     def __post_init__(self) -> None:
         checked_name(self.name)
@@ -120,6 +123,7 @@ class Parameter(AffineArithmetic):
             )
         if self.default is not None:
             vars(self)["is_listed"] = isinstance(self.default, (list, tuple))
+            vars(self)["is_material"] = hasattr(type(self.default), "refractive_index")
             default = read_only(self._as_number(self.default), (low, high), widened=False)
             object.__setattr__(self, "default", default)
             self.resolve(self.default)

@@ -113,6 +113,8 @@ class Use:
         default = self.value.default
         if self.value.is_listed and (doubt := self.doubt(default.tolist())):
             raise ValueFault(doubt)
+        if self.value.is_material and not self.domain.takes_materials:
+            raise ValueFault(self._no_index(default))
         if type(default) is float:
             # Whether a number is in the range was asked when the parameter was made.
             self.check_given(default)
@@ -120,10 +122,18 @@ class Use:
             self.check_given(*self.value.resolve(default))
 
     def doubt(self, given: Any) -> str:
-        """Ask what a list that is given for the parameter means, where it may be one value."""
+        """Ask what a list or a `Material` that is given for the parameter means; mostly nothing."""
+        if hasattr(type(given), "refractive_index") and not self.domain.takes_materials:
+            return self._no_index(given)
         if not isinstance(given, (list, tuple)):
             return ""
         return self.domain.doubt(f"parameter '{self.value.name}' (at {self.owner})", given)
+
+    def _no_index(self, material: Any) -> str:
+        return (
+            f"parameter '{self.value.name}' (at {self.owner}) is {material}, but a Material stands "
+            f"for an index of refraction; give {self.domain.described()}"
+        )
 
     def check_given(
         self, numbers: float | np.ndarray[Any, Any], present: np.ndarray[Any, Any] = THERE

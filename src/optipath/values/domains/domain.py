@@ -215,6 +215,11 @@ class Domain:
         del owner, value
         return ""
 
+    @property
+    def takes_materials(self) -> bool:
+        """Whether a `Material` may stand for the number."""
+        return self.name == "index of refraction"
+
     def kept(self, value: Any) -> Any:
         """Return a value that nobody can change."""
         return read_only(value, (self.minimum, self.maximum))
