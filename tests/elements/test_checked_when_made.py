@@ -202,7 +202,7 @@ def test_what_cannot_stand_in_an_element_is_told_where_it_can(make, sentence):
 
 
 def test_two_numbers_of_which_one_is_none_are_no_pair():
-    with pytest.raises(op.ValueFault, match="index is nan; give a finite"):
+    with pytest.raises(op.ValueFault, match="index is nan at 1; give a finite"):
         op.Interface([1.5, np.nan], 0.3)
 
 

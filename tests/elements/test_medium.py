@@ -190,9 +190,10 @@ def test_rotation_and_retardance_together_are_refused(rotation, retardance):
 @pytest.mark.parametrize("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
 def test_one_of_both_may_be_0(zero):
     found = op.Medium(0.5, rotation=zero, retardance=1.0).mueller().matrix
-    np.testing.assert_array_equal(found, op.Retarder(0.5).mueller().matrix)
+    several = np.zeros((*np.shape(zero), 1, 1))
+    np.testing.assert_array_equal(found, op.Retarder(0.5).mueller().matrix + several)
     found = op.Medium(0.5, rotation=1.0, retardance=zero).mueller().matrix
-    np.testing.assert_array_equal(found, op.Rotator(0.5).mueller().matrix)
+    np.testing.assert_array_equal(found, op.Rotator(0.5).mueller().matrix + several)
 
 
 def test_all_faults_are_told_at_once():

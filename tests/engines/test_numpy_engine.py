@@ -46,7 +46,7 @@ def matrix_of(element):
     leaves = "out" if element.straight else "reflected"
     # The frame turned by a is the light turned by -a.
     turn = op.Rotator(-getattr(element, "azimuth", 0.0)).mueller()
-    return element.mueller(leaves=leaves) @ turn
+    return op.Mueller(element.mueller(leaves=leaves).matrix) @ turn
 
 
 @given(elements=CHAINS, state=states())

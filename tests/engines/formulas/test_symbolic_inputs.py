@@ -46,6 +46,7 @@ def test_an_angle_and_its_pair_turn_light_alike(rotator, sign, angle):
             np.testing.assert_allclose(stokes, expected, rtol=0, atol=1e-15)
 
 
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")  # Of each run, as one test says.
 @pytest.mark.parametrize("most", [1.5, 3.0, 6.0, 1e3])
 @pytest.mark.parametrize("least", [0.0, -1.0])
 def test_angles_up_to_any_limit_are_right(least, most):
@@ -54,7 +55,7 @@ def test_angles_up_to_any_limit_are_right(least, most):
     polarizer = op.Polarizer(op.Parameter("a", **limits))
     plan = op.Composer(engine="numpy").compose(chain([polarizer], SEEN))
     expected = np.cos(angles) ** 2
-    if most > 2 * np.pi:  # Told once, since it may have been meant in degrees.
+    if most > 2 * np.pi:
         with pytest.warns(op.AngleWarning, match="did you mean '1000 deg'"):
             plan.run(a=angles)
     np.testing.assert_allclose(plan.run(a=angles).intensity, expected, rtol=0, atol=1e-15)

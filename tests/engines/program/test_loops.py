@@ -313,7 +313,9 @@ def test_light_from_behind_needs_a_medium_that_does_not_absorb():
         path.trace_all()
     path = slab(op.Material(1.5, op.Parameter("k")), 0.5)
     assert path.trace_all(k=0.0)["T"].intensity > 0.9
-    with pytest.raises(op.ParameterError, match=r"at front\.index\.k.*since light comes from"):
+    with pytest.raises(
+        op.ParameterError, match=r"at back\.outside\.k\) is 0\.1; .* medium that light comes from"
+    ):
         path.trace_all(k=0.1)
 
 

@@ -116,7 +116,7 @@ def test_one_value_of_a_few_out_of_range_is_refused_however_often_they_ran():
     path = splitters(1)
     for _ in range(6):
         path.trace_all(r0=np.array([0.1, 0.2, 0.3]))
-        with pytest.raises(op.ParameterError, match=r"'r0' .* is 1\.5; give"):
+        with pytest.raises(op.ParameterError, match=r"'r0' .* is 1\.5 at 1; give"):
             path.trace_all(r0=np.array([0.1, 1.5, 0.3]))
 
 
