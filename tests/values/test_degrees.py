@@ -138,20 +138,22 @@ A = op.Parameter("a")
     [
         (
             10 * A,
-            4.5,
-            r"is 4.5, and 10 \* a is 45 rad, which is 2578.31 deg; did you mean '4.5 deg'",
+            45,
+            r"is 45, and 10 \* a is 450 rad, which is 25783.1 deg; did you mean '45 deg'",
         ),
         (
             2 * A - "10 deg",
-            [0.5, -4.0],
-            r"of -4, and 2 \* a - 10 deg is -8.174\d* rad, which is -468",
+            [0.5, -40.0],
+            r"of -40, and 2 \* a - 10 deg is -80.174\d* rad, which is -4593",
         ),
         (-A, 45, "parameter 'a' is 45 rad"),
         (A * (np.pi / 180), "45 deg", "is '45 deg', and .* is 0.785398 deg; give the degrees as a"),
         (op.Parameter("a", minimum=0, maximum=90) * 0.01745, ["45 deg"], "a is 0.785.* deg; give"),
     ],
 )
-def test_a_multiple_is_warned_of_by_the_angle_that_the_element_gets(angle, given, sentence):
+def test_a_multiple_is_warned_of_where_both_it_and_the_number_are_beyond_a_turn(
+    angle, given, sentence
+):
     path = chain([op.Rotator(angle)])
     for give in (path.trace, path.bind):
         with pytest.warns(op.AngleWarning, match=sentence) as told:
@@ -165,12 +167,68 @@ def test_a_multiple_is_warned_of_by_the_angle_that_the_element_gets(angle, given
         (A * (np.pi / 180), [10.0, 45.0, 720.0]),
         (op.Parameter("a", 45, maximum=360) * (np.pi / 180), 90),
         (A / 100, 270.0),
+        (A / 2, 10.0),
+        (10 * A, 4.5),
+        (5 * A, np.linspace(0.0, 3.0, 31)),
+        (5 * A, np.float32(2.1)),
+        (2 * A, np.linspace(0.0, 2.0 * np.pi, 50, endpoint=False).astype("f4")),
+        (A * (2.0 * np.pi * 0.009 / 550e-9), 1e-3),
+        (2.0 * np.pi * A, np.sqrt(110.0)),
+        (A * (np.pi / 180), np.arange(0.0, 720.0, 0.7)),
         (10 * A, "30 deg"),
         (10 * A, np.radians(90.0)),
     ],
 )
-def test_a_multiple_that_is_within_a_turn_at_the_element_is_no_reason_to_warn(angle, given):
+def test_a_multiple_of_an_angle_within_a_turn_or_of_a_pure_number_is_no_reason_to_warn(
+    angle, given
+):
     assert warned(lambda: chain([op.Rotator(angle)]).trace(a=given)) == []
+
+
+FILE = """
+format = 1
+
+[parameters.a]
+unit = "deg"
+default = "45 deg"
+
+[elements.lamp]
+kind = "source"
+
+[elements.filter]
+kind = "polarizer"
+angle = { parameter = "a", scale = 0.017453292519943295 }
+
+[elements.eye]
+kind = "detector"
+
+[[links]]
+from = "lamp.out"
+to = "filter.in"
+
+[[links]]
+from = "filter.out"
+to = "eye.in"
+"""
+
+
+def test_a_default_of_degrees_that_become_radians_twice_is_warned_of(tmp_path):
+    (file := tmp_path / "twice.toml").write_text(FILE)
+    twice = op.Parameter("a", "45 deg") * (np.pi / 180)
+    for make in (
+        lambda: op.Polarizer(twice),
+        lambda: op.Interface(1.5, twice),
+        lambda: op.load_preset(file),
+    ):
+        (sentence,) = warned(make)
+        assert sentence.startswith("the default of parameter 'a' is '45 deg', and 0.01745")
+        assert "* a is 0.785398 deg; give the degrees as a plain number" in sentence
+
+
+@pytest.mark.parametrize("default", [45, 0.5, None])
+def test_a_default_of_plain_degrees_that_become_radians_is_no_reason_to_warn(default):
+    path = chain([op.Rotator(op.Parameter("a", default) * (np.pi / 180))])
+    assert warned(lambda: path.bind(a=1.0) if default is None else path.trace()) == []
 
 
 def test_large_arrays_are_looked_at_in_many_places():
@@ -210,6 +268,17 @@ def test_degrees_that_are_refused_for_a_multiple_are_offered_as_they_are_given(a
         with pytest.raises(op.ParameterError, match=r"; did you mean '48 deg' or np.radians\(48\)"):
             give(a=given)
     path.trace(a="48 deg")
+
+
+@pytest.mark.parametrize(
+    "angle", [A * (np.pi / 180), "90 deg" - A * (np.pi / 180), 2 * (np.pi / 180) * A]
+)
+def test_degrees_that_become_radians_in_the_path_are_offered_without_a_unit_to_add(angle):
+    path = chain([op.Interface(1.5, angle)])
+    for give in (path.trace, path.bind):
+        with pytest.raises(op.ParameterError) as error:
+            give(a=100)
+        assert "did you mean" not in str(error.value)
 
 
 @pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])

@@ -80,11 +80,6 @@ class Affine:
         sign = "-" if self.offset < 0.0 else "+"
         return f"{multiple} {sign} {format_quantity(abs(self.offset), self.unit)}"
 
-    @property
-    def zero(self) -> float:
-        """The value of which it comes to 0."""
-        return -self.offset / self.scale
-
     def alone(self) -> Self:
         """Return the value itself."""
         is_alone = self.scale == 1.0 and not self.offset and not self.offset_dimension

@@ -12,7 +12,7 @@ import numpy as np
 from optipath.errors import AngleWarning, OptipathError
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
-from optipath.values.degrees import TURN, in_both, in_degrees, is_in_radians
+from optipath.values.degrees import TURN, in_both, in_degrees, is_in_radians, is_of_an_angle
 from optipath.values.units import UNITS, parse_quantity, unit_of
 from optipath.values.written_units import UNITS_ARE_WRITTEN
 
@@ -35,6 +35,8 @@ _LOOKED_AT = 1000
 def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> bool:
     """Warn where a plain number is beyond a whole turn; texts with units are what they say.
 
+    Of a multiple, the angle is beyond a whole turn, too; one of a pure number is never warned of.
+
     Parameters
     ----------
     what : str
@@ -54,17 +56,17 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> bool:
     >>> warn_of_degrees("a turn", 1.0), warn_of_degrees("a turn", "720 deg")
     (False, False)
     """
-    if place is None or place.is_signed:
-        if type(value) is float and not TURN < abs(value) < math.inf:
-            return False
-        angle = number = largest(value)
-        told = in_both(angle)
-    else:
-        number = largest(value, place.zero)
-        angle = place.placed(number)
-        told = f"{number:.6g}, and {place.formula} is {in_both(angle)}"
-    if not TURN < abs(angle) < math.inf or is_in_radians(number) or is_in_radians(angle):
+    if place is not None and not is_of_an_angle(place.scale):
         return False
+    number = largest(value)
+    if not TURN < abs(number) < math.inf or is_in_radians(number):
+        return False
+    told = in_both(number)
+    if place is not None and abs(place.scale) != 1.0:
+        angle = place.placed(number)
+        if not TURN < abs(angle) < math.inf or is_in_radians(angle):
+            return False
+        told = f"{number:.6g}, and {place.formula} is {in_both(angle)}"
     several = "has a value of" if np.ndim(value) else "is"
     warnings.warn(
         f"{what} {several} {told}; did you mean {in_degrees(number)}?",
@@ -154,35 +156,22 @@ def warn_of_turning(what: str, rate: Any, length: float, usual: str) -> bool:
     return True
 
 
-def largest(value: Any, zero: float = 0.0) -> float:
-    """Return the plain number of the largest size in a value, out of a thousand.
-
-    Parameters
-    ----------
-    value : Any
-        What is given: a number, a text, an array or a list of either, or anything else.
-    zero : float, optional
-        From where sizes are counted; returned where there is no number.
-
-    Returns
-    -------
-    float
+def largest(value: Any) -> float:
+    """Return the plain number of the largest size in a value, out of a thousand; 0 without any.
 
     Examples
     --------
     >>> largest([0.5, -90.0]), largest(["720 deg", 0.5]), largest(None)
     (-90.0, 0.5, 0.0)
-    >>> largest([50.0, 80.0], zero=90.0)
-    50.0
     """
     if type(value) is float:
         return value
     if value is None or isinstance(value, str) or is_traced(value):
-        return zero
+        return 0.0
     try:
         array = as_given("", value)
     except OptipathError:
-        return zero  # For validation to name.
+        return 0.0  # For validation to name.
     if array.size > _LOOKED_AT:
         flat = array.reshape(-1) if array.flags.c_contiguous else array.flat
         array = flat[np.linspace(0, array.size - 1, _LOOKED_AT).astype(np.intp)]
@@ -191,8 +180,8 @@ def largest(value: Any, zero: float = 0.0) -> float:
         numbers += [float(n) for n in array.ravel().tolist() if type(n) is int and abs(n) < _MOST]
         array = np.array(numbers, np.float64)
     if array.dtype.kind not in "iuf" or not array.size:
-        return zero
-    at = np.argmax(np.abs(np.where(np.isfinite(array), array, zero) - zero))
+        return 0.0
+    at = np.argmax(np.abs(np.where(np.isfinite(array), array, 0.0)))
     return float(array.reshape(-1)[at])
 
 

@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 TURN = 2.0 * math.pi * (1.0 + 1e-6)
 """Up to what size an angle is taken for one in radians: a whole turn, however it is rounded."""
 
+_MULTIPLES = 10.0
+"""Up to what factor of an angle one has to do with an angle still."""
+
 _LEAST = 2.0
 """From what size on a number that is refused may have been one of degrees."""
 
@@ -38,6 +41,17 @@ def is_within_a_turn(low: Any, high: Any) -> bool:
     """
     are_numbers = isinstance(low, (int, float)) and isinstance(high, (int, float))
     return are_numbers and abs(low) <= TURN and abs(high) <= TURN
+
+
+def is_of_an_angle(scale: float) -> bool:
+    """Tell whether a factor is one of angles, and not one that makes angles of pure numbers.
+
+    Examples
+    --------
+    >>> is_of_an_angle(-1.0), is_of_an_angle(2.5), is_of_an_angle(math.pi / 180.0)
+    (True, True, False)
+    """
+    return abs(scale) <= _MULTIPLES and (2.0 * scale).is_integer()
 
 
 def meant_in_degrees(number: float, allows: Callable[[float], Any]) -> str:
@@ -126,8 +140,18 @@ def in_both(number: float) -> str:
 
 def is_in_radians(number: float) -> bool:
     """Tell whether an angle is surely meant in radians: written so, or a round one in degrees."""
-    degrees = math.degrees(number)
-    return UNITS_ARE_WRITTEN.get() or len(f"{degrees:.12g}") < len(f"{number:.12g}")
+    return UNITS_ARE_WRITTEN.get() or is_round_in_degrees(number)
+
+
+def is_round_in_degrees(number: float) -> bool:
+    """Tell whether an angle in radians has fewer digits in degrees.
+
+    Examples
+    --------
+    >>> is_round_in_degrees(math.pi / 4.0), is_round_in_degrees(45.0)
+    (True, False)
+    """
+    return len(f"{math.degrees(number):.12g}") < len(f"{number:.12g}")
 
 
 def in_degrees(number: float) -> str:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.values.degree_warnings import counts_degrees, warn_of_degrees, warn_of_two_factors
-from optipath.values.degrees import TURN, is_within_a_turn
+from optipath.values.degrees import TURN, is_of_an_angle, is_within_a_turn
 from optipath.values.texts import may_hold_texts
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Hashable, Iterable, Mapping
 
     from optipath.values.affine import Affine
     from optipath.values.inputs import Inputs
@@ -20,9 +21,8 @@ if TYPE_CHECKING:
 class LargeAngles:
     """The open parameters of a path that may be angles beyond a whole turn.
 
-    What is looked at is the angle where it stands, as of a multiple with an offset. Of the first
-    array for a parameter, a thousand numbers are looked at; of those that follow, which may be
-    many and short, the first, the last, and one between.
+    Of the first array for a parameter, a thousand numbers are looked at; of those that follow,
+    which may be many and short, the first, the last, and one between.
 
     Parameters
     ----------
@@ -31,14 +31,14 @@ class LargeAngles:
     """
 
     def __init__(self, inputs: Inputs) -> None:
-        self.places: dict[str, dict[tuple[float, float], Affine]] = {}
+        self.places: dict[str, dict[Hashable, Affine]] = {}
         for use in inputs.uses:
             value = use.value
-            near = is_within_a_turn(*value.span_of(*inputs.limits[value.name]))
-            if use.domain.dimension == "angle" and (not near or counts_degrees(value)):
-                several = self.places.setdefault(value.name, {})
-                several.setdefault((abs(value.scale), value.zero), value)
-        self._ranges = [(name, *_within_a_turn(of)) for name, of in self.places.items()]
+            near = is_within_a_turn(*inputs.limits[value.name])
+            large = is_of_an_angle(value.scale) and not near
+            if use.domain.dimension == "angle" and (large or counts_degrees(value)):
+                self.places.setdefault(value.name, {}).setdefault(value.quantity, value)
+        self._ranges = [(name, _within(of.values())) for name, of in self.places.items()]
         self._looked_at: set[str] = set()
 
     def look(self, given: Mapping[str, Any]) -> None:
@@ -54,12 +54,12 @@ class LargeAngles:
         AngleWarning
             Once for each parameter.
         """
-        for name, low, high in self._ranges:
+        for name, most in self._ranges:
             value = given.get(name)
-            if value is None or (type(value) is float and low <= value <= high):
+            if value is None or (type(value) is float and -most <= value <= most):
                 continue
             if type(value) is np.ndarray and value.size and value.dtype.kind == "f":
-                if name in self._looked_at and _looks_small(value, low, high):
+                if name in self._looked_at and _looks_small(value, most):
                     continue
                 self._looked_at.add(name)
             self._warn(name, value)
@@ -74,13 +74,12 @@ class LargeAngles:
         )
 
 
-def _within_a_turn(places: Mapping[Any, Affine]) -> tuple[float, float]:
-    """Return between which numbers a parameter is within a turn wherever it stands."""
-    spans = [place.span_for(-TURN, TURN) for place in places.values()]
-    return max(low for low, _ in spans), min(high for _, high in spans)
+def _within(places: Iterable[Affine]) -> float:
+    """Return up to what size no number for a parameter is one to warn of."""
+    return TURN if any(is_of_an_angle(place.scale) for place in places) else math.inf
 
 
-def _looks_small(numbers: np.ndarray[Any, Any], low: float, high: float) -> bool:
-    """Tell whether three numbers of an array are within limits; this takes no time."""
+def _looks_small(numbers: np.ndarray[Any, Any], most: float) -> bool:
+    """Tell whether three numbers of an array are up to some size; this takes no time."""
     first, last, between = numbers.item(0), numbers.item(-1), numbers.item(numbers.size // 2)
-    return bool(low <= first <= high and low <= last <= high and low <= between <= high)
+    return bool(abs(first) <= most and abs(last) <= most and abs(between) <= most)

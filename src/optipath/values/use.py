@@ -12,7 +12,7 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
-from optipath.values.degrees import meant_in_degrees
+from optipath.values.degrees import is_of_an_angle, meant_in_degrees
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE
 from optipath.values.units import dimension_of
@@ -174,7 +174,8 @@ class Use:
 
     def _meant(self, numbers: Any) -> str:
         """Return what a number given for a multiple was meant to be, if it is one of degrees."""
-        if self.domain.dimension != "angle" or np.iscomplexobj(numbers):
+        of_angle = self.domain.dimension == "angle" and is_of_an_angle(self.value.scale)
+        if not of_angle or np.iscomplexobj(numbers):
             return ""
 
         def allows(number: Any) -> Any:
