@@ -281,6 +281,13 @@ def test_degrees_that_become_radians_in_the_path_are_offered_without_a_unit_to_a
         assert "did you mean" not in str(error.value)
 
 
+def test_a_range_of_plain_degrees_is_told_as_it_was_given():
+    path = chain([op.Rotator(op.Parameter("d", maximum=80) * (np.pi / 180))])
+    for give in (path.trace, path.bind):
+        with pytest.raises(op.ParameterError, match=r"'d' is 85, .* range; give 80 or less$"):
+            give(d=85)
+
+
 @pytest.mark.parametrize("delta", ["100 deg", np.radians(100.0), 1.6, 4.0 * np.arctan(1.0), 200.0])
 def test_a_slip_of_radians_and_what_was_in_degrees_already_are_not(delta):
     with pytest.raises(op.ParameterError) as error:

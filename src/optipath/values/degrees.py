@@ -43,6 +43,26 @@ def is_within_a_turn(low: Any, high: Any) -> bool:
     return are_numbers and abs(low) <= TURN and abs(high) <= TURN
 
 
+def has_plain_degrees(low: float, high: float) -> bool:
+    """Tell whether a range of angles was given by plain numbers that were meant in degrees.
+
+    Parameters
+    ----------
+    low, high : float
+        Its ends, in radians.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> has_plain_degrees(0.0, 80.0), has_plain_degrees(0.0, 4.0 * math.pi)
+    (True, False)
+    """
+    return any(TURN < abs(end) < math.inf and not is_in_radians(end) for end in (low, high))
+
+
 def is_of_an_angle(scale: float) -> bool:
     """Tell whether a factor is one of angles, and not one that makes angles of pure numbers.
 

@@ -14,7 +14,7 @@ from optipath.values.arrays.array_likes import array_of, as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import read_only, same
 from optipath.values.arrays.shapes import first_place
-from optipath.values.degrees import called
+from optipath.values.degrees import called, has_plain_degrees
 from optipath.values.displayed import displayed, format_range
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.roundings import doubles, traced_within, within
@@ -311,8 +311,10 @@ class Parameter(AffineArithmetic):
             where = first_place(~np.isfinite(array))
             raise ParameterError(f"parameter '{self.name}' is {value}{where}; give a finite number")
         number, limits = float(value), (self.minimum, self.maximum)
-        given, meant = called(number, self.text(number), dimension_of(self.unit), limits)
+        plain = dimension_of(self.unit) == "angle" and has_plain_degrees(*limits)
+        unit = "" if plain else self.unit
+        given, meant = called(number, format_quantity(number, unit), dimension_of(unit), limits)
         raise ParameterError(
             f"parameter '{self.name}' is {given}{first_place(bad)}, outside its range; give "
-            f"{self.range_text()}{meant}"
+            f"{format_range(*limits, unit)}{meant}"
         )

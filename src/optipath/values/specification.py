@@ -7,7 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import array_of
-from optipath.values.degree_warnings import largest, warn_of_degrees, warn_of_two_factors
+from optipath.values.degree_warnings import (
+    counts_degrees,
+    largest,
+    warn_of_degrees,
+    warn_of_two_factors,
+)
 from optipath.values.degrees import is_round_in_degrees, is_within_a_turn
 from optipath.values.texts import numbers_for
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, unit_of
@@ -176,8 +181,7 @@ def warn_of_default(parameter: Any) -> None:
     AngleWarning
         If the default is round in degrees, as no plain number of degrees is.
     """
-    angle = largest(parameter.default)
-    if is_round_in_degrees(angle):
+    if counts_degrees(parameter) and is_round_in_degrees(angle := largest(parameter.default)):
         text = format_quantity(angle, parameter.unit)
         warn_of_two_factors(f"the default of parameter '{parameter.name}'", text, parameter)
 
