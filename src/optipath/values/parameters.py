@@ -250,7 +250,8 @@ class Parameter(AffineArithmetic):
         if text in self.words or (self.optional and text == ABSENT):
             return text
         if text[:1].isalpha():
-            raise ParameterError(unknown_word(self.name, text, self.all_words))
+            dimension = dimension_of(self.unit)
+            raise ParameterError(unknown_word(self.name, text, self.all_words, dimension))
         try:
             return parse_quantity(text, dimension_of(self.unit), default_unit)
         except UnitError as error:

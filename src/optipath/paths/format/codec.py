@@ -13,6 +13,7 @@ from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean,
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.references import named, referred
 from optipath.paths.format.schema import as_meant
+from optipath.values.domains.axis import axes_for
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
@@ -31,7 +32,9 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from optipath.values.use import Use
 
 _ANGLES = ("incidences", "turns")
 _AFFINE = ("parameter", "scale", "offset")
@@ -128,7 +131,7 @@ def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
     )
 
 
-def decode_given(raw: Any, parameter: Parameter) -> Any:
+def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
     """Return a value given for a parameter: a default, or one of a case.
 
     Parameters
@@ -137,6 +140,8 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
         What stands in the file.
     parameter : Parameter
         Whose value it is.
+    uses : iterable of Use, optional
+        Where parameters stand, if that is known: axes have names.
 
     Returns
     -------
@@ -150,13 +155,14 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
     """
     if isinstance(raw, str):
         try:
-            return parameter.parse(raw)
+            value = axes_for(parameter.name, raw, uses)
+            return parameter.parse(value) if isinstance(value, str) else value
         except OptipathError as error:
             # The place in the file has the name already.
             said = f"parameter '{parameter.name}': "
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
-        return [decode_given(entry, parameter) for entry in raw]
+        return [decode_given(entry, parameter, uses) for entry in raw]
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))

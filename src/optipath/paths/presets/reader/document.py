@@ -29,8 +29,11 @@ from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from optipath.paths.presets.reader.declarations import Declarations
     from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
 
     Table: TypeAlias = dict[str, Any]
     Parameters: TypeAlias = dict[str, Parameter]
@@ -70,7 +73,7 @@ def read(document: Table) -> PathGraph:
     pairs = _pair_faults(path, document)
     faults += chain(*pairs.values())
     doubtful = {*parameters.doubtful, *unfit, *pairs, STAND_IN.name}
-    _cases(path, document, parameters, doubtful, lost, faults)
+    _cases(path, document, parameters, doubtful, values.uses, lost, faults)
     if len(faults) == before:
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
@@ -137,13 +140,14 @@ def _cases(
     document: Table,
     parameters: Declarations,
     doubtful: set[str],
+    uses: Sequence[Use],
     lost: set[str],
     faults: Faults,
 ) -> None:
     ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
     for name, table in tables_of(document, "cases", faults).items():
         faults += name_faults(name)
-        path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, faults)
+        path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, uses, faults)
         for detector in path.cases[name].published:
             if detector not in ends and detector not in lost and path.graph:
                 cure = did_you_mean(detector, ends)
