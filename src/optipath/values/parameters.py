@@ -282,6 +282,7 @@ class Parameter(AffineArithmetic):
 
     def _entry(self, entry: Any, limits: tuple[float, float]) -> Any:
         if not isinstance(entry, str):
+            entry = self._number_of(entry)
             number = array_of(f"parameter '{self.name}'", entry, ParameterError, limits)
             if number.ndim or number.dtype.kind not in "iufc":
                 wrong = f"parameter '{self.name}' must be a number, not {shown(entry)}"

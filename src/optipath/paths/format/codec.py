@@ -24,7 +24,7 @@ from optipath.values.domains.indices import (
     IndicesDomain,
     OutsideDomain,
 )
-from optipath.values.domains.pair import is_pair
+from optipath.values.domains.pair import is_pair, pair_in
 from optipath.values.domains.quantities import AMPLITUDE, ANGLE
 from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
@@ -104,7 +104,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return _by_angles(raw, parameters)
     if isinstance(raw, str) and raw.strip() in parameters:
         return named(raw, domain)
-    if domain.complex_parts and is_pair(raw):
+    if domain.complex_parts and pair_in(raw, domain):
         raise PresetError(which_pair(raw, domain.complex_parts))
     return domain.parse(raw) if isinstance(raw, str) else _number(raw, domain.unit)
 
