@@ -13,7 +13,7 @@ from optipath.spelling import closest
         ("polariser", ["polarizer", "rotator"], "polarizer"),
         ("ou", ["in", "out"], "out"),
         ("ellips", ["pyelli", "ellipsometry", "elli"], "ellipsometry"),
-        ("trans", ["transmittance", "transmitted", "strain"], "transmitted"),
+        ("transmitt", ["transmitted", "strain"], "transmitted"),
     ],
 )
 def test_a_misspelt_word_has_one_that_was_meant(word, known, meant):
@@ -31,6 +31,8 @@ def test_a_misspelt_word_has_one_that_was_meant(word, known, meant):
         ("vertical", ["horizontal"]),
         ("x" * 1000, ["x" * 999]),
         ("delta", []),
+        ("trans", ["transmittance", "transmitted", "strain"]),
+        ("arc", ["arcmin", "arcsec", "deg"]),
     ],
 )
 def test_what_is_no_misspelling_has_no_word_that_was_meant(word, known):

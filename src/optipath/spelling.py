@@ -28,8 +28,9 @@ _looks_left: ContextVar[float] = ContextVar("_looks_left", default=math.inf)
 def closest(word: str, known: Iterable[str]) -> str | None:
     """Return the known word that a misspelt one was meant for; None where none is near.
 
-    The beginning of a known word is meant for that. Words of one or two letters are too short to
-    tell, and numbers are no misspellings of each other, nor are such letters with a number.
+    The beginning of a known word is meant for that; that of several, for none of them. Words of
+    one or two letters are too short to tell, and numbers are no misspellings of each other, nor
+    are such letters with a number.
 
     Parameters
     ----------
@@ -59,6 +60,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
     words = [*known][:_MOST_WORDS]
     by_bare = {_bare(name): name for name in reversed(words) if len(name) <= _LONGEST}
     begun = [name for name in by_bare if name.startswith(asked)] if len(asked) >= _BEGINNING else []
+    if len(begun) > 1 and asked not in by_bare:
+        return None
     for found in get_close_matches(asked, begun or by_bare, cutoff=0.0 if begun else _ALIKE):
         if found == asked or not _too_short(asked, found):
             return by_bare[found]

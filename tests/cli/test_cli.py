@@ -343,6 +343,14 @@ def test_an_unknown_case_lists_all_cases(command, case, capsys):
     )
 
 
+def test_the_name_of_an_axis_is_its_angle(capsys):
+    lights = [
+        json.loads(run(capsys, "run", "npgr026", "--filter", angle, "--json")[1])["detectors"]
+        for angle in ("antidiagonal", "-45 deg")
+    ]
+    assert lights[0] == lights[1]
+
+
 def test_a_complex_number_for_one_part_of_an_index_names_the_option_of_the_other(capsys):
     _, _, err = run(capsys, "run", "npgr026", "--n1", "0.17+3.15j")
     assert err == (

@@ -35,7 +35,7 @@ def test_a_case_is_told_where_it_belongs():
 
 def test_the_other_part_of_a_complex_index_is_told_by_its_name():
     for action in (npgr026().trace, npgr026().bind, npgr026):
-        for index in (1.2 + 2j, "1.2+2j"):
+        for index in (1.2 + 2j, "1.2+2j", op.Material(1.2, 2.0)):
             assert fault(action, n1=index).endswith("give k by k1")
     known = chain([op.Interface(op.Material(op.Parameter("n", 1.5, minimum=0.0), 0.5), 0.3)])
     assert "k is 0.5 where the path is built" in fault(known.bind, n=1.2 + 2j)
@@ -57,11 +57,24 @@ def test_a_parameter_that_stands_as_an_axis_takes_the_names_of_axes():
     assert own.trace(d="vertical").intensity == 1.0
     for words in ("off", ["off", "none"]):
         told = fault(npgr026().trace, filter=words)
-        assert told.endswith("there are: horizontal, vertical, diagonal, none, antidiagonal")
+        assert told.endswith("none, antidiagonal, or give an angle such as '45 deg'")
     with pytest.raises(op.ValueFault, match=r"antidiagonal, or give an angle such as '45 deg'$"):
         op.Polarizer("pi/4")
     turned = chain([op.Rotator(op.Parameter("d"))])
     assert "knows no word 'vertical'" in fault(turned.trace, d="vertical")
+
+
+def test_a_word_for_another_direction_is_never_offered():
+    for word in ("antidiagonal", "antidiagonl"):
+        told = fault(op.Parameter, "d", word, "deg", words={"diagonal": "45 deg"})
+        assert told.endswith("; write '-45 deg' for the axis 'antidiagonal'")
+    assert fault(op.Parameter, "d", "half", "deg").endswith("give an angle such as '45 deg'")
+    two_faces = op.PathGraph()
+    two_faces.add("X1", op.Interface(1.5, 0.3))
+    two_faces.add("E", op.Detector())
+    for port in ("refracted", "refraced"):
+        told = fault(two_faces.connect, f"X1.{port}", "E")
+        assert told.endswith("does not exist; there are: X1.reflected, X1.transmitted")
 
 
 def test_a_path_is_a_collection_of_the_names_of_its_nodes():

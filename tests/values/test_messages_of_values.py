@@ -68,6 +68,14 @@ def test_a_list_is_told_to_become_an_array_with_another_axis():
     assert found.shape == (2, 3)
 
 
+def test_a_medium_keeps_its_axes_and_the_other_array_gets_one():
+    path = op.Source() >> op.Interface(op.Parameter("n"), op.Parameter("t")) >> op.Detector()
+    medium, angles = op.Material([1.5, 1.4, 1.3], [0.0, 0.1, 0.2]), np.radians([10.0, 20.0])
+    with pytest.raises(op.ParameterError, match=r"give t\[:, None\]; or make"):
+        path.trace(n=medium, t=angles)
+    assert path.trace(n=medium, t=angles[:, None]).shape == (2, 3)
+
+
 def test_a_product_tells_of_light_that_has_axes_and_of_no_matrix():
     light = op.Light(np.ones((4, 1)) * [1.0, 0.0, 0.0, 0.0])
     waves = op.Polarizer([0.0, 1.0, 2.0])

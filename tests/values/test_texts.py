@@ -87,6 +87,10 @@ def test_a_file_knows_the_names_of_axes(tmp_path):
         (lambda: op.Interface("1.5 deg", 0.1), "has the unit 'deg', but a pure number is asked"),
         (lambda: op.CosSin("30 deg", "0.5"), "cos: '30 deg' has a unit.*; give the angle itself"),
         (lambda: op.Parameter("t", "30 dge"), "unit 'dge' is unknown; did you mean 'deg'"),
+        (
+            lambda: op.Parameter("t", "0.1/mm"),
+            "'0.1/mm' is not a quantity; did you mean '0.1 1/mm'",
+        ),
         (lambda: op.Parameter("t", minimum="0 nm", maximum="9 deg"), "maximum.*'9 deg' is no leng"),
         (lambda: op.Frame().turned("30"), "the angle of a turn: '30' has no unit"),
         (lambda: op.refraction_angle(1.5, "40"), "incidence: '40' has no unit"),

@@ -43,6 +43,7 @@ def test_quantities_are_read_in_their_units(text, dimension, value):
         ("45 degrees", "angle", "'degrees' of '45 degrees' is unknown; did you mean 'deg'"),
         ("0.5 µm", "length", "'µm' of '0.5 µm' is unknown; did you mean 'um'"),
         ("500 Nanometres", "length", "of '500 Nanometres' is unknown; did you mean 'nm'"),
+        ("-5 / cm", "inverse length", r"'-5 / cm' is not a quantity; did you mean '-5 1/cm'"),
         ("5 cm^-1", "inverse length", r"of '5 cm\^-1' is unknown; did you mean '1/cm'"),
         ("30 furlongs", "angle", "unknown; there are: deg, rad, mrad, arcmin, arcsec$"),
         ("0:90:10", "angle", "^'0:90:10' is not a quantity; write a number such as '30 deg'$"),

@@ -9,12 +9,14 @@ from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
 from optipath.values.cases import ALL
+from optipath.values.domains.axis import axes_for
 from optipath.values.other_part import other_part
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
+    from optipath.values.use import Use
 
 T = TypeVar("T")
 
@@ -84,7 +86,8 @@ def chosen_by(
     """
     faults: list[str] = []
     given = {name: _once(name, several, faults) for name, several in texts.items() if several}
-    values = {name: _value(path, name, text, faults) for name, text in given.items()}
+    uses = Values(path.graph).uses if given else ()
+    values = {name: _value(path, name, text, uses, faults) for name, text in given.items()}
     sound = {name: value for name, value in values.items() if value is not None}
     found = [Chosen(preset, path, case, sound) for case in dict.fromkeys(cases)]
     found = found or [Chosen(preset, path, None, sound)]
@@ -212,18 +215,20 @@ def _once(name: str, several: Sequence[str], faults: list[str]) -> str:
     return several[-1]
 
 
-def _value(path: PathGraph, name: str, text: str, faults: list[str]) -> Any:
+def _value(path: PathGraph, name: str, text: str, uses: Sequence[Use], faults: list[str]) -> Any:
     """Return what a text stands for; None where it is faulty."""
     if name in path.choices:
         return text
     parameter = path.parameters[name]
     try:
-        value = parameter.parse(text, parameter.unit)
+        value = axes_for(name, text, uses)
+        if isinstance(value, str):
+            value = parameter.parse(value, parameter.unit)
     except OptipathError as error:
         faults += error.faults
         return None
     if isinstance(value, complex) and (
-        other := other_part(Values(path.graph).uses, name, lambda word: f"--{_flag(word)}")
+        other := other_part(uses, name, lambda word: f"--{_flag(word)}")
     ):
         faults.append(f"'{text}' is complex, but --{_flag(name)} takes a real number; {other}")
         return None

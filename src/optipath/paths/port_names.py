@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import PathError, did_you_mean, shown
+from optipath.errors import PathError, did_you_mean, shown, there_are
+from optipath.spelling import closest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.elements.element import Element
+
+_REFRACTED = "refracted"
+"""What is near ``reflected`` by its letters, and means ``transmitted``."""
 
 
 def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) -> None:
@@ -49,7 +53,9 @@ def check_port(element: Element, owner: str, port: str, ports: Sequence[str]) ->
         raise PathError(
             f"port '{owner}.{port}' lets light {way}; a link goes from an out-port to an in-port"
         )
-    cure = did_you_mean(f"{owner}.{port}", [f"{owner}.{known}" for known in ports])
+    known = [f"{owner}.{name}" for name in ports]
+    refracted = closest(port, [_REFRACTED, *ports]) == _REFRACTED
+    cure = there_are(known) if refracted else did_you_mean(f"{owner}.{port}", known)
     raise PathError(f"port '{owner}.{port}' does not exist{cure}")
 
 

@@ -13,6 +13,7 @@ from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.cures import how_to_give
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
+from optipath.values.materials import Material
 from optipath.values.other_part import of_complex
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.unknown_parameter import unknown_parameter
@@ -90,9 +91,8 @@ class Inputs:
                 resolved[name] = Resolved(value, THERE)
                 unchecked.add(name)
             else:
-                of_name = [use for use in self.uses if use.value.name == name]
-                faults += filter(None, [use.doubt(value) for use in of_name])
                 try:
+                    self._ask_in_doubt(name, value)
                     value = axes_for(name, value, self.uses)
                     resolved[name] = parameter.resolve(value, self.limits[name])
                 except OptipathError as fault:
@@ -119,7 +119,8 @@ class Inputs:
         shapes = {name: found[name] for name in (*given, *found) if name in found}
         shapes = {**self.shapes, **shapes}
         lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
-        faults += broadcast_fault(shapes, self.shapes, lists)
+        media = [name for name, value in given.items() if isinstance(value, Material)]
+        faults += broadcast_fault(shapes, [*self.shapes, *media], lists)
         faults = faults or first_faults(self.agreements, resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.
@@ -178,6 +179,12 @@ class Inputs:
         return dict(self.open) == dict(other.open) and self._batch() == other._batch()
 
     __hash__ = None  # type: ignore[assignment]
+
+    def _ask_in_doubt(self, name: str, value: Any) -> None:
+        """Raise at the first place where a value may be one or several."""
+        for use in self.uses:
+            if use.value.name == name and (doubt := use.doubt(value)):
+                raise ParameterError(doubt)
 
     def _of_a_fit(self, faults: Sequence[str], name: str, value: Any) -> list[str]:
         domains = [use.domain for use in self.uses if use.value.name == name]

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import UnitError
+from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import parse_quantity
 
@@ -71,6 +72,8 @@ def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any
 
 
 def _is_complex(value: Any) -> bool:
+    if isinstance(value, Material):
+        return not isinstance(value.k, (int, float)) or value.k != 0.0
     if isinstance(value, str):
         try:
             value = parse_quantity(value, "")

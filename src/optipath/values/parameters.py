@@ -254,7 +254,8 @@ class Parameter(AffineArithmetic):
         if text in self.words or (self.optional and text == ABSENT):
             return text
         if text[:1].isalpha():
-            raise ParameterError(unknown_word(self.name, text, self.all_words))
+            dimension = dimension_of(self.unit)
+            raise ParameterError(unknown_word(self.name, text, self.all_words, dimension))
         try:
             return parse_quantity(text, dimension_of(self.unit), default_unit)
         except UnitError as error:
@@ -285,6 +286,7 @@ class Parameter(AffineArithmetic):
 
     def _entry(self, entry: Any, limits: tuple[float, float]) -> Any:
         if not isinstance(entry, str):
+            entry = self._number_of(entry)
             number = array_of(f"parameter '{self.name}'", entry, ParameterError, limits)
             if number.ndim or number.dtype.kind not in "iufc":
                 wrong = f"parameter '{self.name}' must be a number, not {shown(entry)}"

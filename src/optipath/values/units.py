@@ -115,7 +115,7 @@ def unit_of(text: str) -> str:
     >>> unit_of("30 deg"), unit_of("0.5"), unit_of("horizontal")
     ('deg', '', '')
     """
-    match = _QUANTITY.fullmatch(text.strip()[:_LONGEST])
+    match = _QUANTITY.fullmatch(_per_length(text) or text.strip()[:_LONGEST])
     return match[2] if match and _LIKE_A_UNIT.fullmatch(match[2]) else ""
 
 
@@ -272,9 +272,18 @@ def _complex(text: str) -> complex | None:
 
 
 def _respelt(text: str, dimension: str) -> str:
-    """Return a text with j for i, if that was meant."""
+    """Return a text with j for i, or with a unit for a quotient, if that was meant."""
+    if dimension == "inverse length":
+        return _per_length(text)
     root = f"{text[:-1]}j"
     return root if text.endswith("i") and not dimension and _complex(root) is not None else ""
+
+
+def _per_length(text: str) -> str:
+    """Return the quantity that a quotient such as ``"0.1/mm"`` is; nothing for all else."""
+    number, _, length = (part.strip() for part in text[:_LONGEST].partition("/"))
+    match, unit = _QUANTITY.fullmatch(number), f"1/{length}"
+    return f"{number} {unit}" if unit in UNITS and match and not match[2] else ""
 
 
 def _mismatch(text: str, unit: str, dimension: str) -> str:

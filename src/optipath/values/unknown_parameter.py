@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from optipath.errors import did_you_mean
-from optipath.spelling import closest
+from optipath.errors import did_you_mean, there_are
+from optipath.spelling import closest, looks_left
+from optipath.values.axis_names import AXES
+from optipath.values.units import USUAL_UNITS, format_quantity, with_article
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -44,7 +46,7 @@ def unknown_parameter(name: str, known: Iterable[str]) -> str:
     return f"parameter '{name}' is unknown{did_you_mean(name, names)}"
 
 
-def unknown_word(name: str, word: str, known: Iterable[str]) -> str:
+def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = "") -> str:
     """Return the sentence for a word that a parameter does not know.
 
     Parameters
@@ -53,6 +55,8 @@ def unknown_word(name: str, word: str, known: Iterable[str]) -> str:
         The parameter, and what was given for it.
     known : iterable of str
         The words that it knows.
+    dimension : str, optional
+        That of its numbers.
 
     Returns
     -------
@@ -65,7 +69,42 @@ def unknown_word(name: str, word: str, known: Iterable[str]) -> str:
     >>> unknown_word("t", "half", [])
     "parameter 't' knows no word 'half'; give a number"
     """
+    return f"parameter '{name}' knows no word '{word}'{word_meant(word, known, dimension)}"
+
+
+def word_meant(word: str, known: Iterable[str], dimension: str) -> str:
+    """Return the cure for a word that is unknown where a number may stand, too.
+
+    Parameters
+    ----------
+    word : str
+        What was written.
+    known : iterable of str
+        The words that are known.
+    dimension : str
+        That of the numbers; an angle may be that of an axis which has a name.
+
+    Returns
+    -------
+    str
+        To be put behind the fault; nothing where no look is left.
+
+    Examples
+    --------
+    >>> word_meant("antidiagonal", ["diagonal"], "angle")
+    "; write '-45 deg' for the axis 'antidiagonal'"
+    >>> word_meant("off", ["none"], "angle")
+    "; there are: none, or give an angle such as '45 deg'"
+    """
+    if not looks_left():
+        return ""
     words = [*known]
-    return f"parameter '{name}' knows no word '{word}'" + (
-        did_you_mean(word, words) if words else "; give a number"
-    )
+    unit = USUAL_UNITS[dimension]
+    # By its letters alone, an axis is near the one at right angles to it.
+    near = closest(word, [*words, *AXES] if dimension == "angle" else words)
+    if near in words:
+        return f"; did you mean '{near}'?"
+    if near is not None:
+        return f"; write '{format_quantity(AXES[near], unit)}' for the axis '{near}'"
+    number = f"{with_article(dimension)} such as '45 {unit}'" if dimension else "a number"
+    return f"{there_are(words)}, or give {number}" if words else f"; give {number}"

@@ -14,6 +14,7 @@ from optipath.paths.format.faults import Faults
 from optipath.paths.format.references import named, referred
 from optipath.paths.format.schema import as_meant
 from optipath.values.arrays.array_likes import array_of
+from optipath.values.domains.axis import axes_for
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
@@ -24,7 +25,7 @@ from optipath.values.domains.indices import (
     IndicesDomain,
     OutsideDomain,
 )
-from optipath.values.domains.pair import is_pair
+from optipath.values.domains.pair import is_pair, pair_in
 from optipath.values.domains.quantities import AMPLITUDE, ANGLE
 from optipath.values.domains.states import IntensityDomain
 from optipath.values.follows import FOLLOWS
@@ -33,7 +34,9 @@ from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from optipath.values.use import Use
 
 _ANGLES = ("incidences", "turns")
 _AFFINE = ("parameter", "scale", "offset")
@@ -103,7 +106,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return _by_angles(raw, parameters)
     if isinstance(raw, str) and raw.strip() in parameters:
         return named(raw, domain)
-    if domain.complex_parts and is_pair(raw):
+    if domain.complex_parts and pair_in(raw, domain):
         raise PresetError(which_pair(raw, domain.complex_parts))
     number = _intensities if isinstance(domain, IntensityDomain) else _number
     return domain.parse(raw) if isinstance(raw, str) else number(raw, domain.unit)
@@ -131,7 +134,7 @@ def which_pair(raw: Sequence[float], names: tuple[str, ...]) -> str:
     )
 
 
-def decode_given(raw: Any, parameter: Parameter) -> Any:
+def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> Any:
     """Return a value given for a parameter: a default, or one of a case.
 
     Parameters
@@ -140,6 +143,8 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
         What stands in the file.
     parameter : Parameter
         Whose value it is.
+    uses : iterable of Use, optional
+        Where parameters stand, if that is known: axes have names.
 
     Returns
     -------
@@ -153,13 +158,14 @@ def decode_given(raw: Any, parameter: Parameter) -> Any:
     """
     if isinstance(raw, str):
         try:
-            return parameter.parse(raw)
+            value = axes_for(parameter.name, raw, uses)
+            return parameter.parse(value) if isinstance(value, str) else value
         except OptipathError as error:
             # The place in the file has the name already.
             said = f"parameter '{parameter.name}': "
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
-        several = [decode_given(entry, parameter) for entry in raw]
+        several = [decode_given(entry, parameter, uses) for entry in raw]
         is_plain = all(isinstance(entry, float) for entry in several)
         return _intensities(several) if is_plain and len(raw) == 4 else several
     if isinstance(raw, dict):

@@ -99,9 +99,14 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
 
 def complex_parts_of(graph: nx.MultiDiGraph) -> dict[str, tuple[str, ...]]:
     """Return what the parts of complex numbers are called, for each parameter of such."""
+    return {name: domain.complex_parts for name, domain in complex_domains(graph).items()}
+
+
+def complex_domains(graph: nx.MultiDiGraph) -> dict[str, Domain]:
+    """Return the domain of each parameter that is a complex number."""
     quantities = (quantity for _, e in graph.nodes(data="element") for quantity in e.quantities())
     return {
-        value.name: domain.complex_parts
+        value.name: domain
         for _, value, domain in quantities
         if isinstance(value, Parameter) and domain.complex_parts
     }

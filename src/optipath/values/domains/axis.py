@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import ParameterError, ValueFault, did_you_mean
-from optipath.spelling import closest
+from optipath.errors import ParameterError, ValueFault
+from optipath.values.axis_names import AXES
 from optipath.values.domains.domain import Domain
-from optipath.values.unknown_parameter import unknown_word
+from optipath.values.parameters import Parameter
+from optipath.values.unknown_parameter import unknown_word, word_meant
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
-    from optipath.values.parameters import Parameter
     from optipath.values.use import Use
-
-AXES: Mapping[str, float] = MappingProxyType(
-    {
-        "horizontal": 0.0,
-        "vertical": math.pi / 2.0,
-        "diagonal": math.pi / 4.0,
-        "antidiagonal": -math.pi / 4.0,
-    }
-)
-"""The angles of axes that have names, from x towards y."""
 
 
 def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
@@ -38,7 +26,7 @@ def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
     value : Any
         What is given: words of the parameter stay what they are.
     uses : iterable of Use
-        Where parameters stand.
+        The numbers of a path, parameters among them.
 
     Returns
     -------
@@ -52,7 +40,9 @@ def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
     if not isinstance(value, (str, list, tuple)):
         return value
     for use in uses:
-        if isinstance(use.domain, AxisDomain) and use.value.formula == name:
+        if not isinstance(use.domain, AxisDomain) or not isinstance(use.value, Parameter):
+            continue
+        if use.value.formula == name:
             if isinstance(value, str):
                 return _angle_of(value, use.value)
             # One row of them; a list of lists may be anything, even a part of itself.
@@ -66,7 +56,7 @@ def _angle_of(value: Any, parameter: Parameter) -> Any:
         return value
     if value[:1].isalpha() and value not in AXES:
         words = dict.fromkeys((*parameter.all_words, *AXES))
-        raise ParameterError(unknown_word(parameter.name, value, words))
+        raise ParameterError(unknown_word(parameter.name, value, words, "angle"))
     return AXES.get(value, value)
 
 
@@ -75,14 +65,13 @@ class AxisDomain(Domain):
 
     Examples
     --------
-    >>> AxisDomain("angle", "angle").parse("antidiagonal") == -math.pi / 4.0
-    True
+    >>> AxisDomain("angle", "angle").parse("antidiagonal")
+    -0.7853981633974483
     """
 
     def parse(self, text: str) -> Any:
         if (word := text.strip()) in AXES:
             return AXES[word]
         if word[:1].isalpha():
-            angle = "" if closest(word, AXES) else ", or give an angle such as '45 deg'"
-            raise ValueFault(f"axis '{word}' is unknown{did_you_mean(word, AXES)}{angle}")
+            raise ValueFault(f"axis '{word}' is unknown{word_meant(word, AXES, self.dimension)}")
         return super().parse(text)

@@ -15,7 +15,7 @@ from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import first_place
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
-from optipath.values.domains.pair import is_pair
+from optipath.values.domains.pair import pair_in
 from optipath.values.follows import FOLLOWS
 from optipath.values.materials import K, Material, N, index_of
 
@@ -52,9 +52,9 @@ class IndexDomain(Domain):
         return index_of(text)
 
     def doubt(self, owner: str, value: Any) -> str:
-        if not is_pair(value):
+        if (pair := pair_in(value, self)) is None:
             return ""
-        n, k = value
+        n, k = pair
         return (
             f"{owner} is {value}, which may be n and k, or the indices of two paths; write "
             f"Material({n}, {k}) or {n}{k:+}j for the one, np.array([{n}, {k}]) for the other"
@@ -63,7 +63,7 @@ class IndexDomain(Domain):
     def read(self, owner: str, value: Any) -> Any:
         if doubt := self.doubt(owner, value):
             raise ValueFault(doubt)
-        return super().read(owner, value)
+        return super().read(owner, _as_numbers(value))
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         return super().check(owner, _as_number(value))
@@ -88,6 +88,9 @@ class OutsideDomain(Domain):
     """Positive real numbers: the medium that light comes from does not absorb."""
 
     of_k: ClassVar[Domain] = _NO_K
+
+    def read(self, owner: str, value: Any) -> Any:
+        return super().read(owner, _as_numbers(value))
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
         return super().check(owner, _as_number(value))
@@ -204,6 +207,11 @@ class IndicesDomain(Domain):
 
 def _as_number(index: Any) -> Any:
     return index.refractive_index if isinstance(index, Material) else index
+
+
+def _as_numbers(value: Any) -> Any:
+    """Return a list with the index of each medium in it; anything else as it is."""
+    return [_as_number(one) for one in value] if isinstance(value, (list, tuple)) else value
 
 
 def _plain_index(index: Any) -> Any:

@@ -14,7 +14,7 @@ from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.read_only import read_only
 from optipath.values.cures import cure
 from optipath.values.domains.domain import Domain
-from optipath.values.domains.pair import is_pair, is_real
+from optipath.values.domains.pair import is_real, pair_in
 from optipath.values.roundings import rounding_of
 
 _ROUNDING = 1e-12
@@ -29,11 +29,11 @@ class AmplitudeDomain(Domain):
     complex_parts = ("re", "im")
 
     def doubt(self, owner: str, value: Any) -> str:
-        if not is_pair(value):
+        if (pair := pair_in(value, self)) is None:
             return ""
         return (
             f"{owner} is {value}, which may be one complex number, or the amplitudes of two "
-            f"paths; write complex{tuple(value)} for the one, np.array({[*value]}) for the other"
+            f"paths; write complex{pair} for the one, np.array({[*pair]}) for the other"
         )
 
     def read(self, owner: str, value: Any) -> Any:

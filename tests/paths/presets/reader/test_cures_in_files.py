@@ -178,3 +178,11 @@ def test_values_of_a_case_outside_their_table_are_told_where_they_stand(tmp_path
         "wrong.toml: cases.steep: the values of parameters stand in a table of their own; write "
         "values = { theta = ... }"
     )
+
+
+def test_a_pair_that_cannot_be_one_number_is_not_asked_about(tmp_path):
+    glass = through('kind = "interface"\nindex = "$n"\nincidence = "40 deg"', "reflected")
+    told = fault_of(tmp_path, f"[parameters.n]\ndefault = [1.5, -1]\n{glass}")
+    assert told.endswith(
+        "is -1.0 at 1; give an index of refraction n + ik with n and k not negative"
+    )

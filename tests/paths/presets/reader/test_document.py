@@ -254,3 +254,14 @@ def test_arrays_parameters_and_words_are_written_and_read_back():
     assert copy == path
     assert copy.compose() == path.compose()
     np.testing.assert_array_equal(copy.trace().stokes, path.trace().stokes)
+
+
+def test_a_case_may_give_the_axis_of_a_polariser_by_its_name():
+    crossed = op.Source(100, [1, 1, 0, 0]) >> op.Polarizer(op.Parameter("a", 0.3)) >> op.Detector()
+    text = crossed.to_toml() + '[cases.x]\nvalues = { a = ["vertical", "45 deg", "horizontal"] }\n'
+    path = read(tomllib.loads(text))
+    # Malus, at 90, 45 and 0 degrees.
+    shares = path.with_defaults(**path.cases["x"].values).trace().intensity / 100.0
+    np.testing.assert_allclose(shares, [0.0, 0.5, 1.0], atol=1e-15)
+    (told,) = faults_of(text.replace("vertical", "upright"))
+    assert told.endswith("diagonal, antidiagonal, or give an angle such as '45 deg'")

@@ -10,10 +10,11 @@ from optipath.paths.format.codec import decode_given
 from optipath.values.cases import Case
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from optipath.paths.format.faults import Faults
     from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
 
 _LARGEST = 1e308
 
@@ -23,6 +24,7 @@ def read_case(
     table: dict[str, Any],
     parameters: Mapping[str, Parameter],
     doubtful: Collection[str],
+    uses: Iterable[Use],
     faults: Faults,
 ) -> Case:
     """Return the case that a table describes, without what is faulty in it.
@@ -35,6 +37,8 @@ def read_case(
         What it may give.
     doubtful : collection of str
         The names of which something wrong is told already.
+    uses : iterable of Use
+        Where they stand.
     faults : Faults
         Takes what is wrong.
 
@@ -62,7 +66,7 @@ def read_case(
             faults.append(f"{where}: parameter '{name}' is unknown{cure}")
             continue
         parameter = parameters[name]
-        value = faults.attempt(f"{where}.{name}", decode_given, raw, parameter)
+        value = faults.attempt(f"{where}.{name}", decode_given, raw, parameter, uses)
         if value is not None:
             faults.attempt(f"{where}.{name}", parameter.resolve, value)
             values[name] = value

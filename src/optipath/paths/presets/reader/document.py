@@ -12,7 +12,7 @@ from optipath.errors import PathError, did_you_mean, shown, unknown
 from optipath.paths.format import schema
 from optipath.paths.format.codec import decode, which_pair
 from optipath.paths.format.faults import Faults, joined
-from optipath.paths.format.writer import as_toml, complex_parts_of
+from optipath.paths.format.writer import as_toml, complex_domains
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.place_choice import PlaceChoice, choice_faults
 from optipath.paths.port_names import find_port
@@ -25,12 +25,15 @@ from optipath.paths.presets.reader.declarations import (
 )
 from optipath.paths.presets.reader.element_tables import STAND_IN, read_element, read_frames
 from optipath.values.cases import name_faults
-from optipath.values.domains.pair import is_pair
+from optipath.values.domains.pair import pair_in
 from optipath.values.domains.quantities import ANGLE
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from optipath.paths.presets.reader.declarations import Declarations
     from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
 
     Table: TypeAlias = dict[str, Any]
     Parameters: TypeAlias = dict[str, Parameter]
@@ -70,7 +73,7 @@ def read(document: Table) -> PathGraph:
     pairs = _pair_faults(path, document)
     faults += chain(*pairs.values())
     doubtful = {*parameters.doubtful, *unfit, *pairs, STAND_IN.name}
-    _cases(path, document, parameters, doubtful, lost, faults)
+    _cases(path, document, parameters, doubtful, values.uses, lost, faults)
     if len(faults) == before:
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
@@ -91,15 +94,16 @@ def _pair_faults(path: PathGraph, document: Table) -> dict[str, list[str]]:
     """Ask what pairs mean that are given for parameters of complex numbers, by their names."""
     found: dict[str, list[str]] = {}
     declared = document.get("parameters", {})
-    for name, parts in complex_parts_of(path.graph).items():
+    for name, domain in complex_domains(path.graph).items():
         tables = [(f"parameters.{name}", "default", declared.get(name))]
         for case, table in document.get("cases", {}).items():
             values = table.get("values") if isinstance(table, dict) else None
             tables.append((f"cases.{case}.values", name, values))
         for where, key, table in tables:
             raw: Any = table.get(key) if isinstance(table, dict) else None
-            if is_pair(raw):
-                found.setdefault(name, []).append(f"{where}.{key}: {which_pair(raw, parts)}")
+            if pair_in(raw, domain):
+                which = which_pair(raw, domain.complex_parts)
+                found.setdefault(name, []).append(f"{where}.{key}: {which}")
     return found
 
 
@@ -137,13 +141,14 @@ def _cases(
     document: Table,
     parameters: Declarations,
     doubtful: set[str],
+    uses: Sequence[Use],
     lost: set[str],
     faults: Faults,
 ) -> None:
     ends = {name for name, e in path.graph.nodes(data="element") if not e.outputs}
     for name, table in tables_of(document, "cases", faults).items():
         faults += name_faults(name)
-        path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, faults)
+        path.cases[name] = read_case(f"cases.{name}", table, parameters, doubtful, uses, faults)
         for detector in path.cases[name].published:
             if detector not in ends and detector not in lost and path.graph:
                 cure = did_you_mean(detector, ends)
