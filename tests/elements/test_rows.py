@@ -85,6 +85,19 @@ def test_arrays_of_rows_are_for_one_path_since_four_paths_look_the_same(rows, en
             act(a=[0.5, 0.4, 0.3, 0.25])
 
 
+@pytest.mark.parametrize("value", [0.5, [0.5, 0.4, 0.3, 0.25]])
+def test_rows_may_be_generators_one_within_the_other(value):
+    class Filter(op.Element):
+        a: op.Real = 1.0
+
+        @staticmethod
+        def mueller_rows(xp, a):
+            return ((a * (row == column) for column in range(4)) for row in range(4))
+
+    light = plan_of(Filter).run(a=value)
+    np.testing.assert_allclose(light.stokes, np.multiply.outer(value, [1.0, 0.5, 0.2, 0.1]))
+
+
 def test_an_array_of_rows_will_do_where_other_elements_have_many_values():
     class Filter(op.Element):
         a: op.Real = 1.0

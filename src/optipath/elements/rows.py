@@ -110,10 +110,11 @@ def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
         _check_array(what, rows, values, (4, 4))
         rows = np.asarray(rows)
     try:
-        rows = tuple(rows)
+        found = []
+        # Each row before the next, which may be a generator that knows one at a time.
         for row in rows:
             _check_array(what, row, values, (4,))
-        found = [tuple(row) for row in rows]
+            found.append(tuple(row))
     except TypeError:
         found = []
     if len(found) != 4 or any(len(row) != 4 for row in found):
