@@ -5,6 +5,9 @@ import pytest
 
 import optipath as op
 from chains import ENGINES
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.structures import SCALE
+from optipath.kernels.numbers.primitives import FLOAT
 
 
 def times_one(share):
@@ -61,9 +64,30 @@ def test_numbers_that_are_scaled_and_scaled_back_are_the_same_in_every_run():
     np.testing.assert_array_equal(plan.run(a=[0.5, 1.3, 6.0]).S0, [0.05, 0.13, 0.1 * 6.0])
 
 
+NEGATIONS = [
+    lambda xp, a: 0.2 + 0.3 * ~(xp.maximum(a, 0.0) > 1.0),
+    lambda xp, a: xp.where(~((a > 0.5) & ~(a < 1.0)), 0.5, 0.2),
+]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("share", NEGATIONS)
+def test_what_is_not_so_is_the_same_in_every_run_and_for_many(share, engine):
+    plan = plan_of(element(share), engine)
+    values = [1.3, 1.3, 1.3, 0.3, 1.3, 0.3]
+    expected = [0.2, 0.2, 0.2, 0.5, 0.2, 0.5]
+    assert [plan.run(a=value).S0 for value in values] == expected
+    np.testing.assert_array_equal(plan.run(a=values).S0, expected)
+
+
+def test_a_kernel_of_ones_own_knows_what_is_not_so():
+    kernel = Kernel("edge", SCALE, lambda xp: lambda a: (xp.where(~(a > 1.0), 0.5, 0.2),))
+    assert [kernel.made_for(FLOAT)(a) for a in (0.3, 1.3)] == [(0.5,), (0.2,)]
+
+
 def test_the_conjugate_is_told_where_numbers_lack_it():
     with pytest.raises(op.PathError, match=r"'conj'; write z\.conjugate\(\)"):
-        plan_of(element(lambda xp, a: xp.exp(1j * a).conj().real)).run(a=0.3)
+        plan_of(element(lambda _, a: a * (0.3 + 0.1j).conj().real)).run(a=0.3)
 
 
 @pytest.mark.parametrize(
