@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from chains import ENGINES
 from paths import chain
 
 
@@ -44,6 +45,37 @@ def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
         both(op.Parameter("share"), 0.9).trace_all(share=[0.1, 0.9])
     with pytest.raises(op.PathError, match=r"up to 1\.8 times"):
         Splits(0.9, 0.9).mueller("in", "a")
+
+
+class Parts(op.Element):
+    """Parts light between two sides, and polarises it at the second."""
+
+    share: op.Fraction
+    outputs = ("a", "b")
+    natural = "b"
+
+    def couplings(self):
+        polarizer = op.Polarizer(2 * self.share + 0.1).couplings()[0].operations
+        return (
+            op.Coupling("in", "a", operations(self.share)),
+            op.Coupling("in", "b", (*operations(1 - self.share), *polarizer)),
+        )
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("default", [None, 0.9])
+def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine, default):
+    path = op.Source() >> Parts(op.Parameter("f", default)) >> op.Detector()
+    plan = op.Composer(engine=engine).compose(path)
+    shares = np.array([0.0, 0.3, 0.8, 1.0])
+    angle = 2.0 * (2.0 * shares + 0.1)
+    stokes = np.array([np.ones(4), np.cos(angle), np.sin(angle), np.zeros(4)]).T
+    expected = 0.5 * (1.0 - shares)[:, None] * stokes
+    np.testing.assert_allclose(plan.run(f=shares).stokes, expected, atol=1e-15)
+    for _ in range(4):
+        one_by_one = [plan.run(f=share).stokes for share in shares.tolist()]
+        np.testing.assert_allclose(one_by_one, expected, atol=1e-15)
+    np.testing.assert_allclose(plan.mueller(f=shares).matrix[:, 0, 0], expected[:, 0], atol=1e-15)
 
 
 @pytest.mark.parametrize(

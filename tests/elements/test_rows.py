@@ -5,6 +5,9 @@ import pytest
 
 import optipath as op
 from chains import ENGINES
+from optipath.kernels.carriers.kernel import Kernel
+from optipath.kernels.carriers.structures import SCALE
+from optipath.kernels.numbers.primitives import FLOAT
 
 
 def times_one(share):
@@ -61,9 +64,30 @@ def test_numbers_that_are_scaled_and_scaled_back_are_the_same_in_every_run():
     np.testing.assert_array_equal(plan.run(a=[0.5, 1.3, 6.0]).S0, [0.05, 0.13, 0.1 * 6.0])
 
 
+NEGATIONS = [
+    lambda xp, a: 0.2 + 0.3 * ~(xp.maximum(a, 0.0) > 1.0),
+    lambda xp, a: xp.where(~((a > 0.5) & ~(a < 1.0)), 0.5, 0.2),
+]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("share", NEGATIONS)
+def test_what_is_not_so_is_the_same_in_every_run_and_for_many(share, engine):
+    plan = plan_of(element(share), engine)
+    values = [1.3, 1.3, 1.3, 0.3, 1.3, 0.3]
+    expected = [0.2, 0.2, 0.2, 0.5, 0.2, 0.5]
+    assert [plan.run(a=value).S0 for value in values] == expected
+    np.testing.assert_array_equal(plan.run(a=values).S0, expected)
+
+
+def test_a_kernel_of_ones_own_knows_what_is_not_so():
+    kernel = Kernel("edge", SCALE, lambda xp: lambda a: (xp.where(~(a > 1.0), 0.5, 0.2),))
+    assert [kernel.made_for(FLOAT)(a) for a in (0.3, 1.3)] == [(0.5,), (0.2,)]
+
+
 def test_the_conjugate_is_told_where_numbers_lack_it():
     with pytest.raises(op.PathError, match=r"'conj'; write z\.conjugate\(\)"):
-        plan_of(element(lambda xp, a: xp.exp(1j * a).conj().real)).run(a=0.3)
+        plan_of(element(lambda _, a: a * (0.3 + 0.1j).conj().real)).run(a=0.3)
 
 
 @pytest.mark.parametrize(
@@ -83,6 +107,19 @@ def test_arrays_of_rows_are_for_one_path_since_four_paths_look_the_same(rows, en
     for act in (plan.run, plan.mueller, lambda a: Filter(a).mueller()):
         with pytest.raises(op.PathError, match=r"an array of shape \(4.* for many paths; return f"):
             act(a=[0.5, 0.4, 0.3, 0.25])
+
+
+@pytest.mark.parametrize("value", [0.5, [0.5, 0.4, 0.3, 0.25]])
+def test_rows_may_be_generators_one_within_the_other(value):
+    class Filter(op.Element):
+        a: op.Real = 1.0
+
+        @staticmethod
+        def mueller_rows(xp, a):
+            return ((a * (row == column) for column in range(4)) for row in range(4))
+
+    light = plan_of(Filter).run(a=value)
+    np.testing.assert_allclose(light.stokes, np.multiply.outer(value, [1.0, 0.5, 0.2, 0.1]))
 
 
 def test_an_array_of_rows_will_do_where_other_elements_have_many_values():

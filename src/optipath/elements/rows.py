@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import cmath
-import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +16,6 @@ from optipath.errors import PathError, shown
 from optipath.kernels.carriers.kernel import Kernel
 from optipath.kernels.carriers.own_code import guarded
 from optipath.kernels.carriers.structures import FULL
-from optipath.kernels.numbers.primitives import FLOAT
 from optipath.values.arrays.jax_values import is_traced
 
 if TYPE_CHECKING:
@@ -27,20 +25,6 @@ if TYPE_CHECKING:
 
 _ROUNDINGS = 256.0
 """How many roundings of the largest entry an imaginary part may be that is taken for 0."""
-
-
-def _either(real: Callable[[Any], Any], of_complex: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    return lambda z: of_complex(z) if isinstance(z, (complex, np.complexfloating)) else real(z)
-
-
-OWN_FLOAT = replace(
-    FLOAT,
-    sqrt=_either(math.sqrt, cmath.sqrt),
-    sin=_either(math.sin, cmath.sin),
-    cos=_either(math.cos, cmath.cos),
-    exp=_either(math.exp, cmath.exp),
-)
-"""The primitives of plain floats, which take complex numbers as arrays do."""
 
 
 @dataclass(frozen=True)
@@ -61,14 +45,12 @@ class RowsFactory:
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function that gives the sixteen numbers of the matrix."""
         what = f"mueller_rows of element class {self.name}"
-        own = OWN_FLOAT if xp is FLOAT else xp
+        return guarded(what, xp, lambda own: partial(self._numbers, what, own))
 
-        def numbers(*values: Any) -> tuple[Any, ...]:
-            entries = _entries(what, self.rows_of(own, *map(_unchanging, values)), values)
-            _check_shapes(what, entries, values)
-            return entries
-
-        return guarded(what, xp, numbers)
+    def _numbers(self, what: str, xp: Primitives, *values: Any) -> tuple[Any, ...]:
+        entries = _entries(what, self.rows_of(xp, *map(_unchanging, values)), values)
+        _check_shapes(what, entries, values)
+        return entries
 
 
 def _unchanging(value: Any) -> Any:
@@ -110,10 +92,11 @@ def _entries(what: str, rows: Any, values: tuple[Any, ...]) -> tuple[Any, ...]:
         _check_array(what, rows, values, (4, 4))
         rows = np.asarray(rows)
     try:
-        rows = tuple(rows)
+        found = []
+        # Each row before the next, which may be a generator that knows one at a time.
         for row in rows:
             _check_array(what, row, values, (4,))
-        found = [tuple(row) for row in rows]
+            found.append(tuple(row))
     except TypeError:
         found = []
     if len(found) != 4 or any(len(row) != 4 for row in found):

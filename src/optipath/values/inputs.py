@@ -15,11 +15,12 @@ from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.materials import Material
 from optipath.values.other_part import of_complex
+from optipath.values.ranges import Ranges
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.unknown_parameter import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from optipath.values.agreement import Agreement
     from optipath.values.parameters import Parameter
@@ -142,14 +143,12 @@ class Inputs:
         return reduce(and_, (each.inside(resolved) for each in asked), True)  # noqa: FBT003
 
     @cached_property
-    def limits(self) -> dict[Hashable, tuple[float, float]]:
+    def limits(self) -> Ranges:
         """The range of each open parameter, wherever it stands; its own range included.
 
         That of a multiple with an offset stands beside it, by what `InputKey.quantity` says.
         """
-        found: dict[Hashable, tuple[float, float]] = {
-            name: (p.minimum, p.maximum) for name, p in self.open.items()
-        }
+        found = Ranges({name: (p.minimum, p.maximum) for name, p in self.open.items()})
         for use in self.uses:
             name = use.value.name
             low, high = use.value.span_for(*use.domain.interval)
@@ -160,7 +159,7 @@ class Inputs:
                 least, most = value.span_of(*found[value.name])
                 low, high = max(least, low), min(most, high)
                 # A turn back is by the negative.
-                found |= {value.quantity: (low, high), (-value).quantity: (-high, -low)}
+                found.update({value.quantity: (low, high), (-value).quantity: (-high, -low)})
         return found
 
     @cached_property

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, TypeVar
 
+import numpy as np
+
 from optipath.errors import OptipathError, PathError, did_you_mean
-from optipath.kernels.numbers.primitives import FLOAT, Primitives
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY, Primitives
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -146,7 +148,7 @@ def is_defined_in(package: str, factory: Any) -> bool:
     return str(getattr(maker, "__module__", "")).startswith(package)
 
 
-def guarded(what: str, xp: Primitives, function: KernelFunction) -> KernelFunction:
+def guarded(what: str, xp: Primitives, factory: Factory) -> KernelFunction:
     """Return a function of a user's own that raises errors of the library alone.
 
     Parameters
@@ -154,9 +156,10 @@ def guarded(what: str, xp: Primitives, function: KernelFunction) -> KernelFuncti
     what : str
         What sentences call it.
     xp : Primitives
-        What it computes with.
-    function : callable
-        Numbers in, numbers out.
+        What is computed with. In place of plain floats, it is given numbers of NumPy: the
+        comparisons of those are what ``~`` is right of, as it is of arrays.
+    factory : callable
+        Makes the function: numbers in, numbers out.
 
     Returns
     -------
@@ -164,9 +167,19 @@ def guarded(what: str, xp: Primitives, function: KernelFunction) -> KernelFuncti
         Of plain floats, it raises errors of arithmetic as they are: arrays, which know infinity,
         do it once more.
     """
-    left: tuple[type[Exception], ...] = (ArithmeticError, ValueError) if xp is FLOAT else ()
+    if xp is not FLOAT:
+        function = called(what, factory, xp)
+        return lambda *values: called(what, function, *values)
+    of_numbers = called(what, factory, NUMPY)
 
-    return lambda *values: called(what, function, *values, left=left)
+    def of_floats(*values: float) -> tuple[float, ...]:
+        return tuple(map(float, of_numbers(*map(np.float64, values))))
+
+    def single(*values: float) -> tuple[float, ...]:
+        with np.errstate(all="raise", under="ignore"):
+            return called(what, of_floats, *values, left=(ArithmeticError, ValueError))
+
+    return single
 
 
 @dataclass(frozen=True)
@@ -186,5 +199,4 @@ class GuardedFactory:
 
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return what the factory makes, guarded."""
-        what = f"kernel '{self.name}'"
-        return guarded(what, xp, called(what, self.factory, xp))
+        return guarded(f"kernel '{self.name}'", xp, self.factory)
