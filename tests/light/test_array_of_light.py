@@ -313,6 +313,17 @@ def test_light_keeps_the_coarser_precision_and_is_light(made):
     assert op.Light.from_("mitsuba", made.to("mitsuba")).dop.max() <= 1 + 2.0**-22
 
 
+def test_light_that_has_been_rounded_many_times_is_light():
+    rng = np.random.default_rng(3)
+    states = rng.normal(size=(2000, 3))
+    states /= np.linalg.norm(states, axis=-1, keepdims=True)
+    light = op.Light(np.concatenate([np.ones((2000, 1)), states], axis=-1).astype(np.float32))
+    for turn in rng.uniform(0.1, 3.0, 30):
+        light = 0.9 * (op.Retarder(turn, 2.0 * turn) @ light)
+        assert op.Light(light.stokes) == light
+        assert op.Source(stokes=light.stokes).stokes.dtype == np.float32
+
+
 def test_light_in_less_precision_keeps_its_range():
     faint = op.Light([1e-300, 0.0, 0.0, 0.0]) + op.Light(np.zeros(4, np.float32))
     assert faint.log10_intensity == pytest.approx(-300)

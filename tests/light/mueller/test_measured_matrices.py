@@ -65,6 +65,30 @@ def test_a_physical_matrix_is_never_refused_for_its_rounding(dtype):
     assert (given @ op.Light(np.zeros(4))).S0.max() == 0.0
 
 
+@pytest.mark.parametrize(
+    ("matrix", "light"),
+    [  # Their least eigenvalues are -0.75e-9, -0.75e-9 and -0.5e-9 of the largest.
+        (np.diag([1.0, 1.0, 1.0, 1.0 + 3e-9]), [1.0, 0.0, 0.0, 1.0]),
+        (1e20 * np.diag([1.0, 1.0, 1.0 + 3e-9, 1.0]), [1.0, 0.0, -1.0, 0.0]),
+        ([[1, 1 + 1e-9, 0, 0], [1 + 1e-9, 1, 0, 0], [0] * 4, [0] * 4], [1.0, -1.0, 0.0, 0.0]),
+    ],
+)
+def test_a_matrix_that_is_physical_to_its_tolerance_is_not_refused(matrix, light):
+    given = op.Mueller(matrix)
+    assert given.is_physical()
+    assert not given.is_physical(1e-10)
+    assert (given @ op.Light(light)).frame == op.Frame()
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_what_roundings_have_left_of_crossed_polarisers_is_not_refused(dtype):
+    angles = np.linspace(0.0, 3.0, 50)
+    behind, before = (op.Polarizer(angles + a).mueller().matrix for a in (np.pi / 2, 0.0))
+    light = op.Light([[1.0, 0.6, 0.0, 0.8], [1.0, 0.0, -1.0, 0.0]])[:, None]
+    left = op.Mueller(behind.astype(dtype) @ before.astype(dtype)) @ light
+    assert np.abs(left.S0).max() < 2 * np.finfo(dtype).eps
+
+
 def test_what_an_element_of_unphysical_values_does_is_not_judged_again():
     path = op.Source() >> op.MuellerElement(TOO_MUCH.matrix, physical=False) >> op.Detector()
     assert (path.mueller() @ BRIGHT).dop == pytest.approx(5 / 3)

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import LightError, shown
 from optipath.light.mueller.cloude import tolerance_for
+from optipath.light.mueller.normalised import rounding_of as spacing_of
 from optipath.light.physical_light import problem_of
 from optipath.light.polarization_state import length
 from optipath.values.arrays.jax_values import namespace
@@ -22,11 +23,22 @@ _CURE = (
     "which may be what no light is"
 )
 
+_BEYOND = 12.0
+"""By how many times what its coherency lacks, over M00, a matrix takes light beyond 100 %, at most.
+
+Three eigenvalues are negative at most; a Jones matrix of the size of one lets twice as much
+through, and light that it takes away shortens S0 and lengthens (S1, S2, S3) by as much.
+"""
+
+_LEFT = 16.0
+"""How many roundings of 1 are left where matrices that let nothing through were multiplied."""
+
 
 def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
     """Tell of which light a matrix makes what no light is, beyond the rounding of all three.
 
-    A matrix that is physical by the default of `Mueller.is_physical` does so of none.
+    A matrix that is physical by the default of `Mueller.is_physical` does so of none, nor does one
+    whose entries may be no more than what is left of roundings of 1, as of crossed polarisers.
 
     Parameters
     ----------
@@ -50,13 +62,13 @@ def becomes_no_light(matrix: Any, noise: Any, arriving: Any, made: Any) -> Any:
     """
     xp = namespace(made)
     tolerance = max(tolerance_for(matrix), tolerance_for(arriving))
-    rounding = (tolerance * abs(matrix[..., 0, 0]) + noise) * arriving[..., 0]
+    rounding = _BEYOND * tolerance * abs(matrix[..., 0, 0]) + _LEFT * spacing_of(matrix) + noise
     is_light = can_be_light(arriving, rounding_of(arriving)) & (arriving[..., 0] >= 0.0)
     with np.errstate(over="ignore", invalid="ignore"):
         beyond = length(made[..., 1], made[..., 2], made[..., 3]) - made[..., 0]
     # Numbers below the smallest normal one have lost digits; of infinite ones nothing is said.
     least = float(np.finfo(made.dtype).tiny)
-    return is_light & (beyond > xp.maximum(rounding, least)) & (beyond < np.inf)
+    return is_light & (beyond > xp.maximum(rounding * arriving[..., 0], least)) & (beyond < np.inf)
 
 
 def check_becomes_light(matrix: Array, noise: Array, arriving: Array, made: Array) -> None:

@@ -18,6 +18,8 @@ from optipath.values.domains.pair import is_real, pair_in
 from optipath.values.roundings import rounding_of
 
 _ROUNDING = 1e-12
+_GATHERED = 16.0
+"""How many roundings light of less than double precision may have gathered."""
 _LEAST, _MOST = 1e-280, 1e300
 _SINGLE_ROUNDING = 1e-6
 """How far the size of an amplitude may be above 1: numbers of single precision are rounded so."""
@@ -171,5 +173,5 @@ def can_be_light(stokes: Any, rounding: float) -> Any:
     shares = abs(stokes[..., 1:]) / xp.where(dark, 1.0, stokes[..., :1])
     # Cut off, so that squares of what is far too much do not overflow.
     polarised = xp.linalg.norm(xp.minimum(shares, 2.0), axis=-1)
-    most = 1.0 + max(_ROUNDING, rounding * (1.0 + rounding))
+    most = 1.0 + max(_ROUNDING, _GATHERED * rounding)
     return xp.where(dark[..., 0], xp.max(shares, axis=-1) == 0.0, polarised <= most)
