@@ -41,6 +41,65 @@ def test_before_the_eye_the_unfiltered_light_is_filtered_by_malus_law():
     np.testing.assert_allclose(eye.intensity, expected, rtol=1e-14)
 
 
+def turned(plate=None, link=None, **own):
+    """A filter behind gold, turned by 0.35, with a plate that does nothing before it or none."""
+    path = op.Source(100) >> op.Interface(0.17 + 3.15j, "45 deg").named("gold")
+    path.add("filter", op.Polarizer(0.2, **own)) >> path.add("eye", op.Detector())
+    path.connect("gold", "filter", azimuth=link)
+    path.offer("place", "filter", {"lamp": "source", "gold": "gold"})
+    if plate is not None:
+        path.insert("plate", op.Retarder(0.0, azimuth=plate), behind="gold")
+    return path
+
+
+@pytest.mark.parametrize("how", [{"azimuth": 0.35}, {"link": 0.35}])
+@pytest.mark.parametrize(
+    "plate", [None, 0.1, op.Parameter("a", 0.1)], ids=["none", "number", "parameter"]
+)
+def test_a_filter_that_is_moved_stays_turned_in_the_light(plate, how):
+    path, by_angle = turned(plate, **how), op.Source(100) >> op.Polarizer(0.55)
+    # The eye stays as it was turned, too.
+    eye = op.Retarder(0.0, azimuth=0.35) >> op.Detector()
+    by_angle = by_angle >> op.Interface(0.17 + 3.15j, "45 deg") >> eye
+    expected, before = by_angle.trace().stokes, path.trace().stokes
+    moved = path.bind(place="lamp")
+    np.testing.assert_allclose(moved.trace().stokes, expected, rtol=1e-13, atol=1e-13)
+    back = moved.bind(place="gold")
+    np.testing.assert_allclose(back.trace().stokes, before, rtol=1e-13, atol=1e-13)
+    if plate is not None:
+        path.remove("plate")
+        moved = path.bind(place="lamp")
+        np.testing.assert_allclose(moved.trace().stokes, expected, rtol=1e-13, atol=1e-13)
+
+
+def test_a_filter_whose_turns_make_no_one_azimuth_is_moved_by_hand():
+    path = turned(op.Parameter("a"))
+    path.disconnect("plate")
+    path.replace("filter", op.Polarizer(0.2, azimuth=op.Parameter("b")))
+    path.connect("plate", "filter")
+    with pytest.raises(op.ParameterError, match=r"by b and by a, .* path\.remove\('filter'\), and"):
+        path.bind(place="lamp")
+    path.remove("filter")
+    path.insert("filter", op.Polarizer(azimuth=op.Parameter("b")), behind="source")
+    assert path.trace(a=0.1, b=0.2).intensity > 0.0
+
+
+def test_a_filter_is_moved_past_a_turned_plate_and_both_stay_as_they_were_turned():
+    def path(place):
+        path = op.Source(stokes=[2, 1, 1, 0]) >> op.Polarizer(0.3, azimuth=0.2).named("filter")
+        path = path >> op.Retarder(0.8, azimuth=op.Parameter("a", 0.4)).named("plate")
+        path = path >> op.Polarizer().named("last") >> op.Detector()
+        path.offer("place", "filter", {"before": "source", "behind": "plate"})
+        return path.bind(place=place)
+
+    # The plate stands at 0.6, and so does what is behind it.
+    filtered, plate = op.Polarizer(0.5), op.Retarder(0.8, 0.6)
+    lamp, last = op.Source(stokes=[2, 1, 1, 0]), op.Polarizer(0.6)
+    for place, row in (("before", (filtered, plate)), ("behind", (plate, filtered))):
+        expected = (lamp >> row[0] >> row[1] >> last >> op.Detector()).trace().intensity
+        assert path(place).trace().intensity == pytest.approx(expected, rel=1e-13)
+
+
 @pytest.mark.parametrize(
     ("place", "chain"),
     [

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.placement import azimuth_of, is_zero, turn_text
+from optipath.composer.placement import azimuth_of, goes_straight, is_zero, turn_text
 from optipath.composer.wiring import Wiring
 from optipath.errors import OptipathError, PathError
 from optipath.values.arrays.read_only import read_only, same
@@ -59,6 +59,65 @@ def turn_more(graph: nx.MultiDiGraph, link: Link, turn: Any, cure: str = "") -> 
         ) from None
     _give_azimuth_to_links(graph, link)
     graph.edges[link]["azimuth"] = None if is_zero(total) else total
+
+
+def turns_to(graph: nx.MultiDiGraph, name: str) -> list[Any]:
+    """Return the turns of a node against the port that light comes from straight on.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links.
+    name : str
+        A node.
+
+    Returns
+    -------
+    list of float, ndarray or Parameter
+        In radians; what is known to be 0 is left out.
+    """
+    wiring, found, leaves, seen = Wiring(graph), [], "", set()
+    while len(links := graph.in_edges(name, keys=True)) == 1:
+        (link,) = links
+        start, end, (port, enters) = link
+        bends = leaves and not goes_straight(wiring.elements[end], enters, leaves)
+        if bends or link in seen:  # A ring has no port to begin at.
+            break
+        found.append(azimuth_of(wiring, link))
+        seen.add(link)
+        name, leaves = start, port
+    return [turn for turn in found if not is_zero(turn)]
+
+
+def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
+    """Turn a node, and nothing behind it, until it stands as `turns_to` told elsewhere.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links, changed in place.
+    name : str
+        A node that light goes straight through, with a link to it and one from it.
+    turns : list of float, ndarray or Parameter
+        In radians.
+
+    Raises
+    ------
+    PathError
+        If the turns make no one azimuth.
+    """
+    (enters,), (passes,) = graph.in_edges(name, keys=True), graph.out_edges(name, keys=True)
+    missing = [*turns]
+    for turn in turns_to(graph, name):
+        alike = next((at for at, one in enumerate(missing) if same(one, turn)), None)
+        if alike is None:
+            missing.append(-turn)
+        else:
+            del missing[alike]
+    cure = f"take it out by path.remove('{name}'), and put it in by path.insert with one"
+    for turn in missing:
+        turn_more(graph, enters, turn, cure)
+        turn_more(graph, passes, -turn, cure)
 
 
 def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.placement import goes_straight
 from optipath.composer.wiring import Wiring
 from optipath.errors import PathError, shown, unknown
+from optipath.paths.link_turns import turn_to, turns_to
 from optipath.paths.port_names import element_at, find_port, natural_port
 from optipath.paths.splicing import insert, remove
 
@@ -87,8 +88,11 @@ def put_in_place(graph: nx.MultiDiGraph, name: str, word: Any) -> None:
     element = element_at(graph, choice.node)
     if choice.place(graph) != word:
         try:
+            turns = turns_to(graph, choice.node) if graph.in_degree(choice.node) else None
             remove(graph, choice.node)
             insert(graph, choice.node, element, choice.behind[word], None)
+            if turns is not None:
+                turn_to(graph, choice.node, turns)
         except PathError as fault:
             wrong = f"'{choice.node}' cannot be moved to {name}={shown(word)}: "
             raise PathError(*(wrong + sentence for sentence in fault.faults)) from None
