@@ -159,6 +159,38 @@ def test_another_parameter_as_azimuth_is_given_by_an_element_put_in_anew():
     assert path.trace(a=0.37).intensity == pytest.approx(0.5 * np.cos(0.6 + 0.37 - 0.2) ** 2)
 
 
+def pane(index, azimuth=0.4, polarizer=0.1):
+    path = op.Source(stokes=[1, 0.5, 0.2, 0.1]) >> op.Polarizer(0.2, azimuth=polarizer)
+    return path >> op.Interface(index, 0.6, azimuth=azimuth) >> op.Detector()
+
+
+@pytest.mark.parametrize("azimuth", [0.4, 0.7, 2 * A + 0.1, np.array([0.1, 0.7])])
+@pytest.mark.parametrize("plate", [0.25, 0.9])
+def test_an_azimuth_that_its_link_has_taken_over_is_given_anew_by_a_replacement(azimuth, plate):
+    path = pane(1.5, azimuth)
+    path.insert("plate", op.Retarder(0.0, azimuth=plate), behind="polarizer")
+    path.remove("plate")
+    path.replace("interface", op.Interface(1.6, 0.6, azimuth=azimuth))
+    assert path == pane(1.6, azimuth)
+
+
+def test_a_replacement_that_stands_as_its_link_says_turns_nothing_behind_it():
+    path = pane(1.5)
+    path.insert("plate", op.Retarder(0.0, azimuth=0.25), behind="source")
+    path.remove("plate")
+    path.replace("polarizer", op.Polarizer(0.2, azimuth=0.1))
+    assert path == pane(1.5)
+
+
+def test_a_replacement_that_is_turned_otherwise_than_its_link_says_is_refused():
+    path = pane(1.5)
+    path.insert("plate", op.Retarder(0.0, azimuth=0.25), behind="polarizer")
+    with pytest.raises(op.PathError, match=r"'interface' by 0\.15.* turned by 0\.4; leave the"):
+        path.replace("interface", op.Interface(1.6, 0.6, azimuth=0.4))
+    path.replace("interface", op.Interface(1.6, 0.6))
+    np.testing.assert_allclose(stokes(path), stokes(pane(1.6)), rtol=1e-14)
+
+
 def test_arrays_that_do_not_fit_are_no_one_azimuth():
     path = op.Source() >> op.Polarizer(azimuth=np.array([0.1, 0.2, 0.3])) >> op.Detector()
     with pytest.raises(op.PathError, match="no one azimuth does for both"):

@@ -162,6 +162,39 @@ def test_light_that_goes_to_and_fro_is_turned_alike_on_both_ways(back):
     assert half.trace().intensity == pytest.approx(2 * 1.5 / (1 + 1.5**2), rel=1e-12)
 
 
+def before_mirror(go, back, *, again=None):
+    """A face with a mirror behind it, and another between that and the way back, or none."""
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(stokes=[1, 0.4, 0.3, 0.2])) >> path.add("f", op.Interface(1.5, 0.0))
+    path.add("m", op.Mirror(-0.9, azimuth=go)) >> path.add("plate", op.Retarder(0.0))
+    path.connect("f.transmitted", "m")
+    light = "plate"
+    if again is not None:
+        light = path.add("again", op.Mirror(azimuth=again)).name
+        path.connect("plate", light)
+    path.connect(light, "f.back", azimuth=back)
+    path.connect("f.reflected", path.add("R", op.Detector()).name)
+    return path
+
+
+@pytest.mark.parametrize("go", [0.3, op.Parameter("a"), np.array([0.0, 0.3])])
+def test_light_that_a_mirror_sends_back_is_turned_alike_on_both_ways(go):
+    late = {"a": 0.3} if isinstance(go, op.Parameter) else {}
+    fault = fault_of(before_mirror(go, None), **late)
+    assert "between 'f' and 'm', but is turned by 17.18873385 deg" in fault
+    assert "from 'f.transmitted' to 'm.in', and by 0 deg from 'm.reflected' to 'f.back'" in fault
+    # A mirror without axes may turn about its normal: it is 0.04 + 0.96^2 0.81 / (1 - 0.04 0.81).
+    r = 0.04 + 0.96**2 * 0.81 / (1 - 0.04 * 0.81)
+    light = before_mirror(go, go).trace(**late).stokes
+    shape = np.broadcast_shapes(light.shape, (4,))
+    expected = np.broadcast_to(r * np.array([1, 0.4, -0.3, -0.2]), shape)
+    np.testing.assert_allclose(light, expected, rtol=1e-12, atol=1e-15)
+
+
+def test_what_two_mirrors_send_back_may_be_turned():
+    assert before_mirror(0.3, None, again=0.2).trace().S0 > 0.0
+
+
 def test_a_ring_may_turn_its_light():
     path = op.PathGraph(loops="sum")
     path.add("lamp", op.Source(stokes=[1, 1, 0, 0]))

@@ -120,15 +120,16 @@ class Media:
 
     @cached_property
     def _rounds(self) -> tuple[SameTurn, ...]:
-        found = []
         first: dict[Any, Meeting] = {}
-        for meeting in self.meetings.in_layers:
-            if meeting.sides in self.meetings.to_and_fro:
-                one = first.setdefault(meeting.sides, meeting)
-                if keys_of(one.turns) != keys_of(meeting.turns):
-                    operands = tuple(map(Operand, (*one.turns, *meeting.turns)))
-                    ways = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, meeting)]
-                    found.append(SameTurn(operands, len(one.turns), *ways))
+        both = self.meetings.to_and_fro
+        between = [meeting for meeting in self.meetings.in_layers if meeting.sides in both]
+        ways = [(first.setdefault(meeting.sides, meeting), meeting) for meeting in between]
+        found = []
+        for one, other in (*ways, *self.meetings.mirrored):
+            if keys_of(one.turns) != keys_of(other.turns):
+                operands = tuple(map(Operand, (*one.turns, *other.turns)))
+                ends = [(".".join(m.leaves), ".".join(m.enters)) for m in (one, other)]
+                found.append(SameTurn(operands, len(one.turns), *ends))
         return tuple(found)
 
     @property

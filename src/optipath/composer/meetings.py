@@ -83,8 +83,30 @@ class Meetings:
             found.setdefault((tap[0], tap[2][0]), []).append(tap)
         return found
 
-    def _of(self, start: Port) -> Iterator[Meeting]:
-        """Yield where light goes from a port, through all that keeps it in its medium."""
+    @property
+    def mirrored(self) -> Iterator[tuple[Meeting, Meeting]]:
+        """The ways from a boundary straight to a mirror, each with one straight back to its side.
+
+        All of that lies in one plane. What two mirrors send back may have been turned, and a
+        beam splitter stands at any angle.
+        """
+        elements = self.wiring.elements
+        boundaries = [name for name in elements if isinstance(elements[name], MediaOfBoundary)]
+        starts = [(name, port) for name in boundaries for port in elements[name].outputs]
+        for there in (way for start in starts for way in self._of(start, to_mirrors=True)):
+            mirror, enters = there.enters
+            ways = self.wiring.couplings[mirror]
+            for way in () if isinstance(elements[mirror], FourPort) else ways:
+                if way.enters == enters and way.reflects:
+                    for back in self._of((mirror, way.leaves)):
+                        if back.straight and back.enters == _side(there.leaves):
+                            yield there, back
+
+    def _of(self, start: Port, *, to_mirrors: bool = False) -> Iterator[Meeting]:
+        """Yield where light goes from a port, through all that keeps it in its medium.
+
+        By default to boundaries, by way of mirrors as well; else straight to mirrors.
+        """
         wiring = self.wiring
         waiting: list[tuple[Port, bool, tuple[Any, ...]]] = [(start, True, ())]
         seen: dict[Port, set[Any]] = {}
@@ -99,15 +121,20 @@ class Meetings:
                 if route in routes or len(routes) == _MOST_ROUTES:
                     continue
                 routes.add(route)
+                meeting = Meeting(start, enters, straight, turns, frozenset([_side(start), enters]))
                 if isinstance(element, MediaOfBoundary):
-                    sides = frozenset([_side(start), enters])
-                    yield Meeting(start, enters, straight, turns, sides)
+                    if not to_mirrors:
+                        yield meeting
                     continue
                 for way in wiring.couplings[link[1]]:
                     # A beam splitter lets light through as it is.
                     passes = isinstance(element, FourPort) and not way.reflects
                     goes_on = element.straight or passes
-                    if way.enters == enters[1] and (goes_on or way.reflects):
+                    if way.enters != enters[1] or not (goes_on or way.reflects):
+                        continue
+                    if to_mirrors and not goes_on:
+                        yield meeting
+                    else:
                         waiting.append(((link[1], way.leaves), straight and goes_on, turns))
 
     @cached_property

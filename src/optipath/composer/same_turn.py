@@ -1,4 +1,4 @@
-"""SameTurn: light that goes to and fro between two boundaries is turned alike on every way."""
+"""SameTurn: light that goes to and fro between two faces is turned alike on every way."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class SameTurn(Agreement):
-    """The turns on one way between two boundaries come to those on another, there or back.
+    """The turns on one way between two faces come to those on another, there or back.
 
-    All ports of a boundary share x. A turn counts about the direction in which its light
-    travels, so that a way back undoes a way there by turning as much again. The operands are
-    the turns on both ways.
+    These are boundaries, or a boundary and a mirror. All ports of a face share x. A turn counts
+    about the direction in which its light travels, so that a way back undoes a way there by
+    turning as much again. The operands are the turns on both ways.
 
     Attributes
     ----------

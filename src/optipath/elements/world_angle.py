@@ -72,10 +72,11 @@ class WorldAngle(Agreement):
         found, *given = numbers
         front, behind = angles_of(np, *given)
         there, expected = _degrees(found), _degrees(self._expected(front, behind))
-        units = (" deg", *[""] * len(given))
-        shown = (math.degrees(given[0]), *given[1:])
-        several = zip(self.operands[1:], shown, units, strict=False)
-        open_ones = [text_of(o, number, unit) for o, number, unit in several if _is_told(o, number)]
+        incidence, *indices = self.operands[1:]
+        angle = text_of(incidence, math.degrees(given[0]), " deg")
+        open_ones = [] if incidence.known else [angle]
+        parts = zip(indices, given[1:], strict=True)
+        open_ones += [_index_text(o, number) for o, number in parts if _is_told(o, number)]
         by = f" ({', '.join(open_ones)})" if open_ones else ""
         if self._is_passing:
             return (
@@ -191,6 +192,11 @@ def angles_of(
 def _is_told(operand: Operand, number: float) -> bool:
     """Tell whether a number is given when the path runs; no absorption is none."""
     return not operand.known and (operand.part != "imag" or number != 0.0)
+
+
+def _index_text(operand: Operand, number: float) -> str:
+    """Write a part of an index, and whose value it is."""
+    return f"{'k' if operand.part == 'imag' else 'n'} = {text_of(operand, number)}"
 
 
 def _degrees(angle: Any) -> str:

@@ -256,8 +256,8 @@ class ElementGraph(Chainable):
         Raises
         ------
         PathError
-            If a port is missing, frames would not fit, or the new element lacks the azimuth of
-            one that light does not go straight through; the path is as it was then.
+            If a port is missing, frames would not fit, its link says another azimuth, or it lacks
+            that of one that light does not go straight through; the path is as it was then.
         """
         self._edit(replace, name, element)
         return Node(self, name)

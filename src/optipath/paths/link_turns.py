@@ -120,6 +120,31 @@ def turn_to(graph: nx.MultiDiGraph, name: str, turns: list[Any]) -> None:
         turn_more(graph, passes, -turn, cure)
 
 
+def are_alike(first: Any, second: Any) -> bool:
+    """Tell whether two turns are the same, but for what turns there and back have rounded off.
+
+    Parameters
+    ----------
+    first, second : float, ndarray or Parameter
+        In radians.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> are_alike(0.7, 0.7 - 0.9 + 0.9), are_alike(0.7, 0.8)
+    (True, False)
+    """
+    if isinstance(first, Parameter) and isinstance(second, Parameter):
+        of_one = first.alone() == second.alone() and first.scale == second.scale
+        return of_one and are_alike(first.offset, second.offset)
+    if isinstance(first, Parameter) or isinstance(second, Parameter):
+        return False
+    return np.shape(first) == np.shape(second) and np.allclose(first, second, 1e-15, 1e-15)
+
+
 def _give_azimuth_to_links(graph: nx.MultiDiGraph, link: Link) -> None:
     """Let the links that an element's azimuth turns say it, if it turns this one."""
     wiring, node = Wiring(graph), graph.nodes[link[1]]

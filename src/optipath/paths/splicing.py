@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.placement import azimuth_of, frame_at, goes_straight, is_zero, turn_text
 from optipath.composer.taps import taken_out
 from optipath.composer.wiring import Wiring, link_text
+from optipath.elements.azimuths import azimuth_at
 from optipath.errors import PathError, listed
 from optipath.paths.editing import add, check_element, find_link
-from optipath.paths.link_turns import turn_more
+from optipath.paths.link_turns import are_alike, turn_more
 from optipath.paths.port_names import element_at, find_port, natural_port
 
 if TYPE_CHECKING:
@@ -87,11 +88,32 @@ def replace(graph: nx.MultiDiGraph, name: Any, element: Any) -> None:
             f"the new element of '{name}' has no {lost}, which links or frames use; it has "
             f"{listed(ports)}: disconnect the others first, or take '{name}' out and add it anew"
         )
-    if graph.nodes[name]["element"].straight and element.straight:
+    if said := _turned_by_links(graph, name, element):
+        for link in said:
+            graph.edges[link]["azimuth"] = None
+    elif graph.nodes[name]["element"].straight and element.straight:
         _turn_back(graph, name, element)
     else:
         _check_turn(graph, name, element)
     graph.nodes[name]["element"] = element
+
+
+def _turned_by_links(graph: nx.MultiDiGraph, name: str, element: Element) -> list[Link]:
+    """Return the links that turn a node if they say what another element says by itself."""
+    links = [
+        link
+        for link in graph.in_edges(name, keys=True)
+        if graph.edges[link]["azimuth"] is not None and not is_zero(azimuth_at(element, link[2][1]))
+    ]
+    for link in links:
+        turn = graph.edges[link]["azimuth"]
+        if not are_alike(turn, _own_turn(element)):
+            raise PathError(
+                f"link '{link_text(link)}' turns '{name}' by {turn_text(turn)}, and the new "
+                f"element is turned by {turn_text(_own_turn(element))}; leave the azimuth of the "
+                f"new element out to have it turned as the old one is"
+            )
+    return links
 
 
 def _turn_back(graph: nx.MultiDiGraph, name: str, element: Element) -> None:
