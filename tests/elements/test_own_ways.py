@@ -133,8 +133,19 @@ class TimesAnything(Times):
 
 def test_defaults_of_parameters_are_looked_at_when_a_path_is_checked():
     chain([Times(op.Parameter("a", 1.0))]).check()
-    with pytest.raises(op.PathError, match=r"\(element class Times\).*2 times as bright"):
+    told = r"^with the default a = 4: 'e0' \(element class Times\).*2 times .*another default$"
+    with pytest.raises(op.PathError, match=told):
         chain([Times(op.Parameter("a", 4.0))]).check()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
+    plan = op.Composer(engine=engine).compose(chain([Times(op.Parameter("a", 4.0))]))
+    for _ in range(6):
+        assert plan.run(a=0.25).S0 == 0.5
+    for _ in range(6):
+        with pytest.raises(op.ParameterError, match=r"^at a = 4: .*2 times as bright"):
+            plan.run()
 
 
 @pytest.mark.parametrize("element_class", [Times, TimesAnything])

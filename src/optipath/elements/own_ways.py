@@ -84,6 +84,12 @@ class OwnWays:
         operations = [one for coupling in self.couplings for one in coupling.operations]
         return [operand for operation in operations for operand in operation.operands()]
 
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each parameter among them that is given when a path runs."""
+        open_ones = [operand.value for operand in self.operands if not operand.known]
+        return {parameter.name: parameter.unit for parameter in open_ones}
+
     def are_known(self, given: Collection[str] = ()) -> bool:
         """Tell whether all of them are numbers already, with those of parameters that are given."""
         return all(
