@@ -47,6 +47,32 @@ def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
         Splits(0.9, 0.9).mueller("in", "a")
 
 
+DIMS = op.Attenuator(0.5).couplings()[0].operations[0].kernel
+WRONG = op.Operation(DIMS, ())
+
+
+@pytest.mark.parametrize(
+    ("kernel", "values", "told"),
+    [
+        (3, (0.5,), r"op\.Operation the kernel 3; give an optipath\.kernels\."),
+        (DIMS, 0.5, r"kernel 'attenuator' the values 0\.5; give a tuple"),
+        (DIMS, (0.5, 0.5), r"the values \(0\.5, 0\.5\); give as many .*, \(transmittance\)"),
+        (DIMS, WRONG.results(1), r"the values \(\); give as many as it takes, \(transmittance\)"),
+        (DIMS, ("half",), "kernel 'attenuator' 'half', which is no number"),
+        (DIMS, (op.Parameter("f", 0.5),), "parameter 'f', which is in no field; give it to one"),
+    ],
+)
+def test_operations_that_cannot_be_done_are_told_with_the_class(kernel, values, told):
+    class Own(op.Element):
+        def couplings(self):
+            return [op.Coupling("in", "out", (op.Operation(kernel, values),))]
+
+    told = rf"^couplings\(\) of element class Own give .*{told}"
+    for act in (chain([Own()]).check, chain([Own()]).trace, Own().mueller):
+        with pytest.raises(op.PathError, match=told):
+            act()
+
+
 class Parts(op.Element):
     """Parts light between two sides, and polarises it at the second."""
 
