@@ -47,6 +47,32 @@ def test_all_that_ways_from_one_port_let_out_is_no_more_than_what_comes_in():
         Splits(0.9, 0.9).mueller("in", "a")
 
 
+DIMS = op.Attenuator(0.5).couplings()[0].operations[0].kernel
+WRONG = op.Operation(DIMS, ())
+
+
+@pytest.mark.parametrize(
+    ("kernel", "values", "told"),
+    [
+        (3, (0.5,), r"op\.Operation the kernel 3; give an optipath\.kernels\."),
+        (DIMS, 0.5, r"kernel 'attenuator' the values 0\.5; give a tuple"),
+        (DIMS, (0.5, 0.5), r"the values \(0\.5, 0\.5\); give as many .*, \(transmittance\)"),
+        (DIMS, WRONG.results(1), r"the values \(\); give as many as it takes, \(transmittance\)"),
+        (DIMS, ("half",), "kernel 'attenuator' 'half', which is no number"),
+        (DIMS, (op.Parameter("f", 0.5),), "parameter 'f', which is in no field; give it to one"),
+    ],
+)
+def test_operations_that_cannot_be_done_are_told_with_the_class(kernel, values, told):
+    class Own(op.Element):
+        def couplings(self):
+            return [op.Coupling("in", "out", (op.Operation(kernel, values),))]
+
+    told = rf"^couplings\(\) of element class Own give .*{told}"
+    for act in (chain([Own()]).check, chain([Own()]).trace, Own().mueller):
+        with pytest.raises(op.PathError, match=told):
+            act()
+
+
 class Parts(op.Element):
     """Parts light between two sides, and polarises it at the second."""
 
@@ -63,9 +89,8 @@ class Parts(op.Element):
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("default", [None, 0.9])
-def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine, default):
-    path = op.Source() >> Parts(op.Parameter("f", default)) >> op.Detector()
+def test_couplings_compute_with_fields_that_are_given_when_a_path_runs(engine):
+    path = op.Source() >> Parts(op.Parameter("f", 0.9)) >> op.Detector()
     plan = op.Composer(engine=engine).compose(path)
     shares = np.array([0.0, 0.3, 0.8, 1.0])
     angle = 2.0 * (2.0 * shares + 0.1)
@@ -119,6 +144,63 @@ def test_a_class_without_a_kind_is_called_by_its_name_where_it_gives_no_light():
         chain([Own()]).check()
 
 
+THIRDS = np.float32([1 / 3, 2 / 3])
+HUNDREDTHS = np.float32([0.01, 0.99])
+TENTHS = np.float32([0.6, 0.4])
+
+
+@pytest.mark.parametrize("shares", [THIRDS, HUNDREDTHS, TENTHS])
+def test_shares_in_float32_may_make_up_the_whole_to_their_rounding(shares):
+    both(*shares).check()
+    path = both(op.Parameter("first"), op.Parameter("second"))
+    first, second = shares
+    for dtype in ("float64", "float32"):
+        plan = op.Composer(dtype=dtype).compose(path)
+        for given in (shares, np.repeat(shares[:, None], 3, axis=1)):
+            lights = plan.run_all(first=given[0], second=given[1])
+            np.testing.assert_allclose(sum(light.S0 for light in lights.values()), 1.0, 1e-7)
+    with pytest.raises(op.PathError, match=r"up to 1\.0001\d* times"):
+        both(first, second + np.float32(1e-4)).check()
+
+
+class AnyMatrix(op.Element):
+    matrix: op.MuellerMatrix
+
+    @staticmethod
+    def mueller_rows(xp, *numbers):
+        return [numbers[start : start + 4] for start in (0, 4, 8, 12)]
+
+
+class Lamp(op.Element):
+    state: op.StokesState
+    inputs = ()
+
+    def couplings(self):
+        source = op.Source(stokes=self.state)
+        return (op.Coupling(None, "out", source.couplings()[0].operations),)
+
+
+def test_own_elements_take_what_elements_of_the_library_take_in_float32():
+    for a, b in np.random.default_rng(6).uniform(0.0, 3.0, (12, 2)):
+        matrix = (op.Polarizer(a) @ op.Retarder(b, angle=2.0 * a)).matrix.astype(np.float32)
+        op.MuellerElement(matrix)
+        chain([AnyMatrix(matrix)]).check()
+        chain([AnyMatrix(op.Parameter("m"))]).trace(m=matrix)
+        with pytest.raises(op.PathError, match=r"makes light up to .* times as bright"):
+            chain([AnyMatrix(2.0 * matrix)]).check()
+
+
+def test_sources_of_ones_own_take_what_a_source_takes_in_float32():
+    state = op.Parameter("state")
+    for direction in np.random.default_rng(7).normal(size=(12, 3)):
+        pure = np.float32([1.0, *direction / np.linalg.norm(direction)])
+        (op.Source(stokes=pure) >> op.Detector()).check()
+        (Lamp(pure) >> op.Detector()).check()
+        (Lamp(state) >> op.Detector()).trace(state=pure)
+        with pytest.raises(op.OptipathError, match="more than 100 %"):
+            (Lamp(state) >> op.Detector()).trace(state=pure * np.float32([1.0, 1.1, 1.1, 1.1]))
+
+
 class Times(op.Element):
     a: op.Real = 1.0
 
@@ -133,8 +215,19 @@ class TimesAnything(Times):
 
 def test_defaults_of_parameters_are_looked_at_when_a_path_is_checked():
     chain([Times(op.Parameter("a", 1.0))]).check()
-    with pytest.raises(op.PathError, match=r"\(element class Times\).*2 times as bright"):
+    told = r"^with the default a = 4: 'e0' \(element class Times\).*2 times .*another default$"
+    with pytest.raises(op.PathError, match=told):
         chain([Times(op.Parameter("a", 4.0))]).check()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_default_stands_in_nobodys_way_where_another_value_is_given(engine):
+    plan = op.Composer(engine=engine).compose(chain([Times(op.Parameter("a", 4.0))]))
+    for _ in range(6):
+        assert plan.run(a=0.25).S0 == 0.5
+    for _ in range(6):
+        with pytest.raises(op.ParameterError, match=r"^at a = 4: .*2 times as bright"):
+            plan.run()
 
 
 @pytest.mark.parametrize("element_class", [Times, TimesAnything])

@@ -13,9 +13,10 @@ from optipath.composer.placement import placement_faults
 from optipath.composer.taps import sharing_faults, tap_faults
 from optipath.composer.travel import among, cycles
 from optipath.composer.wiring import LOOPS, Wiring, link_text
-from optipath.errors import PathError
+from optipath.errors import PathError, listed
 from optipath.values.cures import cure
 from optipath.values.made import remember_sound
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -36,13 +37,16 @@ def validate(graph: nx.MultiDiGraph, values: Values | None = None) -> None:
     Raises
     ------
     PathError
-        With all faults found: values, frames, ends, links and loops.
+        With all faults found: values, frames, ends, links and loops; else those of defaults, which
+        are in nobody's way where other values are given.
     """
     whole, unfollowed = with_followed(graph)
     wiring = Wiring(whole)
     if values is None or whole is not graph:
         values = Values(whole)
     refuse_faults(values, wiring, Media(wiring), unfollowed)
+    if faults := [*_default_faults(values, wiring)]:
+        raise PathError(*faults)
 
 
 def refuse_faults(values: Values, wiring: Wiring, media: Media, unfollowed: list[str]) -> None:
@@ -109,18 +113,25 @@ def _faults(
     found += [*_dark_link_faults(wiring), *cyclic]
     if whole:
         found += _missing_end_faults(wiring)
-    found += [] if found else _own_faults(values, wiring)
+    found += [] if found else _own_faults(wiring)
     if wiring.starts and wiring.ends and not cyclic:
         found += _reach_faults(wiring, unsure)
     return found
 
 
-def _own_faults(values: Values, wiring: Wiring) -> Iterator[str]:
-    ways = wiring.own_ways()
-    defaults = values.defaults if ways else {}
-    for each in ways:
-        if each.are_known(defaults):
-            yield from (fault for _, fault in each.faults(lambda o: o.numbers(defaults)))
+def _own_faults(wiring: Wiring) -> Iterator[str]:
+    for each in wiring.own_ways():
+        if each.are_known():
+            yield from (fault for _, fault in each.faults(Operand.numbers))
+
+
+def _default_faults(values: Values, wiring: Wiring) -> Iterator[str]:
+    """Yield what ways through elements of a user's own come to with defaults of parameters."""
+    for each in wiring.own_ways():
+        if each.units and each.are_known(values.defaults):
+            defaults = [f"{name} = {values.parameters[name].default_text()}" for name in each.units]
+            for _, fault in each.faults(lambda operand: operand.numbers(values.defaults)):
+                yield f"with the default {listed(defaults)}: {fault}; or give another default"
 
 
 def _missing_end_faults(wiring: Wiring) -> Iterator[str]:

@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+from inspect import signature
 from typing import TYPE_CHECKING, Any
 
-from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.coupling import Coupling, Operation, ResultOf
 from optipath.errors import PathError, listed, shown
+from optipath.kernels.carriers.kernel import Kernel, KernelFamily
 from optipath.kernels.carriers.own_code import called
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.operands import Operand, operand_of
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -58,6 +65,47 @@ def _faults(what: str, element: Any, found: tuple[Any, ...]) -> Iterator[str]:
                 f"{what} give the operations {shown(operations)}; give a tuple of op.Operation: "
                 f"those of another element are element.couplings()[0].operations"
             )
+            continue
+        names = {parameter.name for parameter in element.parameters()}
+        for operation in operations:
+            yield from _operation_faults(what, operation, names)
+
+
+def _operation_faults(what: str, operation: Operation, names: set[str]) -> Iterator[str]:
+    """Say whether an operation has a kernel, and values that this takes."""
+    kernel, values = operation.kernel, operation.arguments
+    if not isinstance(kernel, (Kernel, KernelFamily)):
+        yield (
+            f"{what} give op.Operation the kernel {shown(kernel)}; give an "
+            f"optipath.kernels.carriers.kernel.Kernel: that of another element is "
+            f"element.couplings()[0].operations[0].kernel"
+        )
+        return
+    to = f"{what} give kernel '{kernel.name}'"
+    if not isinstance(values, (tuple, list)):
+        yield f"{to} the values {shown(values)}; give a tuple"
+        return
+    inner = {id(value.operation): value.operation for value in values if type(value) is ResultOf}
+    for behind in inner.values():
+        yield from _operation_faults(what, behind, names)
+    yield from (f"{to} {fault}" for value in values if (fault := _value_fault(value, names)))
+    takes = signature(kernel.by_method("stable").made_for(NUMPY))
+    try:
+        takes.bind(*values)
+    except TypeError:
+        yield f"{to} the values {shown(values)}; give as many as it takes, {takes}"
+
+
+def _value_fault(value: Any, names: set[str]) -> str:
+    """Say what is wrong with a value for a kernel, given the parameters of the element."""
+    operand = operand_of(value)
+    if not operand.known and operand.value.name not in names:
+        return f"parameter '{operand.value.name}', which is in no field; give it to one as well"
+    if isinstance(value, (float, Parameter, Operand, ResultOf)) or is_traced(value):
+        return ""
+    if as_given("a value for a kernel", value, PathError).dtype.kind in "biufc":
+        return ""
+    return f"{shown(value)}, which is no number; give a number or a parameter"
 
 
 def _ports(which: str, ports: tuple[str, ...], port: Any) -> str:

@@ -13,6 +13,7 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.mueller.cloude import tolerance_of
 from optipath.light.mueller.passive_matrices import are_passive, cure_of, gain, problem_of
 from optipath.light.mueller.stacking import stacked
+from optipath.values.agreement import is_single
 from optipath.values.domains.states import StokesDomain
 from optipath.values.operands import operand_of
 
@@ -84,6 +85,12 @@ class OwnWays:
         operations = [one for coupling in self.couplings for one in coupling.operations]
         return [operand for operation in operations for operand in operation.operands()]
 
+    @property
+    def units(self) -> dict[str, str]:
+        """The unit of each parameter among them that is given when a path runs."""
+        open_ones = [operand.value for operand in self.operands if not operand.known]
+        return {parameter.name: parameter.unit for parameter in open_ones}
+
     def are_known(self, given: Collection[str] = ()) -> bool:
         """Tell whether all of them are numbers already, with those of parameters that are given."""
         return all(
@@ -104,6 +111,8 @@ class OwnWays:
         list of (int, str)
             Mostly empty; else the first such path of each way, and a sentence.
         """
+        rounding = self._rounding(read)
+        tolerance = tolerance_of(rounding)
         matrices: list[Array] = []
         found: list[tuple[int, str]] = []
         for coupling in self.couplings:
@@ -111,11 +120,16 @@ class OwnWays:
                 light = self._emitted(coupling, read)
                 matrix = self._matrix(coupling, read) if light is None else None
             if light is not None:
-                found += self._emission_faults(light)
+                found += self._emission_faults(light.astype(np.float32) if rounding else light)
             if matrix is not None:
                 matrices.append(matrix)
-                found += self._matrix_faults(matrix.reshape(-1, 4, 4))
-        return found or self._sum_faults(matrices)
+                found += self._matrix_faults(matrix.reshape(-1, 4, 4), tolerance)
+        return found or self._sum_faults(matrices, tolerance)
+
+    def _rounding(self, read: Callable[[Operand], Any]) -> float:
+        """Return that of single precision where a number has been rounded so; else 0."""
+        single = any(np.any(is_single(np, read(operand))) for operand in self.operands)
+        return float(np.finfo(np.float32).eps) if single else 0.0
 
     def _emitted(self, coupling: Coupling, read: Callable[[Operand], Any]) -> Any:
         """Return the light that begins here, shape (..., 4); None where none does."""
@@ -138,7 +152,7 @@ class OwnWays:
             matrix = stacked(rows) @ matrix
         return matrix  # type: ignore[no-any-return]
 
-    def _matrix_faults(self, several: Array) -> list[tuple[int, str]]:
+    def _matrix_faults(self, several: Array, tolerance: float) -> list[tuple[int, str]]:
         finite = np.isfinite(several).all(axis=(1, 2))
         if not finite.all():
             place = int(np.argmin(finite))
@@ -147,7 +161,6 @@ class OwnWays:
                 f"and roots from negative numbers, as in x / xp.where(d == 0.0, 1.0, d)"
             )
             return [(place, text)]
-        tolerance = tolerance_of(0.0)
         if self.element.physical is False or (passive := are_passive(several, tolerance)).all():
             return []
         place = int(np.argmin(passive))
@@ -155,12 +168,12 @@ class OwnWays:
         text = f"{self._with_matrix(several[place])}, which {problem}; mend its rows, to {cure}"
         return [(place, f"{text} perhaps, or {_TAKEN}")]
 
-    def _sum_faults(self, matrices: list[Array]) -> list[tuple[int, str]]:
+    def _sum_faults(self, matrices: list[Array], tolerance: float) -> list[tuple[int, str]]:
         """Say that several ways, of which each is one, let out more light than comes in."""
         if len(matrices) < 2 or self.element.physical is False:
             return []
         times = np.ravel(gain(sum(np.broadcast_arrays(*matrices), np.zeros((4, 4)))))
-        if not np.any(times > 1.0 + tolerance_of(0.0)):
+        if not np.any(times > 1.0 + tolerance):
             return []
         place = int(np.argmax(times))
         ports = listed([f"'{coupling.leaves}'" for coupling in self.couplings])

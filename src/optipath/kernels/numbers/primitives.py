@@ -48,7 +48,8 @@ class Primitives:
     multiply_add : callable
         ``(a, b, c)`` to a b + c, rounded once where that costs no more than twice.
     apart : callable
-        A function as a piece of its own, where an engine compiles one large piece too slowly.
+        A function that returns a tuple, as a piece of its own, where an engine compiles one large
+        piece too slowly.
     within : float
         0 but where numbers are computed for the sake of their slopes, their values being known:
         forms with the right slopes then take the place of those with the right digits, and at an

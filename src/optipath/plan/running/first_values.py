@@ -72,7 +72,7 @@ class FirstValues:
 
 def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
     """Return what is wrong with a way for a few of the paths, the first and the last among them."""
-    names = {operand.value.name for operand in way.operands if not operand.known}
+    units = way.units
     some = np.unique(np.linspace(0.0, given.paths - 1.0, min(_LOOKED_AT, given.paths)).astype(int))
     where = np.unravel_index(some, given.batch) if given.batch else ()
 
@@ -82,7 +82,7 @@ def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
             several = np.broadcast_to(several, given.batch)[where]
         return several if several.dtype == bool else several.astype(np.float64)
 
-    mine = {key: few(n) for key, n in given.numbers.items() if key.name in names}
+    mine = {key: few(n) for key, n in given.numbers.items() if key.name in units}
     if any(key.part == "present" and not np.all(number) for key, number in mine.items()):
         return []  # The element is not everywhere there.
 
@@ -95,9 +95,6 @@ def _faults(way: OwnWays, given: ResolvedInputs) -> list[str]:
         found = way.faults(read)
     except KeyError:
         return []  # Not all of its values are of use to what is read.
-    units = {
-        operand.value.name: operand.value.unit for operand in way.operands if not operand.known
-    }
     return [f"at {_values(mine, place, units)}: {fault}" for place, fault in found]
 
 

@@ -83,7 +83,7 @@ class Runner(Answering):
         self.reader = InputReader(program, inputs, self.dtype)
         self.interpreter = Interpreter(program, self.carrier, self.dtype)
         self.formulas = FormulaMaker(program, inputs, self.carrier, self.dtype, unreduced=unreduced)
-        self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas)
+        self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas, own_ways)
         self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
         self._recipes: dict[Any, Recipe] = {}
@@ -144,7 +144,8 @@ class Runner(Answering):
             As the class of the question says.
         """
         if self.first_values.ways:
-            self.first_values.check((given.forms(self.dtype), given.batch), lambda: given)
+            kind = (given.forms(self.dtype), given.batch, *parameters)
+            self.first_values.check(kind, lambda: given)
         floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
         if floats and not given.batch:
             lights = self.single.lights(given)

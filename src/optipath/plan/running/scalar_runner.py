@@ -16,6 +16,7 @@ from optipath.values.parameters import ABSENT as WORD
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from optipath.elements.own_ways import OwnWays
     from optipath.engines.program.program import Program
     from optipath.plan.running.batch import Layout
     from optipath.plan.running.formula_maker import FormulaMaker
@@ -97,6 +98,9 @@ class ScalarRunner:
         Runs it until a function is made.
     formulas : FormulaMaker
         Makes the formula of the function.
+    own_ways : tuple of OwnWays, optional
+        Ways through elements of a user's own; with defaults by which these could not be, values
+        are read in every run.
     """
 
     def __init__(
@@ -105,11 +109,13 @@ class ScalarRunner:
         inputs: Inputs,
         interpreter: Interpreter,
         formulas: FormulaMaker,
+        own_ways: tuple[OwnWays, ...] = (),
     ) -> None:
         self.program = program
         self.inputs = inputs
         self.interpreter = interpreter
         self.formulas = formulas
+        self.own_ways = own_ways
         self.functions: dict[frozenset[str], FloatFunction | None] = {}
         self._looked_at: set[frozenset[str]] = set()
         self._runs = 0
@@ -142,7 +148,7 @@ class ScalarRunner:
             return self._stepped(given)
         if absent not in self._looked_at:
             self._looked_at.add(absent)
-            if self._is_default(given) and not self.inputs.agreements:
+            if self._is_default(given) and not self.inputs.agreements and self._defaults_hold():
                 self._default_call = self._unread(given, function)
         return _called(function.path, [given.numbers[key] for key in function.keys])
 
@@ -173,6 +179,13 @@ class ScalarRunner:
         there = {key.name: n for key, n in given.numbers.items() if key.part == "present"}
         opened = self.inputs.open
         return all(n is (opened[name].default != WORD) for name, n in there.items())
+
+    def _defaults_hold(self) -> bool:
+        """Tell whether elements of a user's own can be what they are by default."""
+        opened = self.inputs.open.items()
+        defaults = {name: p.resolve(p.default) for name, p in opened if p.default is not None}
+        known = [way for way in self.own_ways if way.are_known(defaults)]
+        return not any(way.faults(lambda operand: operand.numbers(defaults)) for way in known)
 
     def _unread(self, given: ResolvedInputs, function: FloatFunction) -> Any:
         """Return what `fast_path` needs: the function, and the default of each that it takes."""
