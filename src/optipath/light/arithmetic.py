@@ -86,11 +86,9 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
         share, power = np.frexp(factor)
         stokes, exponent = normalise_exponent(self._numbers, self.exponent)
         stokes = done(stokes, share[..., np.newaxis]).astype(stokes.dtype, copy=False)
-        exponent = exponent + (power if multiplied else -power)
-        stokes, exponent = folded(stokes, np.broadcast_to(exponent, batch))
-        with np.errstate(over="ignore"):
-            left = factor if multiplied else 1.0 / factor
-        return self._like(stokes, exponent, self._inherited(factor=left))
+        share, power = (share, power) if multiplied else (1.0 / share, -power)
+        stokes, exponent = folded(stokes, np.broadcast_to(exponent + power, batch))
+        return self._like(stokes, exponent, self._inherited(share, power))
 
     def _factor(self, factor: Any, *, dark: bool) -> Any:
         """Return an array of finite numbers above 0, or of 0 where that makes light dark."""
@@ -137,11 +135,13 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
         """Return the same light in another frame."""
         raise NotImplementedError
 
-    def _inherited(self, factor: Any = 1.0, part: Any = None) -> tuple[Any, ...] | None:
+    def _inherited(
+        self, factor: Any = 1.0, power: Any = 0, part: Any = None
+    ) -> tuple[Any, ...] | None:
         """Return what light that is made of this one has of its noise."""
         if is_traced(self.mantissa):
             return None
-        return inheriting((self,), factor, part=part)
+        return inheriting((self,), factor, power, part=part)
 
     def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Self:
         """Return light of other numbers in the frame of this one, unchecked."""
