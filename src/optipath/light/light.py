@@ -297,6 +297,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
         exponent = change(self.exponent) if self.exponent.any() else 0
+        check_known("an index of light with an exponent", exponent)
         noise = self._inherited(part=change)
         frame = self._part_of_frame("frame", self.shape, change)
         return self.made_into(each_number(self._numbers, change), frame, exponent, noise)
