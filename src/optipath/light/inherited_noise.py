@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.values.arrays.jax_values import is_traced, known, namespace
+from optipath.values.precision import at_least_single
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -135,4 +136,4 @@ def rounding(stokes: Any) -> Any:
     """
     xp = namespace(stokes)
     with np.errstate(under="ignore", over="ignore"):
-        return abs(stokes[..., 0]) * float(xp.finfo(stokes.dtype).eps)
+        return abs(at_least_single(stokes[..., 0])) * float(xp.finfo(stokes.dtype).eps)
