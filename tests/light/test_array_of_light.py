@@ -353,6 +353,26 @@ def test_light_in_less_precision_keeps_its_range():
     assert (SINGLE[0] * 1e-300).log10_intensity == pytest.approx(-300)
 
 
+@pytest.mark.parametrize(
+    ("bright", "decimal"),
+    [
+        (op.Light([1.0, 0.5, 0.0, 0.2]) / 1e-310, 310),
+        (op.Light([1.0, 0.5, 0.0, 0.2]) * 1e300 * 1e300, 600),
+        (op.Light(np.array([1.0, 0.5, 0.0, 0.2], np.float32)) * 1e60, 60),
+        (op.Mueller(np.eye(4, dtype="f4")) @ op.Light([1e60, 0.5e60, 0.0, 0.2e60]), 60),
+        (op.Light([1e60, 0.5e60, 0.0, 0.2e60]) + op.Light(np.zeros(4, np.float32)), 60),
+    ],
+)
+def test_light_brighter_than_floats_has_an_exponent(bright, decimal):
+    np.testing.assert_allclose(bright.log10_intensity, decimal, rtol=1e-7)
+    np.testing.assert_allclose(bright.dop, np.sqrt(0.29), rtol=1e-7)
+    half_way = 10.0 ** (-decimal / 2)
+    back = bright * half_way * half_way
+    np.testing.assert_allclose(back.stokes, [1.0, 0.5, 0.0, 0.2], rtol=1e-6)
+    assert not back.exponent
+    assert eval(repr(bright), {"Light": op.Light}).exponent == bright.exponent  # noqa: S307
+
+
 @pytest.mark.parametrize("factor", [1e-320, 5e-324, 1e-30])
 def test_light_that_is_dimmed_keeps_its_digits(factor):
     light = op.Light([1.0, 0.5, 0.0, 0.2])
