@@ -313,6 +313,29 @@ def test_light_keeps_the_coarser_precision_and_is_light(made):
     assert op.Light.from_("mitsuba", made.to("mitsuba")).dop.max() <= 1 + 2.0**-22
 
 
+HALF = np.array([[1.0, 0.25, 0.125, 0.5], [60000.0, 0.0, 0.0, 0.0]], np.float16)
+
+
+@pytest.mark.parametrize(
+    ("made", "factor"),
+    [
+        (lambda light: light + light, 2.0),
+        (lambda light: sum([light, light, light]), 3.0),
+        (lambda light: 3 * light, 3.0),
+        (lambda light: light / 0.25, 4.0),
+        (lambda light: op.Attenuator(0.5) @ light, 0.5),
+        (lambda light: op.Mueller(4 * np.eye(4, dtype=np.float16)) @ light, 4.0),
+        (lambda light: light.in_frame(op.Frame().turned(np.pi)), 1.0),
+    ],
+)
+def test_light_of_half_precision_is_computed_in_single_precision(made, factor):
+    found = made(op.Light(HALF))
+    np.testing.assert_allclose(found.stokes, factor * HALF.astype(float), rtol=1e-6, atol=1e-6)
+    assert found.stokes.dtype == np.float32
+    assert not found.exponent.any()
+    assert np.all(found.noise >= 0.99 * 2.0**-10 * found.S0)
+
+
 def test_light_that_has_been_rounded_many_times_is_light():
     rng = np.random.default_rng(3)
     states = rng.normal(size=(2000, 3))
@@ -328,6 +351,26 @@ def test_light_in_less_precision_keeps_its_range():
     faint = op.Light([1e-300, 0.0, 0.0, 0.0]) + op.Light(np.zeros(4, np.float32))
     assert faint.log10_intensity == pytest.approx(-300)
     assert (SINGLE[0] * 1e-300).log10_intensity == pytest.approx(-300)
+
+
+@pytest.mark.parametrize(
+    ("bright", "decimal"),
+    [
+        (op.Light([1.0, 0.5, 0.0, 0.2]) / 1e-310, 310),
+        (op.Light([1.0, 0.5, 0.0, 0.2]) * 1e300 * 1e300, 600),
+        (op.Light(np.array([1.0, 0.5, 0.0, 0.2], np.float32)) * 1e60, 60),
+        (op.Mueller(np.eye(4, dtype="f4")) @ op.Light([1e60, 0.5e60, 0.0, 0.2e60]), 60),
+        (op.Light([1e60, 0.5e60, 0.0, 0.2e60]) + op.Light(np.zeros(4, np.float32)), 60),
+    ],
+)
+def test_light_brighter_than_floats_has_an_exponent(bright, decimal):
+    np.testing.assert_allclose(bright.log10_intensity, decimal, rtol=1e-7)
+    np.testing.assert_allclose(bright.dop, np.sqrt(0.29), rtol=1e-7)
+    half_way = 10.0 ** (-decimal / 2)
+    back = bright * half_way * half_way
+    np.testing.assert_allclose(back.stokes, [1.0, 0.5, 0.0, 0.2], rtol=1e-6)
+    assert not back.exponent
+    assert eval(repr(bright), {"Light": op.Light}).exponent == bright.exponent  # noqa: S307
 
 
 @pytest.mark.parametrize("factor", [1e-320, 5e-324, 1e-30])

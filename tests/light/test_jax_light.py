@@ -169,6 +169,26 @@ def test_an_index_may_be_traced():
     np.testing.assert_allclose(found, matrices.matrix[1], rtol=1e-6)
 
 
+def test_a_traced_index_takes_one_of_several_frames_at_which_nobody_looks():
+    matrices = op.Polarizer(0.0, azimuth=[0.0, 0.5, 1.0]).mueller()
+    lights = matrices @ op.Light(STOKES[0])
+    found = jax.jit(lambda i: (2 * lights[i]).stokes)(2)
+    np.testing.assert_allclose(found, 2 * lights.stokes[2], rtol=1e-6)
+    np.testing.assert_allclose(
+        jax.jit(lambda i: matrices[i].matrix)(2), matrices.matrix[2], rtol=1e-6
+    )
+    with pytest.raises(op.FrameError, match=r"light\.in_frame\(frame\)\[i\]"):
+        jax.jit(lambda i: lights[i].in_frame(op.Frame()).stokes)(2)
+    cured = jax.jit(lambda i: lights.in_frame(op.Frame())[i].stokes)(2)
+    np.testing.assert_allclose(cured, lights[2].in_frame(op.Frame()).stokes, rtol=1e-6)
+
+
+def test_a_traced_index_of_light_with_an_exponent_is_refused_for_it():
+    lights = op.Light(STOKES) * 1e-310
+    with pytest.raises(op.ParameterError, match="an index of light with an exponent"):
+        jax.jit(lambda i: lights[i].stokes)(0)
+
+
 @pytest.mark.parametrize("done", [lambda light, x: light * x, lambda light, x: light / x])
 def test_a_factor_that_light_does_not_have_makes_it_nan_with_its_slopes(done):
     light = op.Light(STOKES[1])

@@ -201,3 +201,12 @@ def test_a_component_of_noise_turns_no_ellipse():
 
 def test_light_brighter_than_a_number_can_be_makes_no_warning():
     assert (1e300 * (1e300 * op.Light([1.0, 0.0, 0.0, 0.0]))).noise == np.inf
+
+
+@pytest.mark.parametrize("factor", [1e-310, 5e-324, 1e300])
+def test_light_that_comes_back_from_any_factor_has_its_noise_and_its_ellipse(factor):
+    light = op.Light([1.0, 0.5, 0.0, 0.2])
+    back = (light * factor) / factor
+    np.testing.assert_allclose(back.noise, light.noise, rtol=1.0)
+    np.testing.assert_allclose(back.dop, np.sqrt(0.29), rtol=1e-15)
+    assert str(back) == str(light)

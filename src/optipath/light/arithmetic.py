@@ -21,7 +21,7 @@ from optipath.light.underflow import (
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, known, namespace
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.precision import coarser
+from optipath.values.precision import at_least_single, coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,9 +45,9 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
         is_one = other._kept_frame("frame") is self._kept_frame("frame")
         aligned = other if is_one else other.in_frame(self.frame)
         if is_traced(self.mantissa) or is_traced(aligned.mantissa):
-            total = self.stokes + aligned.stokes
-            return self._like(total.astype(coarser(self.stokes, aligned.stokes)))
-        one, two = self._numbers, aligned._numbers
+            one, two = at_least_single(self.stokes), at_least_single(aligned.stokes)
+            return self._like((one + two).astype(coarser(one, two)))
+        one, two = at_least_single(self._numbers), at_least_single(aligned._numbers)
         # Dark light has no exponent of its own.
         mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
         theirs = np.where(two[..., 0] == 0.0, self.exponent, aligned.exponent)
@@ -79,18 +79,16 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
         factor = self._factor(factor, dark=multiplied)
         batch = check_broadcast({"light": self.shape, "factor": factor.shape})
         if is_traced(self.mantissa) or is_traced(factor):
-            factor = factor[..., np.newaxis]
-            product = self.stokes * factor if multiplied else self.stokes / factor
-            return self._like(product.astype(coarser(product, self.stokes)))
+            factor, stokes = factor[..., np.newaxis], at_least_single(self.stokes)
+            product = stokes * factor if multiplied else stokes / factor
+            return self._like(product.astype(coarser(product, stokes)))
         # The power of two is the exponent's, so that no factor costs digits.
         share, power = np.frexp(factor)
-        stokes, exponent = normalise_exponent(self._numbers, self.exponent)
+        stokes, exponent = normalise_exponent(at_least_single(self._numbers), self.exponent)
         stokes = done(stokes, share[..., np.newaxis]).astype(stokes.dtype, copy=False)
-        exponent = exponent + (power if multiplied else -power)
-        stokes, exponent = folded(stokes, np.broadcast_to(exponent, batch))
-        with np.errstate(over="ignore"):
-            left = factor if multiplied else 1.0 / factor
-        return self._like(stokes, exponent, self._inherited(factor=left))
+        share, power = (share, power) if multiplied else (1.0 / share, -power)
+        stokes, exponent = folded(stokes, np.broadcast_to(exponent + power, batch))
+        return self._like(stokes, exponent, self._inherited(share, power))
 
     def _factor(self, factor: Any, *, dark: bool) -> Any:
         """Return an array of finite numbers above 0, or of 0 where that makes light dark."""
@@ -137,11 +135,13 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
         """Return the same light in another frame."""
         raise NotImplementedError
 
-    def _inherited(self, factor: Any = 1.0, part: Any = None) -> tuple[Any, ...] | None:
+    def _inherited(
+        self, factor: Any = 1.0, power: Any = 0, part: Any = None
+    ) -> tuple[Any, ...] | None:
         """Return what light that is made of this one has of its noise."""
         if is_traced(self.mantissa):
             return None
-        return inheriting((self,), factor, part=part)
+        return inheriting((self,), factor, power, part=part)
 
     def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Self:
         """Return light of other numbers in the frame of this one, unchecked."""

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import FrameError
 from optipath.light.array_axes import each_number
 from optipath.light.frames import Frame
+from optipath.values.arrays.jax_values import is_traced
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,9 +31,11 @@ class FramesOnDemand:
     def _part_of_frame(
         self, name: str, batch: tuple[int, ...], change: Callable[[Any], Any]
     ) -> Frame | Callable[[], Frame]:
-        """Return what `indexed_frame` does, or what returns it for a frame that is not made."""
+        """Return what `indexed_frame` does, or what returns it where nobody has to make it."""
         kept = self._kept_frame(name)
-        if type(kept) is Frame:
+        if type(kept) is Frame and (
+            kept.z.ndim == 1 or not is_traced(change(np.broadcast_to(0.0, batch)))
+        ):
             return indexed_frame(kept, batch, change)
         return lambda: indexed_frame(getattr(self, name), batch, change)
 
@@ -70,6 +74,11 @@ def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], 
     -------
     Frame
 
+    Raises
+    ------
+    FrameError
+        If JAX traces which of several frames it is.
+
     Examples
     --------
     >>> frames = Frame().turned([0.0, 0.5, 1.0])
@@ -80,4 +89,9 @@ def indexed_frame(frame: Frame, batch: tuple[int, ...], change: Callable[[Any], 
         return frame
     axes = [np.broadcast_to(axis, (*batch, 3)) for axis in (frame.x, frame.y, frame.z)]
     x, y, z = [each_number(axis, change) for axis in axes]
+    if is_traced(z):
+        raise FrameError(
+            "a frame is of numbers, not of an index that JAX traces; bring light to one frame "
+            "before, light.in_frame(frame)[i], or look at it outside of jit and grad"
+        )
     return Frame.trusted(x, y, z, frame.rounding)

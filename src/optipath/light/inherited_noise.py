@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.values.arrays.jax_values import is_traced, known, namespace
+from optipath.values.precision import at_least_single
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 def inheriting(
     lights: tuple[ArrayOfLight, ...],
     factor: Any = 1.0,
+    power: Any = 0,
     *,
     mixed: bool = False,
     part: Any = None,
@@ -27,7 +29,7 @@ def inheriting(
 
     Parameters
     ----------
-    lights, factor, mixed, part, added
+    lights, factor, power, mixed, part, added
         As `inherited_noise` takes them.
 
     Returns
@@ -40,12 +42,13 @@ def inheriting(
         noise = vars(light).get("_noise")
         if isinstance(noise, tuple) and noise[0] is inherited_noise:
             vars(light)["_noise"] = light.noise_floor
-    return inherited_noise, lights, factor, mixed, part, added
+    return inherited_noise, lights, factor, power, mixed, part, added
 
 
 def inherited_noise(
     lights: tuple[ArrayOfLight, ...],
     factor: Any,
+    power: Any,
     mixed: bool,  # noqa: FBT001 - called by what is kept of it
     part: Callable[[Any], Any] | None,
     added: Any,
@@ -59,7 +62,9 @@ def inherited_noise(
     lights : tuple of Light
         What the light has been made of.
     factor : float or ndarray
-        How much of each is left.
+        How much of each is left,
+    power : int or ndarray
+        times two to this power.
     mixed : bool
         Whether numbers as large as S0 have been added up, which leaves their roundings.
     part : callable, optional
@@ -78,15 +83,15 @@ def inherited_noise(
     """
     total = np.zeros(exponent.shape, stokes.dtype)
     for light in lights:
-        floor, power = light.noise_floor, light.exponent
+        floor, own = light.noise_floor, light.exponent
         with np.errstate(over="ignore", under="ignore", invalid="ignore"):
             if mixed:
                 floor = floor + rounding(known(light.mantissa))
             floor = floor * np.abs(factor) + added * np.abs(known(light.mantissa)[..., 0])
         if part is not None:
-            floor, power = part(floor), part(power)
+            floor, own = part(floor), part(own)
         with np.errstate(over="ignore", under="ignore"):
-            total = total + np.ldexp(floor, power - exponent)
+            total = total + np.ldexp(floor, own + power - exponent)
     return total
 
 
@@ -131,4 +136,4 @@ def rounding(stokes: Any) -> Any:
     """
     xp = namespace(stokes)
     with np.errstate(under="ignore", over="ignore"):
-        return abs(stokes[..., 0]) * float(xp.finfo(stokes.dtype).eps)
+        return abs(at_least_single(stokes[..., 0])) * float(xp.finfo(stokes.dtype).eps)

@@ -44,8 +44,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         The frame the components refer to; the unit frame by default. That of light from a path
         placed relatively is the one that leaves the last element, called the unit frame.
     exponent : int or array_like of int, shape (...), optional
-        Light too faint for a float is given as ``stokes`` times two to this power. The
-        attribute `stokes` is 0 then, but `normalized`, `dop` and `log10_intensity`
+        Light too faint, or bright, for a float is ``stokes`` times two to this power. The
+        attribute `stokes` is 0, or infinite, then, but `normalized`, `dop` and `log10_intensity`
         are right all the same, and `mantissa` keeps what was given.
     physical : bool, optional
         Whether what no light can be is refused; False takes measured noise as it is. What is
@@ -200,7 +200,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
         floor = self.noise_floor
         if is_traced(floor):
             return floor  # type: ignore[no-any-return]
-        with np.errstate(under="ignore"):
+        with np.errstate(under="ignore", over="ignore"):
             return np.asarray(np.ldexp(floor, self.exponent))
 
     @property
@@ -297,6 +297,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
         exponent = change(self.exponent) if self.exponent.any() else 0
+        check_known("an index of light with an exponent", exponent)
         noise = self._inherited(part=change)
         frame = self._part_of_frame("frame", self.shape, change)
         return self.made_into(each_number(self._numbers, change), frame, exponent, noise)

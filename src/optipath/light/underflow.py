@@ -1,4 +1,4 @@
-"""Numbers too faint for a float: a mantissa, and the integer exponent of its power of two."""
+"""Numbers beyond the range of floats: a mantissa, and the integer exponent of its power of two."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
     stokes : ndarray, shape (..., 4)
         The vectors.
     exponent : ndarray of int, shape (...)
-        0 but for light that would underflow.
+        0 but for light that would underflow, or be infinite.
 
     Examples
     --------
@@ -91,8 +91,9 @@ def folded(stokes: Array, exponent: Any) -> tuple[Array, Array]:
     array([    0, -5000])
     """
     plain = times_two_to(stokes, exponent)
-    faint = underflows(plain[..., 0]) & (stokes[..., 0] > 0.0)
-    return np.where(faint[..., np.newaxis], stokes, plain), np.where(faint, exponent, 0)
+    beyond = underflows(plain[..., 0]) & (stokes[..., 0] > 0.0)
+    beyond |= np.isinf(plain[..., 0]) & np.isfinite(stokes[..., 0])
+    return np.where(beyond[..., np.newaxis], stokes, plain), np.where(beyond, exponent, 0)
 
 
 def rounded_to(dtype: Any, stokes: Array, exponent: Any) -> tuple[Array, Array]:

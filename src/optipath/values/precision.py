@@ -78,11 +78,28 @@ def wide(dtype: np.dtype[Any]) -> np.dtype[Any]:
 
 
 def coarser(*numbers: Any) -> Any:
-    """Return the dtype of that array which has the least precision, which is what all have.
+    """Return the dtype of that array which has the least precision, float32 at least.
+
+    It is the precision that what is made of all of them has.
 
     Examples
     --------
     >>> coarser(np.ones(2), np.ones(2, np.float32))
     dtype('float32')
     """
-    return min((number.dtype for number in numbers), key=lambda dtype: dtype.itemsize)
+    return max(np.dtype("f4"), min((n.dtype for n in numbers), key=_size), key=_size)
+
+
+def at_least_single(numbers: Any) -> Any:
+    """Return numbers as arithmetic takes them: half precision, which ends at 65504, as float32.
+
+    Examples
+    --------
+    >>> at_least_single(np.ones(2, np.float16)).dtype, at_least_single(np.ones(2)).dtype
+    (dtype('float32'), dtype('float64'))
+    """
+    return numbers.astype(np.float32) if numbers.dtype == np.float16 else numbers
+
+
+def _size(dtype: Any) -> int:
+    return int(dtype.itemsize)

@@ -30,7 +30,7 @@ from optipath.light.underflow import folded, normalise_exponent, rounded_to
 from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known
 from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
 from optipath.values.arrays.shapes import check_broadcast, real_array
-from optipath.values.precision import coarser
+from optipath.values.precision import at_least_single, coarser
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -127,12 +127,13 @@ class Mueller(KnownNoise, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging)
         behind = self._kept_frame("frame_out")
         judged = self.is_given and not light.is_measured
         if is_traced(matrix) or is_traced(aligned.mantissa):
-            product = (matrix @ aligned.stokes[..., np.newaxis])[..., 0]
-            product = product.astype(coarser(matrix, aligned.stokes))
+            stokes = at_least_single(aligned.stokes)
+            product = (matrix @ stokes[..., np.newaxis])[..., 0]
+            product = product.astype(coarser(matrix, stokes))
             if judged:
-                product = nan_where_no_light(matrix, self.noise, aligned.stokes, product)
+                product = nan_where_no_light(matrix, self.noise, stokes, product)
             return light.made_into(product, behind)
-        stokes, exponent = normalise_exponent(aligned.mantissa, aligned.exponent)
+        stokes, exponent = normalise_exponent(at_least_single(aligned.mantissa), aligned.exponent)
         with np.errstate(over="ignore", invalid="ignore"):
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
         exponent = np.broadcast_to(exponent, product.shape[:-1])
