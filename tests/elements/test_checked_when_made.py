@@ -183,7 +183,7 @@ def test_a_material_is_understood_wherever_an_index_is():
     np.testing.assert_array_equal(path.with_defaults(n=two).trace().stokes, expected)
     with pytest.raises(op.ParameterError, match="k of a Material is the parameter 'k'"):
         path.trace(n=op.Material(1.5, op.Parameter("k")))
-    with pytest.raises(op.ParameterError, match="'a' must be a number, not Material"):
+    with pytest.raises(op.ParameterError, match=r"'a' .* is Material.* give a real angle"):
         (op.Source() >> op.Rotator(op.Parameter("a")) >> op.Detector()).trace(a=op.Material(1.5))
 
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 ABSENT = "none"
 """The word that takes the element of an optional parameter out of the path."""
 
-_NOT_OF_THE_VALUE = {"scale", "offset", "offset_dimension", "is_listed", "is_material"}
+_ASIDE = {"scale", "offset", "offset_dimension", "is_listed", "is_material"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -157,9 +157,7 @@ class Parameter(AffineArithmetic):
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
         mine, others = vars(self), vars(other)
-        return self is other or all(
-            same(mine[n], others[n]) for n in mine.keys() - _NOT_OF_THE_VALUE
-        )
+        return self is other or all(same(mine[n], others[n]) for n in mine.keys() - _ASIDE)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
