@@ -121,7 +121,13 @@ class Light(Arithmetic, LightExchange, Unchanging):
 
     @classmethod
     def of(
-        cls, stokes: Any, frame: Frame | Callable[[], Frame], exponent: Any = 0, noise: Any = None
+        cls,
+        stokes: Any,
+        frame: Frame | Callable[[], Frame],
+        exponent: Any = 0,
+        noise: Any = None,
+        *,
+        measured: bool = False,
     ) -> Light:
         """Return light out of what a plan has computed, which needs no check.
 
@@ -135,6 +141,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
             Of the power of two times the Stokes vectors.
         noise : ndarray of shape (...), or tuple, optional
             What of the vectors is noise, as `noise_in` takes it.
+        measured : bool, optional
+            Whether it may be no light, as what it is made of: see `is_measured`.
 
         Returns
         -------
@@ -155,6 +163,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         own["frame" if type(frame) is Frame else "_frame"] = frame
         if noise is not None:
             own["_noise"] = noise
+        if measured:
+            own["_measured"] = True
         return light
 
     if not TYPE_CHECKING:  # Else any name would do for who checks types.
@@ -268,24 +278,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
             parts = (s0, *turn_linear(turn, s1, s2), s3)
         turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
         turned = turned.astype(coarser(turned, stokes), copy=False)
-        return self.made_into(turned, frame, self.exponent, self._inherited())
-
-    def made_into(self, mantissa: Any, frame: Any, exponent: Any = 0, noise: Any = None) -> Light:
-        """Return light that is made of this one, and like it is free to be no light or is not.
-
-        Parameters
-        ----------
-        mantissa, frame, exponent, noise
-            As `of` takes them.
-
-        Returns
-        -------
-        Light
-        """
-        light = Light.of(mantissa, frame, exponent, noise)
-        if self.is_measured:
-            light.__dict__["_measured"] = True
-        return light
+        about = self.exponent, self._inherited()
+        return Light.of(turned, frame, *about, measured=self.is_measured)
 
     @property
     def is_measured(self) -> bool:
@@ -293,14 +287,16 @@ class Light(Arithmetic, LightExchange, Unchanging):
         return "_measured" in self.__dict__
 
     def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Light:
-        return self.made_into(mantissa, self._kept_frame("frame"), exponent, noise)
+        frame = self._kept_frame("frame")
+        return Light.of(mantissa, frame, exponent, noise, measured=self.is_measured)
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
         exponent = change(self.exponent) if self.exponent.any() else 0
         check_known("an index of light with an exponent", exponent)
         noise = self._inherited(part=change)
         frame = self._part_of_frame("frame", self.shape, change)
-        return self.made_into(each_number(self._numbers, change), frame, exponent, noise)
+        numbers = each_number(self._numbers, change)
+        return Light.of(numbers, frame, exponent, noise, measured=self.is_measured)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):

@@ -132,7 +132,7 @@ class Mueller(KnownNoise, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging)
             product = product.astype(coarser(matrix, stokes))
             if judged:
                 product = nan_where_no_light(matrix, self.noise, stokes, product)
-            return light.made_into(product, behind)
+            return Light.of(product, behind, measured=light.is_measured)
         stokes, exponent = normalise_exponent(at_least_single(aligned.mantissa), aligned.exponent)
         with np.errstate(over="ignore", invalid="ignore"):
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
@@ -141,7 +141,7 @@ class Mueller(KnownNoise, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging)
             check_becomes_light(matrix, self.noise, stokes, product)
         noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
         product, exponent = folded(*rounded_to(coarser(matrix, stokes), product, exponent))
-        return light.made_into(product, behind, exponent, noise)
+        return Light.of(product, behind, exponent, noise, measured=light.is_measured)
 
     def _behind(self, other: Mueller) -> Mueller:
         matrix, before = known(self.matrix), known(other.matrix)
