@@ -84,7 +84,7 @@ def _outer_line(name: str, words: Sequence[str], context: click.Context) -> str:
         at = next((i for i, word in enumerate(words) if word.partition("=")[0] == name), 0)
         taken = 1 if option.is_flag or "=" in words[at] else 2
         moved = [*words[at : at + taken]]
-        moved += [option.make_metavar(outer)] if len(moved) < taken else []
+        moved += [option.metavar or "VALUE"] if len(moved) < taken else []
         if outer.parent is not None or option.is_eager:
             return f"it stands alone: {shlex.join([*outer.command_path.split(), *moved])}"
         rest = [*words[:at], *words[at + taken :]]
@@ -118,4 +118,4 @@ def _options(command: click.Command, context: click.Context) -> list[click.Optio
 
 
 def _flags(command: click.Command, context: click.Context) -> list[str]:
-    return [flag for one in _options(command, context) for flag in one.opts]
+    return [flag for one in _options(command, context) for flag in sorted(one.opts)]
