@@ -67,11 +67,11 @@ class LargeAngles:
     def _warn(self, name: str, value: Any) -> None:
         what, places = f"parameter '{name}'", self.places[name].values()
         texts = may_hold_texts(value)
-        any(
-            (texts and warn_of_two_factors(what, value, place))
-            or warn_of_degrees(what, value, place)
-            for place in places
-        )
+        for place in places:
+            if texts and warn_of_two_factors(what, value, place):
+                return
+            if warn_of_degrees(what, value, place):
+                return
 
 
 def _within(places: Iterable[Affine]) -> float:

@@ -108,7 +108,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return named(raw, domain)
     if domain.complex_parts and pair_in(raw, domain):
         raise PresetError(which_pair(raw, domain.complex_parts))
-    number = _intensities if isinstance(domain, IntensityDomain) else _number
+    number = _several if isinstance(domain, IntensityDomain) else _number
     return domain.parse(raw) if isinstance(raw, str) else number(raw, domain.unit)
 
 
@@ -166,8 +166,9 @@ def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> An
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
         several = [decode_given(entry, parameter, uses) for entry in raw]
-        is_plain = all(isinstance(entry, float) for entry in several)
-        return _intensities(several) if is_plain and len(raw) == 4 else several
+        # What a file writes as a list is several values: it asks about pairs where they stand.
+        plain = several and all(isinstance(entry, float) for entry in several)
+        return _several(several) if plain else several
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))
@@ -294,8 +295,8 @@ def _unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
     return Faults(f"key '{key}' is unknown{did_you_mean(key, names)}" for key in unknown)
 
 
-def _intensities(raw: Any, unit: str = "") -> Any:
-    """Return numbers of which four are no state, for which a file has a key of its own."""
+def _several(raw: Any, unit: str = "") -> Any:
+    """Return a number, or an array of several, of which four are no state: that has its own key."""
     number = _number(raw, unit)
     return array_of("the value", number) if isinstance(number, list) else number
 
