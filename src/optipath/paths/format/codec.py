@@ -166,9 +166,7 @@ def decode_given(raw: Any, parameter: Parameter, uses: Iterable[Use] = ()) -> An
             raise type(error)(*(fault.removeprefix(said) for fault in error.faults)) from None
     if isinstance(raw, list):
         several = [decode_given(entry, parameter, uses) for entry in raw]
-        # What a file writes as a list is several values: it asks about pairs where they stand.
-        plain = several and all(isinstance(entry, float) for entry in several)
-        return _several(several) if plain else several
+        return _several(several) if several and {*map(type, several)} == {float} else several
     if isinstance(raw, dict):
         domain = AMPLITUDE if raw.keys() & AMPLITUDE.complex_parts else INDEX
         return _complex(_parts(raw, domain, {}))
@@ -296,7 +294,7 @@ def _unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
 
 
 def _several(raw: Any, unit: str = "") -> Any:
-    """Return a number, or an array of several, of which four are no state: that has its own key."""
+    """Return a number, or an array of several: a file has a key for a state, and asks of pairs."""
     number = _number(raw, unit)
     return array_of("the value", number) if isinstance(number, list) else number
 
