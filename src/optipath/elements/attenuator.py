@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import ATTENUATOR
@@ -21,6 +23,8 @@ class Attenuator(Element, kind="attenuator"):
     >>> Attenuator(transmittance=0.25)
     Attenuator(transmittance=0.25)
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     transmittance: Fraction
 

@@ -42,6 +42,7 @@ class BeamSplitter(FourPort, kind="beam-splitter"):
     """
 
     natural: ClassVar[str] = ""
+    mirrored: ClassVar[tuple[str, ...]] = ()
     reflectance: Fraction = 0.5
     azimuth: Angle = 0.0
 

@@ -19,6 +19,7 @@ _MEANT = {
     "outputs": "write outputs: ClassVar[tuple[str, ...]], or ",
     "natural": "write natural: ClassVar[str], or ",
     "physical": "write physical: ClassVar[bool], or ",
+    "mirrored": "write mirrored: ClassVar[tuple[str, ...]], or ",
 }
 """What is meant by fields that are called like what every element has."""
 
@@ -74,9 +75,21 @@ def _faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterator[st
     for which, what, is_right in _PORTS:
         if which not in own and not is_right(value := getattr(element_class, which)):
             yield f"{which} of element class {name} must be {what}, not {shown(value)}"
+    if (said := vars(element_class).get("mirrored")) is not None and "mirrored" not in own:
+        yield from _mirrored_faults(name, said, [field for field in own if field != TURN])
     if "mueller_rows" in vars(element_class):
         names = [field for field in own if field != TURN]
         yield from _rows_faults(name, vars(element_class)["mueller_rows"], names)
+
+
+def _mirrored_faults(owner: str, said: Any, names: list[str]) -> Iterator[str]:
+    """Say which of the fields that change their sign on the way back are none."""
+    if not _are_names(said):
+        yield f"mirrored of element class {owner} must be names of fields, not {shown(said)}"
+        return
+    for name in (name for name in said if name not in names):
+        why = "whose links say how it is turned" if name == TURN else "which is none of its fields"
+        yield f"mirrored of element class {owner} names '{name}', {why}; take it out"
 
 
 def _rows_faults(owner: str, rows: Any, names: list[str]) -> Iterator[str]:

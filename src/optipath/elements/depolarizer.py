@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import DEPOLARIZER
@@ -24,6 +26,8 @@ class Depolarizer(Element, kind="depolarizer"):
     >>> Depolarizer(0.25).mueller().matrix.diagonal()
     array([1.  , 0.75, 0.75, 0.75])
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     depolarization: Fraction = 1.0
 

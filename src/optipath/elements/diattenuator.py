@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import POLARIZER
@@ -30,6 +32,8 @@ class Diattenuator(Element, kind="diattenuator"):
     >>> Diattenuator(maximum=0.75, minimum=0.25).mueller().matrix[0]
     array([0.5 , 0.25, 0.  , 0.  ])
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
 
     maximum: Fraction = 1.0
     minimum: Fraction = 0.0

@@ -13,6 +13,7 @@ from optipath.elements.class_faults import class_faults
 from optipath.elements.fields import domains_of, same_value
 from optipath.elements.frame_checks import same_frame
 from optipath.elements.registry import register
+from optipath.elements.reversing import Reversible
 from optipath.elements.rows import coupling_by_rows, rows_kernel
 from optipath.errors import PathError
 from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
-class Element(Chainable, ActsOnLight):
+class Element(Chainable, ActsOnLight, Reversible):
     """An optical element: ports, values, and the way light goes through.
 
     A subclass is a frozen dataclass without further ado. Its fields are values
@@ -134,8 +135,8 @@ class Element(Chainable, ActsOnLight):
     @classmethod
     def needs(cls, name: str) -> bool:
         """Tell whether a field must be given, having no default."""
-        of_name = {f.name: f for f in fields(cls)}[name]  # type: ignore[arg-type]
-        return of_name.default is MISSING and of_name.default_factory is MISSING
+        (field,) = (f for f in fields(cls) if f.name == name)  # type: ignore[arg-type]
+        return field.default is MISSING and field.default_factory is MISSING
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number: its name, the value, its domain."""
@@ -312,9 +313,7 @@ class Element(Chainable, ActsOnLight):
     def __eq__(self, other: object) -> bool:
         if type(other) is not type(self):
             return NotImplemented
-        return all(
-            same_value(getattr(self, name), getattr(other, name), domain)
-            for name, domain in self.domains().items()
-        )
+        domains = self.domains().items()
+        return all(same_value(getattr(self, n), getattr(other, n), of) for n, of in domains)
 
     __hash__ = None  # type: ignore[assignment]

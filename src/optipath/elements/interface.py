@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
@@ -64,6 +64,8 @@ class Interface(BoundaryElement, kind="interface"):
     >>> print(glass.mueller("in", "transmitted").matrix[0, 0])
     0.96
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     index: Index
     incidence: FollowedIncidence

@@ -63,6 +63,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     """
 
     media_fields: ClassVar[tuple[str, str]] = ("indices[0]", "indices[-1]")
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     indices: Indices
     incidence: FollowedIncidence

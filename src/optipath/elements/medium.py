@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -97,6 +97,8 @@ class Medium(Element, kind="medium"):
     >>> print(np.degrees((sugar.mueller() @ horizontal).aop).round(9))
     -66.5
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
 
     length: Length
     absorption: Absorption = 0.0

@@ -48,6 +48,7 @@ class Mirror(Element, kind="mirror"):
     outputs: ClassVar[tuple[str, ...]] = ("reflected",)
     natural: ClassVar[str] = "reflected"
     straight: ClassVar[bool] = False
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     r_s: Amplitude | None = None
     r_p: Amplitude | None = None

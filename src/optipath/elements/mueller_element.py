@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import ClassVar, Self
+
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.matrix_domain import ElementMatrix
+from optipath.errors import PathError
 from optipath.kernels.catalogue import MATRIX
+from optipath.light.mueller.reciprocity import reciprocal
 from optipath.values.domains.quantities import Angle, YesOrNo
+from optipath.values.parameters import Parameter
 
 
 class MuellerElement(Element, kind="mueller"):
@@ -30,6 +35,8 @@ class MuellerElement(Element, kind="mueller"):
     0.0
     """
 
+    mirrored: ClassVar[tuple[str, ...]] = ()
+
     matrix: ElementMatrix
     azimuth: Angle = 0.0
     physical: YesOrNo = True  # type: ignore[misc] # each element says it for itself
@@ -38,3 +45,22 @@ class MuellerElement(Element, kind="mueller"):
         """Return the matrix as it is given."""
         numbers = numbers_of(self.matrix, self.domains()["matrix"])
         return (Coupling("in", "out", (Operation(MATRIX, numbers),)),)
+
+    def reversed(self) -> Self:
+        """Return the element with Q M^T Q, Q = diag(1, 1, -1, 1), for its matrix.
+
+        Raises
+        ------
+        PathError
+            If the matrix is an open parameter, or the element has an azimuth.
+        """
+        matrix = self.matrix
+        if isinstance(matrix, Parameter):
+            if not matrix.bound:
+                raise PathError(
+                    f"the matrix of {self.kind} is parameter '{matrix.name}', which is transposed "
+                    f"on the way back, and no parameter stands for that; give the matrix, or "
+                    f"bind it first, path.bind({matrix.name}=...)"
+                )
+            matrix = matrix.placed(matrix.resolve(matrix.default).value)
+        return super().reversed().with_values(matrix=reciprocal(matrix))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import POLARIZER
@@ -25,6 +27,8 @@ class Polarizer(Element, kind="polarizer"):
     >>> Polarizer(angle=0.5).leakage
     0.0
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
 
     angle: Axis = 0.0
     azimuth: Angle = 0.0

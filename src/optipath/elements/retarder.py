@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from optipath.elements.coupling import Coupling, Operation, turned
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import RETARDER
@@ -26,6 +28,8 @@ class Retarder(Element, kind="retarder"):
     >>> Retarder(retardance=1.5708, angle=0.5).azimuth
     0.0
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
 
     retardance: Angle
     angle: Axis = 0.0

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import TURN_BACK
@@ -24,6 +26,8 @@ class Rotator(Element, kind="rotator"):
     >>> Rotator(angle=0.1)
     Rotator(angle=0.1)
     """
+
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     angle: Angle
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
@@ -11,6 +11,7 @@ from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.vertices.frame import VertexFrame
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
+from optipath.elements.vertices.vertices_back import vertices_back
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.quantities import Index, OutsideIndex, Whole
@@ -56,6 +57,7 @@ class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
     natural: ClassVar[str] = "reflected"
     straight: ClassVar[bool] = False
     self_placed: ClassVar[bool] = True
+    mirrored: ClassVar[tuple[str, ...]] = ()
 
     index: Index
     vertices: Vertices
@@ -90,6 +92,18 @@ class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
         cos_sin = self.in_chain.points_around().given_to(INCIDENCE).results(2)
         operation = Operation(REFLECTION, (outside, *index, *cos_sin))
         return (Coupling("in", "reflected", (operation,), reflects=True),)
+
+    def reversed(self) -> Self:
+        """Return the vertex in the chain from its end to its start.
+
+        Raises
+        ------
+        PathError
+            If the vertices are an open parameter, or given by angles.
+        """
+        place = self.in_chain.count + 1 - self.place
+        vertices = vertices_back(self.kind, self.vertices)
+        return super().reversed().with_values(vertices=vertices, place=place)
 
     def own_frame(self, port: str) -> VertexFrame:
         """Return the frame of a port, made when somebody looks at it."""

@@ -188,6 +188,16 @@ class Frame(Unchanging):
         frame._set(axes, max(self.rounding, rounding_of(given)))  # noqa: SLF001 - its own
         return frame
 
+    def reversed(self) -> Frame:
+        """Return the frame of light that goes back along this one: (x, -y, -z).
+
+        Examples
+        --------
+        >>> Frame().turned(0.3).reversed() == Frame().reversed().turned(-0.3)
+        True
+        """
+        return Frame.trusted(self.x, 0.0 - self.y, 0.0 - self.z, self.rounding)
+
     def rounding_to(self, other: Frame) -> float:
         """Return how far the axes of this frame and of another may be apart, and be the same.
 

@@ -17,12 +17,13 @@ from optipath.light.inherited_noise import inheriting
 from optipath.light.light import Light
 from optipath.light.mueller import cloude
 from optipath.light.mueller.figures import MatrixFigures
-from optipath.light.mueller.matrix_noise import KnownNoise, noise_of_product
+from optipath.light.mueller.matrix_noise import noise_of_product
 from optipath.light.mueller.measured_matrices import (
     check_becomes_light,
     nan_where_no_light,
 )
 from optipath.light.mueller.polar_decomposition import polar_parts
+from optipath.light.mueller.reciprocity import HasReciprocal
 from optipath.light.mueller.sphere_rotations import turn_of
 from optipath.light.mueller.stacking import stacked
 from optipath.light.refused_products import why_refused
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Mueller(KnownNoise, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging):
+class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
     ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the numbers from the

@@ -1,0 +1,183 @@
+"""Reversing: what an element is to light that goes back through it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import numpy as np
+
+from optipath.elements.own_couplings import is_own
+from optipath.errors import OptipathError, PathError, listed
+from optipath.values.arrays.read_only import changed, read_only
+from optipath.values.domains.axis import AxisDomain
+from optipath.values.made import not_known_sound
+from optipath.values.operands import Operand
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.domains.domain import Domain
+
+_SAYS = ("mueller_rows", "couplings")
+"""By what a class says what it does to light."""
+
+
+class Reversible:
+    """What has a way back, if its class says so.
+
+    Attributes
+    ----------
+    mirrored : tuple of str or None
+        The fields that change their sign for light that goes back, as the angle of an axis does in
+        the mirrored frame (x, -y, -z); ``()`` where none does. None where the class does not say
+        it, as no class does for those that do something else to light.
+    """
+
+    mirrored: ClassVar[tuple[str, ...] | None] = None
+
+    if TYPE_CHECKING:
+        kind: ClassVar[str]
+        inputs: ClassVar[tuple[str, ...]]
+        outputs: ClassVar[tuple[str, ...]]
+
+        @classmethod
+        def domains(cls) -> Mapping[str, Domain]: ...
+        def faults(self, owner: str) -> list[str]: ...
+
+    def reversed(self) -> Self:
+        """Return the element as light meets it that goes back through it.
+
+        That light has the mirrored frames (x, -y, -z): an axis stands at the opposite angle
+        there, natural rotation keeps its sign, and Faraday's changes it. What is reciprocal does
+        Q M^T Q, Q = diag(1, 1, -1, 1), as `Mueller.reversed` has it (Sekera, J. Opt. Soc. Am. 56,
+        1732 (1966)). Light enters by what `port_back` says of the port that it left by.
+
+        With an azimuth that turns it against what is before it, it stands in the frame that it
+        leaves on the way there, and its axis turns by so much more.
+
+        Returns
+        -------
+        Element
+
+        Raises
+        ------
+        PathError
+            If light begins, ends or adds up there, the class does not say what changes its sign,
+            or its azimuth is no turn of an axis alone.
+
+        Examples
+        --------
+        >>> from optipath import Retarder, Rotator
+        >>> Retarder(1.0, 0.25).reversed()
+        Retarder(retardance=1.0, angle=-0.25, azimuth=0.0)
+        >>> Rotator(0.5).reversed()
+        Rotator(angle=0.5)
+        """
+        mirrored = self._mirrored_fields()
+        turn = getattr(self, "azimuth", 0.0)
+        is_turned = bool(np.any(Operand(turn).numbers())) if _is_known(turn) else True
+        if is_turned and not self._has_axes_alone(mirrored):
+            raise PathError(
+                f"{self._called} has an azimuth, which belongs to the link before it on the way "
+                f"back too; reverse the path that it stands in, path.reversed()"
+            )
+        others = {name: getattr(self, name) for name in mirrored}
+        others = {name: _opposite(value) for name, value in others.items() if value is not None}
+        if is_turned:
+            others = {name: self._turned_on(name, angle, turn) for name, angle in others.items()}
+        return self.with_values(**others) if others else self
+
+    @classmethod
+    def port_back(cls, port: str) -> str:
+        """Return the port by which light leaves, on its way back, where it came in by one; or so.
+
+        Parameters
+        ----------
+        port : str
+            One of the ports.
+
+        Returns
+        -------
+        str
+            The other one; empty where the class has several and does not say.
+        """
+        ports = (*cls.inputs, *cls.outputs)
+        return ports[1 - ports.index(port)] if len(cls.inputs) == len(cls.outputs) == 1 else ""
+
+    def with_values(self, **values: Any) -> Self:
+        """Return the element with other values, of which no degrees are asked about again.
+
+        Raises
+        ------
+        PathError
+            With every value that is not allowed.
+        """
+        kept = {name: read_only(value, widened=False) for name, value in values.items()}
+        found = not_known_sound(changed(self, **kept))
+        if faults := found.faults(self._called):
+            raise PathError(*(f"on the way back, {fault}" for fault in faults))
+        return found
+
+    @property
+    def _called(self) -> str:
+        return self.kind or type(self).__name__
+
+    def _mirrored_fields(self) -> tuple[str, ...]:
+        """Return the fields that change their sign.
+
+        Raises
+        ------
+        PathError
+            If there is no way back, or the class does not say it.
+        """
+        if not self.inputs or not self.outputs:
+            where = "ends" if self.inputs else "begins"
+            raise PathError(
+                f"light {where} at {self._called}, which has no way back of its own; reverse the "
+                f"path that it stands in, path.reversed()"
+            )
+        if getattr(self, "merges", False):
+            raise PathError(
+                f"{self._called} adds up light without loss, which has no way back; put a "
+                f"BeamSplitter in its place, or make one path for each light"
+            )
+        for one in type(self).__mro__:
+            said = vars(one).get("mirrored")
+            if said is not None:
+                return tuple(said)
+            if any(name in vars(one) for name in _SAYS):
+                break
+        name = type(self).__name__
+        raise PathError(
+            f"element class {name} does not say what changes its sign on the way back; write "
+            f"mirrored: ClassVar[tuple[str, ...]] = ... in it, the fields that do, such as "
+            f"('angle',), or () if none does, or give it a method reversed()"
+        )
+
+    def _has_axes_alone(self, mirrored: tuple[str, ...]) -> bool:
+        """Tell whether turning the element is turning its axes, and nothing else."""
+        domains = self.domains()
+        axes = all(isinstance(domains[name], AxisDomain) for name in mirrored)
+        return bool(mirrored) and axes and not is_own(type(self))
+
+    def _turned_on(self, name: str, angle: Any, turn: Any) -> Any:
+        """Return an angle less the azimuth, by which the frame stands turned."""
+        try:
+            return angle - turn
+        except (OptipathError, ValueError):
+            both = listed([f"{self._called}.{field}" for field in (name, "azimuth")])
+            raise PathError(
+                f"{both} are values that make no one angle; reverse the path that the element "
+                f"stands in, path.reversed()"
+            ) from None
+
+
+def _is_known(value: Any) -> bool:
+    operand = Operand(value)
+    return operand.known and not operand.traced
+
+
+def _opposite(value: Any) -> Any:
+    """Return a value with the other sign; of 0 that is 0."""
+    return -value if isinstance(value, Parameter) else 0.0 - value

@@ -1,0 +1,51 @@
+"""The vertices of a chain in the order in which light meets them on its way back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from optipath.elements.vertices.by_angles import VerticesByAngles
+from optipath.errors import PathError
+from optipath.values.parameters import Parameter
+
+
+def vertices_back(owner: str, vertices: Any) -> Any:
+    """Return the points of a chain from its end to its start.
+
+    Parameters
+    ----------
+    owner : str
+        What sentences call the vertex.
+    vertices : array, shape (..., m + 2, 3), Parameter or VerticesByAngles
+        The chain.
+
+    Returns
+    -------
+    array, shape (..., m + 2, 3)
+
+    Raises
+    ------
+    PathError
+        If they are an open parameter, or given by angles: the middle leg of those runs along the
+        world's z, and on the way back it would run against it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> vertices_back("vertex", np.array([[0, 0, 0], [0, 0, 1], [0, 1, 1]])).tolist()
+    [[0, 1, 1], [0, 0, 1], [0, 0, 0]]
+    """
+    if isinstance(vertices, VerticesByAngles):
+        raise PathError(
+            f"the vertices of {owner} are given by angles, which put them into a world of their "
+            f"own; give points, such as those of vertices_from_angles(incidences, turns)"
+        )
+    if isinstance(vertices, Parameter):
+        if not vertices.bound:
+            raise PathError(
+                f"the vertices of {owner} are parameter '{vertices.name}', whose points come in "
+                f"the other order on the way back; give the points, or bind them first, "
+                f"path.bind({vertices.name}=...)"
+            )
+        vertices = vertices.placed(vertices.resolve(vertices.default).value)
+    return vertices[..., ::-1, :]
