@@ -192,7 +192,8 @@ class Meetings:
     def _is_told(self, meeting: Meeting) -> bool:
         """Tell whether a face says that it is not parallel to the one before.
 
-        That is the one whose light enters in front, or behind where none does so in front.
+        That is the one whose light enters in front, or behind where no light does so in front, or
+        none of a face, and none goes to and fro.
         """
         face: Any = self.wiring.elements[meeting.enters[0]]
         return face.parallel is False and self._comes_before(meeting)
@@ -203,7 +204,10 @@ class Meetings:
 
     def _comes_before(self, meeting: Meeting) -> bool:
         name, port = meeting.enters
-        return port == "in" or (name, "in") not in self.wiring.lit
+        if port == "in" or (name, "in") not in self.wiring.lit:
+            return True
+        in_front = any(m.enters == (name, "in") for m in self._straight)
+        return not in_front and meeting.sides not in self.to_and_fro
 
     def _of_faces(self, meeting: Meeting) -> bool:
         ends = (self.wiring.elements[name] for name, _ in (meeting.leaves, meeting.enters))

@@ -14,6 +14,7 @@ from optipath.paths.binding import bind
 from optipath.paths.element_graph import ElementGraph
 from optipath.paths.joining import join
 from optipath.paths.place_choice import PlaceChoice, choice_faults, put_in_place
+from optipath.paths.reversed_graph import reversed_graph
 from optipath.values.by_name import check_named
 from optipath.values.cases import Case
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
     from optipath.elements.element import Element
+    from optipath.elements.source import Source
 
 
 class DescribedGraph(ElementGraph):
@@ -183,6 +185,49 @@ class DescribedGraph(ElementGraph):
             if hasattr(node["element"], "reads"):
                 node["element"] = replace(node["element"], reads=reads)
         return self._with(graph)
+
+    def reversed(self, source: Source | Mapping[str, Source] | None = None) -> Self:
+        """Return the path in which light goes the other way, from the detector to the source.
+
+        Each element is met from the other side, in mirrored frames (x, -y, -z); sources are
+        detectors there, and detectors sources. What each link turns stays the same, and links say
+        it, and not elements. Parameters, defaults and cases stay, but for what is published;
+        values of the sources go with them, and what is chosen stays chosen where a turn stands
+        beside a place. ``path.reversed().mueller()`` is ``path.mueller().reversed()``, unless
+        there is a magnetic field (Sekera, J. Opt. Soc. Am. 56, 1732 (1966)).
+
+        Parameters
+        ----------
+        source : Source or mapping of str to Source, optional
+            The light that begins at the detector, or at several by name; by default unpolarised
+            light of intensity 1, and none at a dump.
+
+        Returns
+        -------
+        PathGraph
+
+        Raises
+        ------
+        PathError
+            With all that has no way back: taps, lights that add up, elements that do not say.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> path = op.Source() >> op.Polarizer(0.1) >> op.Rotator(0.5) >> op.Detector()
+        >>> path.reversed()
+        <PathGraph: detector >> rotator >> polarizer >> source>
+        >>> print(path.reversed(op.Source(stokes=[1, 1, 0, 0])).trace().intensity.round(6))
+        0.681179
+        """
+        path = self._with(reversed_graph(self._graph, source))
+        path.cases = {}
+        known = {*path.parameters, *path.choices}
+        for name, case in self.cases.items():
+            left = {n: value for n, value in case.values.items() if n in known}
+            if not (self.choices.keys() - known).intersection(case.values):
+                path.cases[name] = replace(case, values=left, published={})
+        return path
 
     def to_toml(self) -> str:
         """Return the path as the text of a preset file; loading it gives the path back.

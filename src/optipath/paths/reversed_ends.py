@@ -1,0 +1,96 @@
+"""The ends of a path run the other way: light begins where it ended, and ends where it began."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.element import Element
+from optipath.elements.source import Source
+from optipath.elements.terminal import Detector, Dump
+from optipath.errors import did_you_mean, shown, there_are
+from optipath.values.operands import Operand
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+
+def reversed_end(element: Element, source: Element | None = None) -> Element:
+    """Return what stands on the way back where light began or ended.
+
+    Parameters
+    ----------
+    element : Element
+        A source, a detector, a dump, or one like these.
+    source : Element, optional
+        The light that is to begin there, where light has ended.
+
+    Returns
+    -------
+    Element
+        A detector for a source, and a source of unpolarised light of intensity 1 for a detector;
+        a dark source for a dump, from which nothing comes back, and a dump for one that is dark.
+
+    Examples
+    --------
+    >>> reversed_end(Source(100.0)), reversed_end(Dump()).intensity
+    (Detector(reads='stokes'), 0.0)
+    """
+    if not element.inputs:
+        return Dump() if _is_dark(element) else Detector()
+    return source or Source(1.0 if element.detects else 0.0)
+
+
+def sources_by_name(
+    given: Any, elements: Mapping[str, Element]
+) -> tuple[dict[str, Element], list[str]]:
+    """Return the light that is to begin at each node, and what is wrong with it, a sentence each.
+
+    Parameters
+    ----------
+    given : Source, mapping of str to Source, or None
+        For the only detector, or for nodes by name.
+    elements : mapping of str to Element
+        Those of a path.
+
+    Returns
+    -------
+    sources : dict of str to Element
+        Where something is given.
+    faults : list of str
+        Empty where nothing is wrong.
+    """
+    ends = [name for name, element in elements.items() if not element.outputs]
+    if given is None:
+        return {}, []
+    if not isinstance(given, Mapping):
+        detectors = [name for name in ends if elements[name].detects]
+        if len(detectors) == 1:
+            given = {detectors[0]: given}
+        else:
+            which = f", source={{'{detectors[0]}': ...}}" if detectors else ""
+            fault = (
+                f"source is the light that begins at the only detector, and there are "
+                f"{len(detectors)}; give it by name{which}{there_are(ends)}"
+            )
+            return {}, [fault]
+    strange = [name for name in given if name not in ends]
+    faults = [f"source['{name}']: no light ends there{_near(name, ends)}" for name in strange]
+    faults += [
+        f"source['{name}'] must be a Source, not {shown(one)}"
+        for name, one in given.items()
+        if not isinstance(one, Element) or one.inputs or len(one.outputs) != 1
+    ]
+    return dict(given), faults
+
+
+def _near(name: Any, ends: Collection[str]) -> str:
+    return did_you_mean(name, ends) if isinstance(name, str) else there_are([*ends])
+
+
+def _is_dark(element: Element) -> bool:
+    """Tell whether a source is known to give no light."""
+    operand = Operand(getattr(element, "intensity", 1.0))
+    return operand.known and not operand.traced and not np.any(operand.numbers())

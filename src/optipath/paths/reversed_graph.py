@@ -1,0 +1,223 @@
+"""A graph of elements run the other way: its links turned round, its frames mirrored."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import networkx as nx
+import numpy as np
+
+from optipath.composer.followed_values import with_followed
+from optipath.composer.meetings import Meetings
+from optipath.composer.placement import azimuth_of, frame_at, is_zero
+from optipath.composer.wiring import Wiring, link_text
+from optipath.elements.boundary_frames import BoundaryElement
+from optipath.errors import OptipathError, PathError, listed
+from optipath.paths.reversed_choices import reversed_choices
+from optipath.paths.reversed_ends import reversed_end, sources_by_name
+from optipath.values.arrays.read_only import changed
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.composer.travel import Port
+    from optipath.composer.wiring import Link
+    from optipath.elements.element import Element
+    from optipath.light.frames import Frame
+
+_SAME = 1e-9
+"""Up to what angle two frames of a vertex are one."""
+
+
+def reversed_graph(graph: nx.MultiDiGraph, source: Any = None) -> nx.MultiDiGraph:
+    """Return a graph of elements in which light goes the other way.
+
+    Parameters
+    ----------
+    graph : networkx.MultiDiGraph
+        Elements and links; it stays as it is.
+    source : Source, or mapping of str to Source, optional
+        The light that begins where light has ended; unpolarised, of intensity 1, by default.
+
+    Returns
+    -------
+    networkx.MultiDiGraph
+        Whose links say all azimuths.
+
+    Raises
+    ------
+    PathError
+        With all that has no way back.
+    """
+    filled, faults = with_followed(graph)
+    if faults:
+        raise PathError(*faults)
+    turning = _Turning(Wiring(filled))
+    sources, faults = sources_by_name(source, turning.before)
+    turning.reverse_elements(sources)
+    if faults := [*faults, *turning.faults, *turning.link_faults()]:
+        raise PathError(*faults)
+    choices = reversed_choices(turning.wiring, turning.port)
+    found = nx.MultiDiGraph(**{**graph.graph, "choices": choices})
+    for name in [*graph][::-1]:
+        found.add_node(name, element=turning.elements[name], frames=turning.frames(name))
+    for link in [*graph.edges(keys=True)][::-1]:
+        start, end, (leaves, enters) = link
+        key = turning.port(end, enters), turning.port(start, leaves)
+        found.add_edge(end, start, key=key, azimuth=turning.azimuth(link), tap=False)
+    return found
+
+
+class _Turning:
+    """Turns round what stands at the nodes of a graph, and the links between them.
+
+    Parameters
+    ----------
+    wiring : Wiring
+        The path, in which nothing is taken over any more.
+    """
+
+    def __init__(self, wiring: Wiring) -> None:
+        self.wiring = wiring
+        self.before = wiring.elements
+        self.elements: dict[str, Element] = {}
+        self.faults: list[str] = []
+
+    def reverse_elements(self, sources: dict[str, Element]) -> None:
+        """Reverse the element of each node; light begins at the ends as it is told."""
+        at_angle = self._at_angle()
+        known: dict[int, Element] = {}
+        for name, element in self.before.items():
+            if not element.inputs or not element.outputs:
+                self.elements[name] = reversed_end(element, sources.get(name))
+                continue
+            try:
+                if id(element) not in known:
+                    known[id(element)] = _without_azimuth(element).reversed()
+            except OptipathError as fault:
+                self.faults += [f"'{name}' has no way back: {text}" for text in fault.faults]
+                continue
+            back = known[id(element)]
+            is_parallel = name not in at_angle
+            if isinstance(back, BoundaryElement) and vars(back)["parallel"] is not is_parallel:
+                back = changed(back, parallel=is_parallel)
+            self.elements[name] = back
+        self._share_arrays()
+
+    def _at_angle(self) -> set[str]:
+        """Return the boundaries that are not parallel to the one that sends them light back."""
+        meetings = Meetings(self.wiring)
+        return {
+            meeting.leaves[0]
+            for meeting in meetings.all
+            if getattr(self.before[meeting.enters[0]], "parallel", True) is False
+            and meetings.may_be_told(meeting)
+        }
+
+    def _share_arrays(self) -> None:
+        """Let elements that share an array share its reverse: the vertices of one chain do."""
+        made: dict[Any, Any] = {}
+        for name, back in self.elements.items():
+            fields = {
+                field: made.setdefault((id(value), field), getattr(back, field))
+                for field in back.domains()
+                if isinstance(value := getattr(self.before[name], field, None), np.ndarray)
+                and getattr(back, field) is not value
+            }
+            if any(getattr(back, field) is not value for field, value in fields.items()):
+                self.elements[name] = changed(back, **fields)
+
+    def port(self, name: str, port: str) -> str:
+        """Return the port by which light leaves a node, on its way back, where it came in; or so.
+
+        It is empty where the element does not say.
+        """
+        element = self.before[name]
+        if not element.inputs:
+            return "in"
+        if not element.outputs:
+            return self.elements[name].outputs[0]
+        return element.port_back(port)
+
+    def link_faults(self) -> Iterator[str]:
+        """Yield what has no way back of the links, a sentence each."""
+        for link in self.wiring.taps:
+            yield (
+                f"link '{link_text(link)}' is a tap, which takes nothing of the light, and gives "
+                f"none on the way back; take it out, path.disconnect('{link[0]}.{link[2][0]}', "
+                f"'{link[1]}.{link[2][1]}')"
+            )
+        taps = {*self.wiring.taps}
+        for (name, port), several in self.wiring.links_to.items():
+            links = [link for link in several if link not in taps]
+            # What adds up inside of an element has been told.
+            if len(links) > 1 and not (self.before[name].merges and self.before[name].outputs):
+                feeders = listed([f"'{start}.{leaves}'" for start, _, (leaves, _) in links])
+                yield (
+                    f"light of {feeders} adds up at '{name}.{port}', which has no way back; give "
+                    f"each a detector of its own, or put a BeamSplitter where they meet"
+                )
+        used = {end for link in self.wiring.graph.edges(keys=True) for end in _ends(link)}
+        for name, port in sorted(used):
+            element = self.before[name]
+            others = element.outputs if port in element.inputs else element.inputs
+            if element.inputs and element.outputs and element.port_back(port) not in others:
+                yield (
+                    f"'{name}' has no way back: element class {type(element).__name__} does not "
+                    f"say by which port light goes back that '{port}' takes on the way there; "
+                    f"give it a class method port_back(port)"
+                )
+
+    def frames(self, name: str) -> dict[str, Frame]:
+        """Return the world frames of a node: those of light that goes back."""
+        given = self.wiring.graph.nodes[name]["frames"]
+        found = {self.port(name, port): frame.reversed() for port, frame in given.items()}
+        if found or self.before[name].outputs:
+            return found
+        # A detector reads light in the frame that it arrives in; a source has one of its own.
+        for start, _, (leaves, enters) in self.wiring.graph.in_edges(name, keys=True):
+            if (frame := frame_at(self.wiring, start, leaves)) is not None:
+                found[self.port(name, enters)] = frame.reversed()
+        return found
+
+    def azimuth(self, link: Link) -> Any:
+        """Return the azimuth of a link on the way back, which is that on the way there."""
+        azimuth = azimuth_of(self.wiring, link)
+        own = self.wiring.graph.edges[link]["azimuth"]
+        twist = self._twist(link)
+        if np.any(twist):
+            return azimuth + twist
+        return None if own is None and is_zero(azimuth) else azimuth
+
+    def _twist(self, link: Link) -> Any:
+        """Return by what a link turns besides, where a vertex has no plane of incidence.
+
+        Such a one has the x of the light that comes to it, which is another on the way back.
+        """
+        ends = _ends(link)
+        placed = [name in self.wiring.self_placed for name, _ in ends]
+        others = [self.before[name] for name, _ in ends if name not in self.wiring.self_placed]
+        if placed[0] == placed[1] or not (others[0].inputs and others[0].outputs):
+            return 0.0
+        name, port = ends[placed.index(True)]
+        there, back = (
+            element.own_frame(at).frame({})  # type: ignore[union-attr]
+            for element, at in (
+                (self.before[name], port),
+                (self.elements[name], self.port(name, port)),
+            )
+        )
+        c, s = there.reversed().turn_to(back)
+        turn = 0.5 * np.arctan2(s, c)
+        turn = np.where(np.abs(turn) > _SAME, turn, 0.0)[()]
+        return turn if placed[0] else -turn
+
+
+def _ends(link: Link) -> tuple[Port, Port]:
+    start, end, (leaves, enters) = link
+    return (start, leaves), (end, enters)
+
+
+def _without_azimuth(element: Element) -> Element:
+    """Return an element that links turn in place of its azimuth."""
+    return element if is_zero(getattr(element, "azimuth", 0.0)) else changed(element, azimuth=0.0)
