@@ -1,12 +1,8 @@
 """Random paths of what is reciprocal, whose light never adds up but where it goes round."""
 
-from dataclasses import replace
-
-import numpy as np
+import optipath as op
 from chains import random_chains
 from random_paths import Draw, real_index, standing_in
-
-import optipath as op
 
 
 class ReciprocalPath(Draw):

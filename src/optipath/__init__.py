@@ -54,6 +54,7 @@ if TYPE_CHECKING:
     from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
     from optipath.light.light import Light
     from optipath.light.mueller.matrix import LuChipman, Mueller
+    from optipath.paths.double_pass import there_and_back
     from optipath.paths.path_graph import PathGraph
     from optipath.paths.polarization_matters import Polarization, polarization
     from optipath.paths.presets.loader import load_preset, preset_names
@@ -157,6 +158,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "polarization",
     "preset_names",
     "refraction_angle",
+    "there_and_back",
     "vertices_from_angles",
 ]
 
@@ -186,6 +188,7 @@ _HOMES = {
     "light.incidence": ["PlaneOfIncidence", "plane_of_incidence"],
     "light.light": ["Light"],
     "light.mueller.matrix": ["LuChipman", "Mueller"],
+    "paths.double_pass": ["there_and_back"],
     "paths.path_graph": ["PathGraph"],
     "paths.polarization_matters": ["Polarization", "polarization"],
     "paths.presets.loader": ["load_preset", "preset_names"],

@@ -95,7 +95,7 @@ class _Turning:
                 if id(element) not in known:
                     known[id(element)] = _without_azimuth(element).reversed()
             except OptipathError as fault:
-                self.faults += [f"'{name}' has no way back: {text}" for text in fault.faults]
+                self.faults += [f"'{name}': {text}" for text in fault.faults]
                 continue
             back = known[id(element)]
             is_parallel = name not in at_angle

@@ -1,0 +1,146 @@
+"""There and back: what light meets on its way to a mirror, and again on its way back."""
+
+from __future__ import annotations
+
+import re
+from itertools import count
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.composer.placement import is_zero
+from optipath.elements.azimuths import azimuth_at
+from optipath.elements.chaining import Chainable, begun
+from optipath.elements.own_couplings import couplings_of
+from optipath.errors import PathError, shown
+from optipath.paths.joining import name_by_kind
+from optipath.paths.path_graph import PathGraph
+from optipath.paths.port_names import natural_of
+from optipath.values.follows import FOLLOWS
+from optipath.values.operands import Operand
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from optipath.elements.element import Element
+
+
+def there_and_back(*elements: Chainable) -> PathGraph:
+    """Return what light passes on its way to where it turns back, and again on its way back.
+
+    The last is where it turns, at normal incidence: a `Mirror`, an `Interface` or a `LayerStack`
+    at an incidence of 0, or an element of one's own that reflects. The others are met again in
+    reverse order, each as `Element.reversed` has it, and turned as they are on the way there: each
+    takes the azimuth of the one that was behind it. Light comes out in the mirrored frame
+    (x, -y, -z) of the first element, which its azimuth has turned.
+
+    Parameters
+    ----------
+    *elements : Element, NamedElement or PathGraph
+        In the order in which light meets them; a chain of several may stand for some. What has a
+        name of its own is called ``name-back`` on the way back.
+
+    Returns
+    -------
+    PathGraph
+        For ``>>``, without source and detector.
+
+    Raises
+    ------
+    PathError
+        If light does not turn back at the last, or something else has no way back.
+
+    Examples
+    --------
+    A quarter-wave plate before a mirror is a half-wave plate. With its axis at 22.5 deg it turns
+    light at 0 deg to 45 deg, which is S2 < 0 in the frame of light that comes back.
+
+    >>> import numpy as np
+    >>> import optipath as op
+    >>> plate = op.Retarder(np.pi / 2, np.pi / 8)
+    >>> path = op.Source(stokes=(1, 1, 0, 0)) >> op.there_and_back(plate, op.Mirror())
+    >>> path
+    <PathGraph: source >> retarder >> mirror >> retarder-2>
+    >>> print((path >> op.Detector()).trace().stokes.round(12) + 0.0)
+    [ 1.  0. -1.  0.]
+    """
+    if not elements:
+        raise PathError(
+            "op.there_and_back() is given no element; give those that light meets, and last where "
+            "it turns back, such as Mirror()"
+        )
+    *others, last = [begun(element) for element in elements]
+    if faults := [*_turning_faults(last), *_piece_faults(others)]:
+        raise PathError(*faults)
+    there = PathGraph()
+    for other in others:
+        there = there >> other
+    return _doubled(there, last) if others else last
+
+
+def _doubled(there: PathGraph, last: PathGraph) -> PathGraph:
+    """Return a path to where light turns back, and from there."""
+    back, path = there.reversed(), there >> last
+    (turning,) = (name for name in path if name not in there)
+    names: dict[str, str] = {}
+    for name in back:
+        element = back.element(name)
+        names[name] = _name_back(path, name, element)
+        path.add(names[name], element, back.graph.nodes[name]["frames"])
+    for start, end, (leaves, enters), azimuth in back.graph.edges(keys=True, data="azimuth"):
+        path.connect(f"{names[start]}.{leaves}", f"{names[end]}.{enters}", azimuth)
+    ((before, _, (leaves, _)),) = path.graph.in_edges(turning, keys=True)
+    element = path.element(turning)
+    path.connect(
+        f"{turning}.{natural_of(element, out=True)}",
+        f"{names[before]}.{path.element(before).port_back(leaves)}",
+        None if is_zero(azimuth_at(element, "in")) else azimuth_at(element, "in"),
+    )
+    return path
+
+
+def _name_back(path: PathGraph, name: str, element: Element) -> str:
+    """Return what an element that is called so is called on the way back."""
+    kind = name_by_kind(element)
+    if re.fullmatch(rf"{re.escape(kind)}(-\d+)?", name):
+        return next(new for n in count(2) if (new := f"{kind}-{n}") not in path)
+    return f"{name}-back"
+
+
+def _turning_faults(last: PathGraph) -> Iterator[str]:
+    """Say why light does not turn back at what is given last; nothing if it does."""
+    name, *more = last
+    if more:
+        yield f"light turns back at one element, and {last} has several; give its last by itself"
+        return
+    element = last.element(name)
+    enters, leaves = (natural_of(element, out=out) for out in (False, True))
+    ways = [way for way in couplings_of(element) if (way.enters, way.leaves) == (enters, leaves)]
+    if not any(way.reflects for way in ways) or element.self_placed:
+        yield (
+            f"light does not turn back at '{name}', which is given last; give a Mirror() last, or "
+            f"what else reflects by its natural way, as an Interface does"
+        )
+    incidence = getattr(element, "incidence", 0.0)
+    operand = Operand(incidence)
+    if incidence is FOLLOWS or not operand.known or operand.traced or np.any(operand.numbers()):
+        given = f"parameter '{incidence.name}'" if operand.known is False else shown(incidence)
+        yield (
+            f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0, "
+            f"not {given}"
+        )
+
+
+def _piece_faults(pieces: list[PathGraph]) -> Iterator[str]:
+    """Say where light begins or ends on the way, and what is chosen of it."""
+    for piece in pieces:
+        for name in piece:
+            element = piece.element(name)
+            if not element.inputs or not element.outputs:
+                where = "ends" if element.inputs else "begins"
+                yield (
+                    f"light {where} at '{name}'; let op.there_and_back(...) stand between: "
+                    f"Source() >> op.there_and_back(...) >> Detector()"
+                )
+        for name in piece.choices:
+            yield f"choice '{name}' moves a node on the way there alone; give a chain without it"
