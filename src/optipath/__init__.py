@@ -32,11 +32,13 @@ if TYPE_CHECKING:
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
     from optipath.elements.beam_splitter import BeamSplitter
+    from optipath.elements.circular_polarizer import CircularPolarizer
     from optipath.elements.combiner import Combiner
     from optipath.elements.coupling import Coupling, Operation
     from optipath.elements.depolarizer import Depolarizer
     from optipath.elements.diattenuator import Diattenuator
     from optipath.elements.element import Element
+    from optipath.elements.faraday_rotator import FaradayRotator
     from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
     from optipath.elements.interface import Interface
     from optipath.elements.layer_stack import LayerStack
@@ -44,12 +46,14 @@ if TYPE_CHECKING:
     from optipath.elements.mirror import Mirror
     from optipath.elements.mueller_element import MuellerElement
     from optipath.elements.polarizer import Polarizer
+    from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
     from optipath.elements.retarder import Retarder
     from optipath.elements.rotator import Rotator
     from optipath.elements.source import Source
     from optipath.elements.specular_vertex import SpecularVertex
     from optipath.elements.terminal import Detector, Dump
     from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
+    from optipath.elements.waveplate import Waveplate
     from optipath.light.frames import Frame
     from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
     from optipath.light.light import Light
@@ -95,6 +99,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "BeamSplitter",
     "Case",
     "Certificate",
+    "CircularPolarizer",
     "Combiner",
     "Composer",
     "ComposerError",
@@ -106,6 +111,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Dump",
     "Element",
     "FOLLOWS",
+    "FaradayRotator",
     "Fraction",
     "Frame",
     "FrameError",
@@ -137,6 +143,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "PlaneOfIncidence",
     "Polarization",
     "Polarizer",
+    "PolarizingBeamSplitter",
     "PresetError",
     "Real",
     "Retarder",
@@ -148,6 +155,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "UnitError",
     "ValueFault",
     "VerticesByAngles",
+    "Waveplate",
     "YesOrNo",
     "fresnel_reflection",
     "fresnel_transmission",
@@ -166,11 +174,13 @@ _HOMES = {
     "composer.composer": ["Composer"],
     "elements.attenuator": ["Attenuator"],
     "elements.beam_splitter": ["BeamSplitter"],
+    "elements.circular_polarizer": ["CircularPolarizer"],
     "elements.combiner": ["Combiner"],
     "elements.coupling": ["Coupling", "Operation"],
     "elements.depolarizer": ["Depolarizer"],
     "elements.diattenuator": ["Diattenuator"],
     "elements.element": ["Element"],
+    "elements.faraday_rotator": ["FaradayRotator"],
     "elements.fresnel": ["fresnel_reflection", "fresnel_transmission", "refraction_angle"],
     "elements.interface": ["Interface"],
     "elements.layer_stack": ["LayerStack"],
@@ -178,11 +188,13 @@ _HOMES = {
     "elements.mirror": ["Mirror"],
     "elements.mueller_element": ["MuellerElement"],
     "elements.polarizer": ["Polarizer"],
+    "elements.polarizing_beam_splitter": ["PolarizingBeamSplitter"],
     "elements.retarder": ["Retarder"],
     "elements.rotator": ["Rotator"],
     "elements.source": ["Source"],
     "elements.specular_vertex": ["SpecularVertex"],
     "elements.terminal": ["Detector", "Dump"],
+    "elements.waveplate": ["Waveplate"],
     "elements.vertices.by_angles": ["VerticesByAngles", "vertices_from_angles"],
     "light.frames": ["Frame"],
     "light.incidence": ["PlaneOfIncidence", "plane_of_incidence"],

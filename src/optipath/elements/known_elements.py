@@ -6,41 +6,49 @@ from typing import Any
 
 from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.circular_polarizer import CircularPolarizer
 from optipath.elements.combiner import Combiner
 from optipath.elements.depolarizer import Depolarizer
 from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.faraday_rotator import FaradayRotator
 from optipath.elements.interface import Interface
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
 from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
+from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
 from optipath.elements.registry import KINDS
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.source import Source
 from optipath.elements.specular_vertex import SpecularVertex
 from optipath.elements.terminal import Detector, Dump
+from optipath.elements.waveplate import Waveplate
 from optipath.errors import PathError, did_you_mean
 
 STANDARD = (
     Attenuator,
     BeamSplitter,
+    CircularPolarizer,
     Combiner,
     Depolarizer,
     Diattenuator,
+    FaradayRotator,
     Interface,
     LayerStack,
     Medium,
     Mirror,
     MuellerElement,
     Polarizer,
+    PolarizingBeamSplitter,
     Retarder,
     Rotator,
     Source,
     SpecularVertex,
     Detector,
     Dump,
+    Waveplate,
 )
 """The elements that come with the library; importing them has entered their kinds."""
 

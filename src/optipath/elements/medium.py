@@ -28,6 +28,7 @@ from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.degree_warnings import warn_of_turning
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import (
+    WAVELENGTH,
     Absorption,
     Angle,
     AnglePerLength,
@@ -45,7 +46,6 @@ if TYPE_CHECKING:
 
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
-_WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
 _TURNING = ("rotation", "retardance", "dextrorotation")
 _RATES = ("absorption", *_TURNING)
 _OTHERS = ("rotation", "retardance", "angle", "azimuth", "dextrorotation")
@@ -154,8 +154,8 @@ class Medium(Element, kind="medium"):
         1256637
         """
         k = read_only(_EXTINCTION.read("k", k))
-        wavelength = read_only(_WAVELENGTH.read("wavelength", wavelength))
-        given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, _WAVELENGTH)}
+        wavelength = read_only(WAVELENGTH.read("wavelength", wavelength))
+        given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, WAVELENGTH)}
         faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
         faults += [cls._option_fault(name) for name in others if name not in _OTHERS]
         if faults:

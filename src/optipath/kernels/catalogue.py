@@ -12,7 +12,7 @@ from optipath.kernels.carriers.structures import (
     ROTATION,
     SCALE,
 )
-from optipath.kernels.filters import emission, filters, rotation, stretch
+from optipath.kernels.filters import bench, emission, filters, rotation, stretch
 from optipath.kernels.fresnel import amplitude, powers, stable, textbook
 from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
@@ -117,6 +117,10 @@ DEXTROROTATION_ALONG = Kernel(
     "dextrorotation along the way", ROTATION, stretch.dextrorotation_along
 )
 RETARDANCE_ALONG = Kernel("retardance along the way", BLOCK, stretch.retardance_along)
+FARADAY_ROTATION = Kernel("Faraday rotation", ROTATION, bench.faraday_rotation)
+WAVEPLATE = Kernel("wave plate", BLOCK, bench.waveplate)
+POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, bench.polarizing_reflection)
+POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, bench.polarizing_transmission)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)

@@ -18,6 +18,7 @@ from optipath.paths.path_graph import PathGraph
 from optipath.paths.port_names import natural_of
 from optipath.values.follows import FOLLOWS
 from optipath.values.operands import Operand
+from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -124,7 +125,8 @@ def _turning_faults(last: PathGraph) -> Iterator[str]:
     incidence = getattr(element, "incidence", 0.0)
     operand = Operand(incidence)
     if incidence is FOLLOWS or not operand.known or operand.traced or np.any(operand.numbers()):
-        given = f"parameter '{incidence.name}'" if operand.known is False else shown(incidence)
+        is_open = isinstance(incidence, Parameter)
+        given = f"parameter '{incidence.name}'" if is_open else shown(incidence)
         yield (
             f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0, "
             f"not {given}"

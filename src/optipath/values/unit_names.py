@@ -17,6 +17,10 @@ _SINGULAR = {
     **_ANGLES,
     "degree": "deg",
     "micron": "um",
+    "tesla": "T",
+    "millitesla": "mT",
+    "gauss": "G",
+    "kilogauss": "kG",
     "arc minute": "arcmin",
     "arc second": "arcsec",
 }

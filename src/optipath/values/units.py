@@ -1,7 +1,7 @@
 """Quantities with units, as they stand in files and on the command line.
 
-Inside the library an angle is in radians and a length in metres, and so is what is given per
-length.
+Inside the library an angle is in radians, a length in metres and a magnetic field in teslas, and
+so is what is given per length and field.
 """
 
 from __future__ import annotations
@@ -53,6 +53,13 @@ UNITS: dict[str, Unit] = {
         for angle in ("deg", "rad")
         for length in _PER_LENGTH
     },
+    "T": Unit("magnetic field"),
+    "mT": Unit("magnetic field", -3),
+    "G": Unit("magnetic field", -4),
+    "kG": Unit("magnetic field", -1),
+    "rad/(T m)": Unit("Verdet constant"),
+    "deg/(T cm)": Unit("Verdet constant", 2, _ANGLES["deg"].size),
+    "arcmin/(G cm)": Unit("Verdet constant", 6, _ANGLES["arcmin"].size),
 }
 
 USUAL_UNITS = {
@@ -60,11 +67,20 @@ USUAL_UNITS = {
     "length": "nm",
     "inverse length": "1/cm",
     "angle per length": "deg/mm",
+    "magnetic field": "T",
+    "Verdet constant": "rad/(T m)",
     "": "",
 }
 """The unit in which a dimension is written where nobody says another."""
 
-_BASE_UNITS = {"angle": "rad", "length": "m", "inverse length": "1/m", "angle per length": "rad/m"}
+_BASE_UNITS = {
+    "angle": "rad",
+    "length": "m",
+    "inverse length": "1/m",
+    "angle per length": "rad/m",
+    "magnetic field": "T",
+    "Verdet constant": "rad/(T m)",
+}
 
 # Written so that no text matches in two ways, and long ones take no longer than they are.
 _NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
@@ -128,7 +144,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
         A number and its unit.
     dimension : str
         The dimension asked for: ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per
-        length"``, or ``""``.
+        length"``, ``"magnetic field"``, ``"Verdet constant"``, or ``""``.
     default_unit : str, optional
         The unit of a bare number; without one, a bare number is accepted only
         where there is no dimension.

@@ -31,7 +31,7 @@ class Domain:
     name : str
         What error messages call the quantity.
     dimension : str
-        ``"angle"``, ``"length"``, ``"inverse length"``, ``"angle per length"``, or ``""``.
+        ``"angle"``, ``"length"``, ... as `USUAL_UNITS` has them, or ``""``.
     minimum, maximum : float
         The limits, in radians and metres where there is a dimension.
     tail : tuple of int
@@ -89,8 +89,8 @@ class Domain:
         if array.dtype.kind not in "fc":
             raise ValueFault(f"{owner} {self._no_number(value, array)}")
         self._check_shape(owner, array.shape)
-        if not np.all(np.isfinite(array)):
-            bad = ~np.isfinite(array)
+        if not np.all(self.are_numbers(array)):
+            bad = ~self.are_numbers(array)
             found = f"{array[bad].ravel()[0]}{first_place(bad)}"
             raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
         self._check_numbers(owner, array, rounding_of(given))
@@ -116,6 +116,10 @@ class Domain:
             wanted = ", ".join(map(str, ("...", *self.tail)))
             raise ValueFault(f"{owner} must have shape ({wanted}), not {shape}")
 
+    def are_numbers(self, numbers: Any) -> Any:
+        """Return which of an array are numbers at all: finite ones, by default."""
+        return namespace(numbers).isfinite(numbers)
+
     def allows(self, numbers: Any) -> Any:
         """Return which numbers of an array are allowed, or for which paths; JAX's as well.
 
@@ -124,7 +128,7 @@ class Domain:
         >>> Domain("share", minimum=0.0, maximum=1.0).allows(np.array([0.5, 2.0, np.nan]))
         array([ True, False, False])
         """
-        inside = namespace(numbers).isfinite(numbers)
+        inside = self.are_numbers(numbers)
         if numbers.dtype.kind == "c":
             return inside & False
         return inside & (numbers >= self.minimum) & (numbers <= self.maximum)

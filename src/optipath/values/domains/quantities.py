@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Annotated, TypeAlias
 
 import numpy as np
@@ -11,9 +12,11 @@ import numpy.typing as npt
 from optipath.values.domains.axis import AxisDomain
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
+from optipath.values.domains.extinction import ExtinctionDomain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.fraction import FractionDomain
 from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, INDICES, OPTIONAL_OUTSIDE
+from optipath.values.domains.optional import OptionalDomain
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
@@ -55,6 +58,26 @@ AnglePerLength: TypeAlias = Annotated[Quantity, Domain("angle per length", "angl
 RotatoryPower: TypeAlias = Annotated[
     Quantity, Domain("rotatory power", "angle per length", own_unit="deg/dm")
 ]
+PART_LENGTH = Domain("length", "length", minimum=0.0, maximum=1e3, own_unit="mm")
+"""Of a part that stands on a bench, so that what it turns or retards by is a number."""
+PartLength: TypeAlias = Annotated[Quantity, PART_LENGTH]
+OptionalPartLength: TypeAlias = Annotated[
+    Quantity, OptionalDomain("length", "length", 0.0, PART_LENGTH.maximum, own_unit="mm")
+]
+OptionalAngle: TypeAlias = Annotated[Quantity, OptionalDomain("angle", "angle")]
+VerdetConstant: TypeAlias = Annotated[
+    Quantity, OptionalDomain("Verdet constant", "Verdet constant", -1e9, 1e9)
+]
+MagneticField: TypeAlias = Annotated[
+    Quantity, OptionalDomain("magnetic field", "magnetic field", -1e6, 1e6)
+]
+WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
+Wavelength: TypeAlias = Annotated[Quantity, replace(WAVELENGTH, name="wavelength", own_unit="nm")]
+Birefringence: TypeAlias = Annotated[Quantity, Domain("birefringence", minimum=-10, maximum=10)]
+EXTINCTION = ExtinctionDomain("extinction ratio", minimum=1.000001)
+ExtinctionRatio: TypeAlias = Annotated[Quantity, EXTINCTION]
+HANDEDNESSES = ("right", "left")
+Handedness: TypeAlias = Annotated[str, Choice("handedness", words=HANDEDNESSES)]
 StokesState: TypeAlias = Annotated[Quantity, StokesDomain("Stokes vector", tail=(4,))]
 MuellerMatrix: TypeAlias = Annotated[Quantity, Domain("Mueller matrix", tail=(4, 4))]
 Whole: TypeAlias = Annotated[int, WholeNumber("whole number")]
