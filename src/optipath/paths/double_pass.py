@@ -125,8 +125,11 @@ def _turning_faults(last: PathGraph) -> Iterator[str]:
     incidence = getattr(element, "incidence", 0.0)
     operand = Operand(incidence)
     if incidence is FOLLOWS or not operand.known or operand.traced or np.any(operand.numbers()):
-        is_open = isinstance(incidence, Parameter)
-        given = f"parameter '{incidence.name}'" if is_open else shown(incidence)
+        given = (
+            f"parameter '{incidence.name}'"
+            if isinstance(incidence, Parameter)
+            else shown(incidence)
+        )
         yield (
             f"light turns back at '{name}' at normal incidence alone; give it an incidence of 0.0, "
             f"not {given}"
