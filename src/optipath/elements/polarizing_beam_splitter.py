@@ -26,8 +26,8 @@ class PolarizingBeamSplitter(Splitter, kind="polarizing-beam-splitter"):
     ----------
     extinction_transmitted, extinction_reflected : float, array_like, text or Parameter, optional
         Tp / Ts of what is transmitted and Rs / Rp of what is reflected, 1.000001 or more,
-        infinite by default (for a Parameter 1e30 is as good); ``"1000:1"`` is 1000. At 1 all would go one way, whatever its
-        polarisation, or any share.
+        infinite by default (for a Parameter 1e30 is as good); ``"1000:1"`` is 1000. At 1 all
+        would go one way, whatever its polarisation, or any share.
     azimuth : float, array_like or Parameter, optional
         The turn of the frame of ``in``, x = s, against the frame of the port before it; for
         ``back``, a link may say it.

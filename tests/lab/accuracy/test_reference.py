@@ -98,8 +98,13 @@ def everything():
         path.add(name, element)
         path.connect(f"split.{port}", f"{name}.in")
         path.connect(f"{name}.reflected", "sum.in", azimuth=0.2)
+    path.add("cube", op.PolarizingBeamSplitter(1000.0, azimuth=0.3))
+    path["sum"] >> path["cube"]
+    path.add("both", op.Combiner())
+    path.connect("cube.reflected", "both.in")
+    path.connect("cube.transmitted", "both.in", azimuth=0.7)
     foil = np.diag([0.9, 0.5, 0.4, 0.3])
-    node = path["sum"]
+    node = path["both"]
     for number, element in enumerate(
         (
             op.Rotator(0.3),
@@ -112,6 +117,10 @@ def everything():
             op.Medium(0.1, dextrorotation=3.0),
             op.Depolarizer(0.1),
             op.Medium(0.2, 0.0, retardance=5.0, angle=0.7, azimuth=0.2),
+            op.FaradayRotator(0.4),
+            op.FaradayRotator(verdet=-134.0, field=0.17, length=0.02),
+            op.CircularPolarizer("left", 0.9, 0.3),
+            op.Waveplate(2.3e-3, -0.0091, 5.89e-7, 0.3, azimuth=0.2),
         )
     ):
         node = node >> path.add(f"e{number}", element)

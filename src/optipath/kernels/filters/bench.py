@@ -64,41 +64,46 @@ def _without_trace(xp: Primitives) -> Callable[[Any, Any], Any]:
 
 def polarizing_reflection(xp: Primitives) -> KernelFunction:
     """Make ``(Tp/Ts, Rs/Rp) -> (Fs, Fp, B, C, S)`` of what is reflected, r_p = -r_s in phase."""
-    shares, sqrt = _shares(xp), xp.sqrt
+    share, kept, sqrt = _share(xp), _kept(xp), xp.sqrt
 
     def reflect(of_transmitted: Any, of_reflected: Any) -> tuple[Any, ...]:
-        _, s = shares(of_transmitted, of_reflected)
+        s = share(of_transmitted, of_reflected)
         p = s / of_reflected
-        return s, p, 0.5 * (s - p), -s / sqrt(of_reflected), 0.0
+        return s, p, 0.5 * s * kept(of_reflected), -s / sqrt(of_reflected), 0.0
 
     return reflect
 
 
 def polarizing_transmission(xp: Primitives) -> KernelFunction:
     """Make ``(Tp/Ts, Rs/Rp) -> (Fs, Fp, B, C, S)`` of what is transmitted, without retardance."""
-    shares, sqrt = _shares(xp), xp.sqrt
+    share, kept, sqrt = _share(xp), _kept(xp), xp.sqrt
 
     def transmit(of_transmitted: Any, of_reflected: Any) -> tuple[Any, ...]:
-        p, _ = shares(of_transmitted, of_reflected)
+        p = share(of_reflected, of_transmitted)
         s = p / of_transmitted
-        return s, p, 0.5 * (s - p), p / sqrt(of_transmitted), 0.0
+        return s, p, -0.5 * p * kept(of_transmitted), p / sqrt(of_transmitted), 0.0
 
     return transmit
 
 
-def _shares(xp: Primitives) -> KernelFunction:
-    """Make ``(Tp/Ts, Rs/Rp) -> (Tp, Rs)`` without loss, Ts + Rs = Tp + Rp = 1."""
+def _share(xp: Primitives) -> Callable[[Any, Any], Any]:
+    """Make ``(t, r) -> (1 - 1/t) / (1 - 1/(r t))``: Rs without loss, Ts + Rs = Tp + Rp = 1."""
+    kept = _kept(xp)
+
+    def share(t: Any, r: Any) -> Any:
+        most = kept(t)
+        # The divisor as a sum of what is not negative.
+        return most / (most + kept(r) / t)
+
+    return share
+
+
+def _kept(xp: Primitives) -> Callable[[Any], Any]:
+    """Make ``ratio -> 1 - 1 / ratio`` with all its digits, of an infinite one as well."""
     minimum = xp.minimum
 
     def kept(ratio: Any) -> Any:
-        """Return 1 - 1 / ratio with all its digits."""
         finite = minimum(ratio, _LARGE)
         return (finite - 1.0) / finite
 
-    def shares(of_transmitted: Any, of_reflected: Any) -> tuple[Any, Any]:
-        p, s = kept(of_reflected), kept(of_transmitted)
-        # 1 - 1 / (r t), as a sum of what is not negative.
-        both = s + p / of_transmitted
-        return p / both, s / both
-
-    return shares
+    return kept

@@ -7,19 +7,23 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.circular_polarizer import CircularPolarizer
 from optipath.elements.combiner import Combiner
 from optipath.elements.coupling import Coupling
 from optipath.elements.depolarizer import Depolarizer
 from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.faraday_rotator import FaradayRotator
 from optipath.elements.interface import Interface
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
 from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
+from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.specular_vertex import SpecularVertex
+from optipath.elements.waveplate import Waveplate
 from optipath.errors import PathError
 from optipath.kernels.catalogue import INCIDENCE
 from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
@@ -96,6 +100,41 @@ def _(element: Retarder, _: Coupling, read: Reader) -> Jones:
 @jones.register
 def _(element: Rotator, _: Coupling, read: Reader) -> Jones:
     return turn(-read.angle(element.angle, 2))
+
+
+@jones.register
+def _(element: FaradayRotator, _: Coupling, read: Reader) -> Jones:
+    if element.angle is not None:
+        return turn(-read.angle(element.angle, 2))
+    factors = (read.real(factor) for factor in (element.verdet, element.field, element.length))
+    return turn(-read.near_multiple(mpmath.fprod(factors), 2))
+
+
+@jones.register
+def _(element: Waveplate, _: Coupling, read: Reader) -> Jones:
+    path = read.real(element.thickness) * read.real(element.birefringence)
+    retardance = 2 * mpmath.pi * path / read.real(element.wavelength)
+    return _retarding(read, read.move(retardance, 1), element.angle)
+
+
+@jones.register
+def _(element: CircularPolarizer, _: Coupling, read: Reader) -> Jones:
+    kept, lost = (mpmath.sqrt(read.real(t)) for t in (element.transmittance, element.leakage))
+    # The field (1, i) has S3 > 0.
+    i = mpmath.mpc(0, 1 if element.handedness == "right" else -1)
+    both, apart = (kept + lost) / 2, i * (kept - lost) / 2
+    return (both, -apart), (apart, both)
+
+
+@jones.register
+def _(element: PolarizingBeamSplitter, way: Coupling, read: Reader) -> Jones:
+    ratios = element.extinction_transmitted, element.extinction_reflected
+    u, v = (1 / read.real(ratio) for ratio in ratios)
+    if way.reflects:
+        s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
+        return _diagonal(mpmath.sqrt(s), -mpmath.sqrt(p))
+    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
+    return _diagonal(mpmath.sqrt(s), mpmath.sqrt(p))
 
 
 @jones.register

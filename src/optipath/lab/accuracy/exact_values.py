@@ -71,7 +71,7 @@ class Reader:
         """
         operand = Operand(value, part) if part else operand_of(value)
         number = exactly(self.pick(operand.numbers(self.given)))
-        self.decades += abs(int(mpmath.log10(number))) if number > 0 else 0
+        self.decades += abs(int(mpmath.log10(number))) if 0 < number < mpmath.inf else 0
         return number
 
     def index(self, value: Any) -> Any:
@@ -120,7 +120,23 @@ class Reader:
         mpf
             In radians.
         """
-        angle = self.real(per_length) * self.real(length)
+        return self.near_multiple(self.real(per_length) * self.real(length), turns)
+
+    def near_multiple(self, angle: Any, turns: int = 1) -> Any:
+        """Return an angle that is a product; a multiple of 45 degrees is one exactly.
+
+        Parameters
+        ----------
+        angle : mpf
+            In radians, its factors as floats have them.
+        turns : int, optional
+            As in `angle`.
+
+        Returns
+        -------
+        mpf
+            In radians.
+        """
         nearest = exact_angle(float(angle))
         # A multiple of 45 degrees is one, however its factors are rounded.
         return self.move(nearest if nearest != float(angle) else angle, turns)

@@ -28,6 +28,8 @@ def exactly(number: Any) -> Any:
     ...     print(exactly(np.float64(0.1)))
     0.100000000000000005551115123126
     """
+    if np.isinf(number):
+        return mpmath.mpf(float(number))
     mantissa, exponent = np.frexp(number)
     high = float(mantissa)
     rest = float(mantissa - type(mantissa)(high))

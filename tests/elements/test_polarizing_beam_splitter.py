@@ -1,0 +1,141 @@
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import optipath as op
+from chains import ENGINES
+
+STATE = (1.0, 0.3, 0.5, 0.6)
+T, R = op.Parameter("t"), op.Parameter("r")
+RATIOS = st.one_of(st.floats(1.000001, 1e20), st.floats(1.000001, 1.1), st.just(math.inf))
+
+
+def cube(t=T, r=R, state=STATE, enters="in", azimuth=0.0):
+    """A cube whose two ways out end at detectors."""
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=state))
+    path.add("cube", op.PolarizingBeamSplitter(t, r, azimuth))
+    path.connect("lamp.out", f"cube.{enters}")
+    for port in ("transmitted", "reflected"):
+        path.add(f"{port} light", op.Detector())
+        path.connect(f"cube.{port}", f"{port} light.in")
+    return path
+
+
+def exact(t, r):
+    """Ts, Tp, Rs and Rp in 50 digits, of 1/t and 1/r."""
+    with mpmath.workdps(50):
+        u, v = (0 if math.isinf(e) else 1 / mpmath.mpf(e) for e in (t, r))
+        both = 1 - u * v
+        return [(u * (1 - v)) / both, (1 - v) / both, (1 - u) / both, v * (1 - u) / both]
+
+
+def test_an_ideal_one_transmits_p_and_reflects_s():
+    ideal = op.PolarizingBeamSplitter()
+    through, off = (ideal.mueller("in", port).matrix for port in ("transmitted", "reflected"))
+    np.testing.assert_array_equal(through, op.Polarizer("vertical").mueller().matrix)
+    np.testing.assert_array_equal(off, op.Polarizer("horizontal").mueller().matrix)
+
+
+@settings(max_examples=200, deadline=None)
+@given(RATIOS, RATIOS)
+def test_nothing_is_lost_and_the_ratios_are_those_given(t, r):
+    element = op.PolarizingBeamSplitter(t, r)
+    through, off = (element.mueller("in", port).matrix for port in ("transmitted", "reflected"))
+    np.testing.assert_allclose((through + off)[:2, :2], np.eye(2), rtol=0, atol=3e-16)
+    Ts, Tp, Rs, Rp = (float(share) for share in exact(t, r))
+    for matrix, s, p in ((through, Ts, Tp), (off, Rs, Rp)):
+        assert matrix[0, 0] == pytest.approx((s + p) / 2, rel=1e-15)
+        assert abs(matrix[2, 2]) == pytest.approx(math.sqrt(s * p), rel=2e-15)
+    assert through[2, 2] >= 0.0 >= off[2, 2]
+    for matrix in (through, off):
+        assert op.Mueller(matrix).is_physical()
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("enters", ["in", "back"])
+def test_engines_agree_with_50_digits_from_either_side(engine, enters):
+    rng = np.random.default_rng(5)
+    t, r = 1.0 + 10.0 ** rng.uniform(-2, 6, (2, 300))
+    plan = op.Composer(engine=engine).compose(cube(enters=enters))
+    lights = plan.run_all(t=t, r=r)
+    through, off = lights["transmitted light"], lights["reflected light"]
+    if enters == "back":
+        through, off = off, through
+    s0, s1, s2, s3 = STATE
+    s, p = (s0 + s1) / 2, (s0 - s1) / 2
+    for place in range(0, 300, 10):
+        Ts, Tp, Rs, Rp = exact(t[place], r[place])
+        for light, x, y, sign in ((through, Ts, Tp, 1), (off, Rs, Rp, -1)):
+            across = float(sign * mpmath.sqrt(x * y))
+            wanted = [x * s + y * p, x * s - y * p, across * s2, across * s3]
+            found = np.asarray(light.stokes)[place]
+            np.testing.assert_allclose(found, np.array(wanted, float), rtol=0, atol=1e-15)
+
+
+def test_its_phases_are_those_of_a_beam_splitter():
+    state = (1.0, 0.0, 0.0, 1.0)
+    half = op.BeamSplitter().mueller("in", "reflected").matrix @ state
+    partial = op.PolarizingBeamSplitter(3.0, 3.0).mueller("in", "reflected").matrix @ state
+    assert half[3] < 0
+    assert partial[3] < 0
+
+
+def test_an_azimuth_turns_it_against_the_light():
+    lights = cube(math.inf, math.inf, (1.0, 1.0, 0.0, 0.0), azimuth=np.radians(30)).trace_all()
+    assert lights["reflected light"].intensity == pytest.approx(0.75, abs=1e-15)
+    assert lights["transmitted light"].intensity == pytest.approx(0.25, abs=1e-15)
+
+
+def test_world_frames_are_those_of_a_beam_splitter():
+    path = cube(1e3, 50.0)
+    frame = op.Frame()
+    aside = op.Frame.from_direction((0, 1, 0), (1, 0, 0))
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=STATE), {"out": frame})
+    path.add("cube", op.PolarizingBeamSplitter(), {"in": frame, "reflected": aside})
+    path["lamp"] >> path["cube"]
+    for port in ("transmitted", "reflected"):
+        path.add(port, op.Detector())
+        path.connect(f"cube.{port}", f"{port}.in")
+    lights = path.trace_all()
+    assert lights["transmitted"].frame == frame
+    assert lights["reflected"].frame == aside
+    path = op.PathGraph()
+    skew = op.Frame.from_direction((0, 1, 0), (0, 0, 1))
+    path.add("lamp", op.Source())
+    path.add("cube", op.PolarizingBeamSplitter(), {"in": frame, "reflected": skew})
+    path["lamp"] >> path["cube"]
+    path.connect("cube.reflected", path.add("eye", op.Detector()).name + ".in")
+    with pytest.raises(op.PathError, match="must share one x"):
+        path.trace()
+
+
+def test_a_ratio_may_be_written_as_one(tmp_path):
+    assert op.PolarizingBeamSplitter("1000:1", "40:2") == op.PolarizingBeamSplitter(1000, 20)
+    text = cube(1000.0, math.inf).to_toml()
+    assert "extinction_reflected = inf" in text
+    (tmp_path / "x.toml").write_text(text.replace("= 1000.0", '= "1000:1"'), "utf-8")
+    assert op.load_preset(tmp_path / "x.toml") == cube(1000.0, math.inf)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "fault"),
+    [
+        (1.0, "is 1; give a real extinction ratio of 1.000001 or more, or infinity"),
+        (0.01, "is 0.01; give a real extinction ratio of 1.000001 or more"),
+        (math.nan, "is nan"),
+        ("1:0", "'1:0' is no ratio of two numbers; write '1000:1', or inf"),
+        ("1000:x", "'x' is not a quantity"),
+    ],
+)
+def test_what_is_no_ratio_beyond_1_is_refused(ratio, fault):
+    with pytest.raises(op.OptipathError, match=fault):
+        op.PolarizingBeamSplitter(ratio)
+    if not isinstance(ratio, str):
+        with pytest.raises(op.OptipathError):
+            cube().trace_all(t=ratio, r=10.0)
