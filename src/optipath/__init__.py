@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from optipath.elements.mirror import Mirror
     from optipath.elements.mueller_element import MuellerElement
     from optipath.elements.polarizer import Polarizer
+    from optipath.elements.refracting_vertex import RefractingVertex
     from optipath.elements.retarder import Retarder
     from optipath.elements.rotator import Rotator
     from optipath.elements.source import Source
@@ -138,6 +139,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Polarizer",
     "PresetError",
     "Real",
+    "RefractingVertex",
     "Retarder",
     "Rotator",
     "ShapeError",
@@ -176,6 +178,7 @@ _HOMES = {
     "elements.mirror": ["Mirror"],
     "elements.mueller_element": ["MuellerElement"],
     "elements.polarizer": ["Polarizer"],
+    "elements.refracting_vertex": ["RefractingVertex"],
     "elements.retarder": ["Retarder"],
     "elements.rotator": ["Rotator"],
     "elements.source": ["Source"],

@@ -15,6 +15,7 @@ from optipath.elements.medium import Medium
 from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
+from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.registry import KINDS
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
@@ -35,6 +36,7 @@ STANDARD = (
     Mirror,
     MuellerElement,
     Polarizer,
+    RefractingVertex,
     Retarder,
     Rotator,
     Source,
