@@ -93,7 +93,7 @@ def path_from_vertices(
 
     Straight down through a pane, with an echo in it:
 
-    >>> down = [[0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 2], [0, 0, 0]]
+    >>> down = [[0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
     >>> pane = path_from_vertices(down, materials=[1.5, 1.0, 1.0, 1.0], events="TRRT")
     >>> float(pane.trace().intensity.round(9))
     0.00147456
