@@ -8,7 +8,7 @@ from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION
-from optipath.values.domains.quantities import Whole  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.values.domains.quantities import Whole
 
 
 class SpecularVertex(ChainVertex, kind="specular-vertex"):
