@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from optipath.elements.mueller_element import MuellerElement
     from optipath.elements.polarizer import Polarizer
     from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
+    from optipath.elements.refracting_vertex import RefractingVertex
     from optipath.elements.retarder import Retarder
     from optipath.elements.rotator import Rotator
     from optipath.elements.source import Source
@@ -146,6 +147,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "PolarizingBeamSplitter",
     "PresetError",
     "Real",
+    "RefractingVertex",
     "Retarder",
     "Rotator",
     "ShapeError",
@@ -189,6 +191,7 @@ _HOMES = {
     "elements.mueller_element": ["MuellerElement"],
     "elements.polarizer": ["Polarizer"],
     "elements.polarizing_beam_splitter": ["PolarizingBeamSplitter"],
+    "elements.refracting_vertex": ["RefractingVertex"],
     "elements.retarder": ["Retarder"],
     "elements.rotator": ["Rotator"],
     "elements.source": ["Source"],

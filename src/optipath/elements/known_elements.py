@@ -18,6 +18,7 @@ from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
 from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
+from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.registry import KINDS
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
@@ -42,6 +43,7 @@ STANDARD = (
     MuellerElement,
     Polarizer,
     PolarizingBeamSplitter,
+    RefractingVertex,
     Retarder,
     Rotator,
     Source,

@@ -122,12 +122,17 @@ class Inputs:
         lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
         media = [name for name, value in given.items() if isinstance(value, Material)]
         faults += broadcast_fault(shapes, [*self.shapes, *media], lists)
-        faults = faults or first_faults(self.agreements, resolved)
+        faults = faults or first_faults(self.agreements if plain is None else self.hidden, resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.
         if faults:
             raise ParameterError(*faults)
         return resolved, joint_shape(*shapes.values())
+
+    @cached_property
+    def hidden(self) -> tuple[Agreement, ...]:
+        """What must fit together, but where light itself shows that it does not."""
+        return tuple([law for law in self.agreements if not law.shows_in_light])
 
     @cached_property
     def distinct_uses(self) -> tuple[Use, ...]:

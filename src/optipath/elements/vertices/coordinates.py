@@ -29,9 +29,21 @@ class Coordinates(NamedTuple):
     arguments: tuple[Operand, ...]
     points: PointsByAngles | None
 
-    def given_to(self, kernel: Kernel) -> Operation:
-        """Return the operation of a kernel of coordinates."""
-        return Operation(kernel, self._coordinates(self.points))
+    def given_to(self, kernel: Kernel, *before: Any) -> Operation:
+        """Return the operation of a kernel of coordinates.
+
+        Parameters
+        ----------
+        kernel : Kernel
+            What is computed.
+        *before
+            What it is given before the coordinates.
+
+        Returns
+        -------
+        Operation
+        """
+        return Operation(kernel, (*before, *self._coordinates(self.points)))
 
     def planes(self, kernel: Kernel) -> Operation:
         """Return the operation of a kernel of planes of incidence, by `OfPlanes`.
