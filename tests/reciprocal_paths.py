@@ -49,7 +49,7 @@ class ReciprocalPath(Draw):
             element = op.BeamSplitter(self.number(0.1, 0.9), self.turn())
             self.splitters.append((name, medium))
         element = standing_in(element, medium)
-        turn = None if getattr(element, "azimuth", 0.0) is not 0.0 else self.link_turn()  # noqa: F632
+        turn = None if hasattr(element, "azimuth") else self.link_turn()
         self.built.add(name, element)
         self.built.connect(light, f"{name}.in", azimuth=turn)
         for way in sorted({c.leaves for c in element.couplings() if c.enters == "in"}):

@@ -158,15 +158,20 @@ class _Turning:
                     f"each a detector of its own, or put a BeamSplitter where they meet"
                 )
         used = {end for link in self.wiring.graph.edges(keys=True) for end in _ends(link)}
-        for name, port in sorted(used):
-            element = self.before[name]
-            others = element.outputs if port in element.inputs else element.inputs
-            if element.inputs and element.outputs and element.port_back(port) not in others:
-                yield (
-                    f"'{name}' has no way back: element class {type(element).__name__} does not "
-                    f"say by which port light goes back that '{port}' takes on the way there; "
-                    f"give it a class method port_back(port)"
-                )
+        for name in sorted({name for name, port in used if not self._has_back(name, port)}):
+            yield (
+                f"'{name}': element class {type(self.before[name]).__name__} does not say by "
+                f"which port light goes back; give it a class method port_back(port), which "
+                f"returns an out-port for an in-port, and the other way"
+            )
+
+    def _has_back(self, name: str, port: str) -> bool:
+        """Tell whether light may go back by a port of a node."""
+        element = self.before[name]
+        if not element.inputs or not element.outputs:
+            return True
+        others = element.outputs if port in element.inputs else element.inputs
+        return element.port_back(port) in others
 
     def frames(self, name: str) -> dict[str, Frame]:
         """Return the world frames of a node: those of light that goes back."""

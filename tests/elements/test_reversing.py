@@ -1,0 +1,262 @@
+"""Elements on the way back: what light meets that goes through them the other way."""
+
+from typing import ClassVar
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.elements.known_elements import STANDARD
+
+POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2], [1, -2.0, -1.0]])
+FOIL = (op.Retarder(1.0, 0.3) @ op.Diattenuator(0.9, 0.3, 0.8) @ op.Rotator(0.2)).matrix
+
+ELEMENTS = [
+    op.Attenuator(0.3),
+    op.BeamSplitter(0.3),
+    op.CircularPolarizer("left", 0.9, 0.1),
+    op.Depolarizer(0.3),
+    op.Diattenuator(0.8, 0.3, 0.4),
+    op.Interface(1.5, 1.2),
+    op.Interface(0.2 + 3j, 1.2, outside=1.3),
+    op.LayerStack([1.0, 1.5, 1.7], 0.7),
+    op.Medium(0.1, 2.0, retardance=3.0, angle=0.3),
+    op.Medium(0.1, 2.0, rotation=3.0),
+    op.Medium(0.1, dextrorotation=[1.0, 2.0]),
+    op.Mirror(-0.97 + 0.12j, 0.92 - 0.26j),
+    op.MuellerElement(FOIL),
+    op.MuellerElement(op.Parameter("m", FOIL, bound=True)),
+    op.Polarizer(0.3, transmittance=0.9, leakage=0.2),
+    op.PolarizingBeamSplitter("1000:1", 20.0),
+    op.RefractingVertex(1.5, POINTS, 1),
+    op.Retarder([0.4, 1.0], 0.3),
+    op.Rotator(0.3),
+    op.SpecularVertex(0.2 + 3j, POINTS, 2),
+    op.Waveplate(1e-3, 0.009, 589e-9, 0.3),
+]
+"""Each that is reciprocal, and lets light through."""
+
+OTHERS = {op.Combiner, op.Detector, op.Dump, op.FaradayRotator, op.Source}
+
+
+def ways(element):
+    return [(way.enters, way.leaves) for way in element.couplings()]
+
+
+def named(element):
+    return type(element).__name__
+
+
+def test_every_kind_of_the_library_is_looked_at():
+    assert {type(element) for element in ELEMENTS} | OTHERS == {*STANDARD}
+
+
+@pytest.mark.parametrize("element", ELEMENTS, ids=named)
+def test_a_reversed_element_does_what_its_reversed_matrix_does(element):
+    back, placed = element.reversed(), element.self_placed
+    for enters, leaves in ways(element):
+        if np.any(np.imag(getattr(element, "index", 0.0))) and "back" in (enters, leaves):
+            continue
+        if leaves == "transmitted" and np.any(np.imag(getattr(element, "index", 0.0))):
+            continue  # No light comes back out of what absorbs.
+        expected = element.mueller(enters, leaves).reversed()
+        frame = {} if placed or not element.straight else {"frame_in": expected.frame_in}
+        found = back.mueller(element.port_back(leaves), element.port_back(enters), **frame)
+        np.testing.assert_allclose(found.matrix, expected.matrix, atol=3e-16)
+        if placed or frame:  # x, and with it y, may point the other way along their lines.
+            assert expected.frame_in.turn_to(found.frame_in)[0] == pytest.approx(1.0, abs=1e-14)
+            assert expected.frame_out.turn_to(found.frame_out)[0] == pytest.approx(1.0, abs=1e-14)
+
+
+@pytest.mark.parametrize("element", ELEMENTS, ids=named)
+def test_back_and_forth_is_the_same_element(element):
+    there = element.reversed().reversed()
+    if isinstance(element, op.MuellerElement):  # Its parameter is a number then.
+        assert np.array_equal(there.mueller().matrix, element.mueller().matrix)
+    else:
+        assert there == element
+
+
+@pytest.mark.parametrize("element", ELEMENTS, ids=named)
+def test_every_port_goes_back_to_the_other_side(element):
+    for port in (*element.inputs, *element.outputs):
+        back = element.port_back(port)
+        assert (back in element.outputs) == (port in element.inputs)
+        assert element.port_back(back) == port
+
+
+AXES = [
+    op.Polarizer(0.3, 0.5, 0.9, 0.1),
+    op.Diattenuator(0.9, 0.2, 0.3, 0.5),
+    op.Retarder(1.0, 0.3, 0.5),
+    op.Waveplate(1e-3, 0.009, 589e-9, 0.3, 0.5),
+    op.Medium(0.1, 2.0, retardance=9.0, angle=0.3, azimuth=0.5),
+]
+
+
+@pytest.mark.parametrize("element", AXES, ids=named)
+def test_an_element_with_an_azimuth_is_met_in_the_frame_that_it_has_turned(element):
+    there = element.mueller().reversed()
+    light = op.Light([1.0, 0.3, 0.4, -0.5], there.frame_in)
+    found = (element.reversed() @ light).in_frame(there.frame_out)
+    np.testing.assert_allclose(found.stokes, (there @ light).stokes, atol=1e-15)
+
+
+@pytest.mark.parametrize("element", AXES, ids=named)
+def test_a_chain_of_reversed_elements_with_azimuths_is_the_reversed_chain(element):
+    there = op.Source() >> element >> op.Retarder(0.7, 0.2, -0.4) >> op.Detector()
+    back = op.Source() >> op.Retarder(0.7, 0.2, -0.4).reversed() >> element.reversed()
+    found = (back >> op.Detector()).mueller().matrix
+    np.testing.assert_allclose(found, there.mueller().reversed().matrix, atol=1e-15)
+
+
+def test_parameters_change_their_sign_and_no_more():
+    angle = op.Parameter("a", "30 deg", minimum="-90 deg", maximum="90 deg", help="axis")
+    plate = op.Retarder(op.Parameter("r"), 2 * angle + "10 deg").reversed()
+    assert plate.angle == -2 * angle - "10 deg"
+    assert plate.retardance == op.Retarder(op.Parameter("r")).retardance
+
+
+def test_faradays_rotation_changes_its_sign_and_natural_rotation_does_not():
+    assert op.FaradayRotator(0.3).reversed() == op.FaradayRotator(-0.3)
+    glass = op.FaradayRotator(verdet=5.0, field=2.0, length=0.1)
+    assert glass.reversed() == op.FaradayRotator(verdet=5.0, field=-2.0, length=0.1)
+    assert op.Rotator(0.3).reversed() == op.Rotator(0.3)
+
+
+def test_a_matrix_does_not_know_of_a_magnetic_field():
+    rotator = op.FaradayRotator(0.3)
+    difference = rotator.mueller().reversed().matrix - rotator.reversed().mueller().matrix
+    assert abs(difference).max() == pytest.approx(2.0 * np.sin(0.6))
+
+
+def test_angles_beyond_a_turn_are_warned_of_once():
+    with pytest.warns(op.AngleWarning):
+        plate = op.Polarizer(45)
+    assert plate.reversed().angle == -45.0
+
+
+def test_what_needs_no_other_values_is_itself():
+    interface = op.Interface(1.5, 0.3)
+    assert interface.reversed() is interface
+
+
+REFUSED = [
+    (op.Source(), "light begins at source, which has no way back of its own"),
+    (op.Detector(), "light ends at detector, which has no way back of its own"),
+    (op.Combiner(), "combiner adds up light without loss, which has no way back; put a Beam"),
+    (op.Interface(1.5, 0.3, azimuth=0.1), "interface has an azimuth, which belongs to the link"),
+    (op.Mirror(azimuth=op.Parameter("a")), "mirror has an azimuth, which belongs to the link"),
+    (op.MuellerElement(FOIL, azimuth=0.1), "mueller has an azimuth, which belongs to the link"),
+    (
+        op.Polarizer(op.Parameter("a"), op.Parameter("b")),
+        "polarizer.angle and polarizer.azimuth are values that make no one angle",
+    ),
+    (op.MuellerElement(op.Parameter("m")), r"bind it first, path.bind\(m=...\)"),
+    (
+        op.SpecularVertex(1.5, op.VerticesByAngles((0.3,)), 1),
+        "given by angles, which put them into a world of their own",
+    ),
+    (
+        op.SpecularVertex(1.5, op.Parameter("points"), 1, reflections=1),
+        r"bind them first, path.bind\(points=...\)",
+    ),
+    (
+        op.RefractingVertex(1.5, POINTS, 1, outside=op.FOLLOWS),
+        r"takes its outside over from the vertex before it \(FOLLOWS\)",
+    ),
+]
+
+
+@pytest.mark.parametrize(("element", "sentence"), REFUSED, ids=[text for _, text in REFUSED])
+def test_what_has_no_way_back_by_itself_is_refused_with_the_cure(element, sentence):
+    with pytest.raises(op.PathError, match=sentence):
+        element.reversed()
+
+
+class Turning:
+    """What the elements of one's own below do."""
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        c, s = xp.cos(2.0 * angle), xp.sin(2.0 * angle)
+        return (1, 0, 0, 0), (0, c, -s, 0), (0, s, c, 0), (0, 0, 0, 1)
+
+
+class Unsaid(op.Element):
+    angle: op.Angle = 0.3
+    mueller_rows = Turning.__dict__["mueller_rows"]
+
+
+class Natural(Unsaid):
+    mirrored = ()
+
+
+class Magnetic(Unsaid):
+    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
+
+
+class Turned(op.Element):
+    angle: op.Axis = 0.3
+    azimuth: op.Angle = 0.0
+    mirrored = ("angle",)
+    mueller_rows = Turning.__dict__["mueller_rows"]
+
+
+class Share(op.Element):
+    share: op.Fraction = 0.3
+    mirrored = ("share",)
+
+    def couplings(self):
+        return op.Attenuator(self.share).couplings()
+
+
+class FastPolarizer(op.Polarizer):
+    """It inherits what changes its sign, and what it does to light."""
+
+
+class OtherPolarizer(op.Polarizer):
+    """It does something else, of which nobody knows what changes its sign."""
+
+    def couplings(self):
+        return op.Retarder(self.angle).couplings()
+
+
+def test_a_class_of_ones_own_names_the_fields_that_change_their_sign():
+    assert Natural(0.3).reversed() == Natural(0.3)
+    assert Magnetic(0.3).reversed() == Magnetic(-0.3)
+    assert FastPolarizer(0.3).reversed() == FastPolarizer(-0.3)
+
+
+@pytest.mark.parametrize("element", [Unsaid(), OtherPolarizer(0.3)], ids=named)
+def test_a_class_of_ones_own_that_says_nothing_is_refused(element):
+    name = type(element).__name__
+    with pytest.raises(op.PathError, match=f"element class {name} does not say what changes"):
+        element.reversed()
+
+
+def test_an_azimuth_of_ones_own_element_is_left_to_the_path():
+    assert Turned(0.3).reversed().angle == -0.3
+    with pytest.raises(op.PathError, match="has an azimuth, which belongs to the link"):
+        Turned(0.3, 0.1).reversed()
+
+
+def test_a_value_that_may_have_no_other_sign_is_refused():
+    with pytest.raises(op.PathError, match=r"on the way back, Share.share is -0.3; give"):
+        Share().reversed()
+
+
+def test_names_that_are_no_fields_are_refused_when_the_class_is_made():
+    with pytest.raises(op.PathError) as caught:
+
+        class Wrong(op.Element):
+            angle: op.Angle = 0.0
+            azimuth: op.Angle = 0.0
+            mirrored = ("angel", "azimuth")
+
+    assert "names 'angel', which is none of its fields" in str(caught.value)
+    assert "names 'azimuth', whose links say how it is turned" in str(caught.value)
+    with pytest.raises(op.PathError, match=r"must be names of fields, not \(1,\)"):
+
+        class Worse(op.Element):
+            mirrored = (1,)

@@ -1,0 +1,349 @@
+"""Paths run the other way, and the theorem of reciprocity between both."""
+
+import os
+import re
+
+import numpy as np
+import pytest
+
+import optipath as op
+from reciprocal_paths import ReciprocalPath, matrices_there_and_back
+
+# The environment asks for more, such as the thousand graphs that were looked at once.
+GRAPHS = int(os.environ.get("OPTIPATH_RECIPROCAL_PATHS", "100"))
+CORNER = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 2.2, 2], [2.5, 2.0, 2.2]])
+
+
+class Faraday(op.Element):
+    """A rotation that changes its sign, written as a user would."""
+
+    angle: op.Angle
+    mirrored = ("angle",)
+
+    @staticmethod
+    def mueller_rows(xp, angle):
+        c, s = xp.cos(2.0 * angle), xp.sin(2.0 * angle)
+        return (1, 0, 0, 0), (0, c, -s, 0), (0, s, c, 0), (0, 0, 0, 1)
+
+
+def same_matrix(path, *, atol=1e-14, **values):
+    """Whether the matrix of the reversed path is the reversed matrix of the path."""
+    there, back = path.mueller(**values).reversed(), path.reversed().mueller(**values)
+    np.testing.assert_allclose(back.matrix, there.matrix, rtol=0, atol=atol)
+    return True
+
+
+@pytest.mark.parametrize("tens", range(GRAPHS // 10))
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_random_graphs_obey_the_theorem_of_reciprocity(tens):
+    looked_at, seed = 0, 100 * tens
+    while looked_at < 10:
+        seed += 1
+        drawn = ReciprocalPath(seed)
+        path = drawn.path()
+        try:
+            pairs = list(matrices_there_and_back(path, drawn.values))
+        except (op.PathError, op.ParameterError) as error:
+            # Which faces are parallel cannot be said of every wedge; that is told.
+            assert "n sin(incidence)" in str(error) or "parallel=False" in str(error)  # noqa: PT017
+            continue
+        looked_at += 1
+        for there, back in pairs:
+            apart = abs(there.matrix - back.matrix).max()
+            assert apart <= 1e-13 * there.matrix[0, 0], seed
+
+
+def test_hardly_any_random_graph_is_refused():
+    for seed in range(1, 11):
+        drawn = ReciprocalPath(seed)
+        assert list(matrices_there_and_back(drawn.path(), drawn.values))
+
+
+@pytest.mark.parametrize("rotator", [op.FaradayRotator(0.4), Faraday(0.4)])
+def test_with_a_faraday_rotator_the_theorem_does_not_hold(rotator):
+    path = op.Source() >> op.Polarizer(0.0) >> rotator >> op.Polarizer(0.7) >> op.Detector()
+    there, back = path.mueller().reversed().matrix, path.reversed().mueller().matrix
+    assert there[0, 0] == pytest.approx(0.5 * np.cos(0.3) ** 2)
+    assert back[0, 0] == pytest.approx(0.5 * np.cos(1.1) ** 2)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_random_graphs_with_a_faraday_rotator_do_not_obey(seed):
+    rng = np.random.default_rng(seed)
+    chain = op.Source()
+    for _ in range(3):
+        chain = chain >> op.Retarder(*rng.uniform(0.3, 2.0, 2)) >> op.Diattenuator(0.9, 0.1, 0.4)
+        chain = chain >> op.FaradayRotator(rng.uniform(0.2, 0.6))
+    path = chain >> op.Detector()
+    there, back = path.mueller().reversed().matrix, path.reversed().mueller().matrix
+    assert abs(there - back).max() > 1e-3 * there[0, 0]
+
+
+def test_an_isolator_lets_light_through_one_way():
+    eighth = np.pi / 4
+    path = op.Source() >> op.Polarizer(0.0) >> op.FaradayRotator(eighth) >> op.Polarizer(eighth)
+    path = path >> op.Detector()
+    assert path.trace().intensity == pytest.approx(0.5)
+    assert path.reversed().trace().intensity < 1e-30
+
+
+def test_azimuths_of_elements_and_links_stand_at_their_links():
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    path.add("plate", op.Retarder(1.0, 0.2, azimuth=0.3))
+    path.add("foil", op.Polarizer(0.5, leakage=0.1))
+    path.add("pane", op.Interface(1.5, 0.7, azimuth=-0.6))
+    path.add("eye", op.Detector())
+    path.connect("lamp", "plate")
+    path.connect("plate", "foil", azimuth=0.4)
+    path.connect("foil", "pane")
+    path.connect("pane", "eye", azimuth=0.9)
+    back = path.reversed()
+    turns = {(a, b): turn for a, b, turn in back.graph.edges(data="azimuth")}
+    assert turns == {
+        ("eye", "pane"): 0.9,
+        ("pane", "foil"): -0.6,
+        ("foil", "plate"): 0.4,
+        ("plate", "lamp"): 0.3,
+    }
+    assert same_matrix(path)
+
+
+def test_a_path_with_turns_at_its_links_is_the_same_back_and_forth():
+    drawn = ReciprocalPath(3)
+    once = drawn.path().reversed().reversed()
+    assert once.reversed().reversed() == once
+    path = op.Source(stokes=(1, 1, 0, 0)) >> op.Retarder(op.Parameter("r"), 0.3) >> op.Detector()
+    assert path.reversed().reversed(path.element("source")) == path
+
+
+def test_light_of_many_faces_goes_back_by_the_same_ways():
+    assert same_matrix(op.load_preset("fresnel-rhomb"))
+    for preset in ("glass-slab", "pile-of-plates"):
+        path = op.load_preset(preset)
+        back = path.reversed()
+        (lamp,) = (name for name in path if not path.element(name).inputs)
+        for name in (name for name in path if not path.element(name).outputs):
+            there, found = path.mueller(lamp, name).reversed(), back.mueller(name, lamp)
+            np.testing.assert_allclose(found.matrix, there.matrix, atol=1e-15)
+
+
+def test_faces_at_an_angle_stay_at_an_angle():
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    path.add("front", op.Interface(1.5, 0.7))
+    path.add("side", op.Interface(1.0, 0.4, outside=1.5, parallel=False))
+    path.add("eye", op.Detector())
+    path.connect("lamp", "front")
+    path.connect("front.transmitted", "side")
+    path.connect("side.transmitted", "eye")
+    back = path.reversed()
+    assert [back.element(name).parallel for name in ("front", "side")] == [False, True]
+    assert same_matrix(path)
+    assert back.reversed() == path
+
+
+def test_what_a_face_takes_over_it_has_on_the_way_back():
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    path.add("front", op.Interface(op.Parameter("n", 1.5), 0.7))
+    path.add("rear", op.Interface(1.0, op.FOLLOWS, outside=op.FOLLOWS))
+    path.add("eye", op.Detector())
+    path.connect("lamp", "front")
+    path.connect("front.transmitted", "rear")
+    path.connect("rear.transmitted", "eye")
+    rear = path.reversed().element("rear")
+    assert (rear.outside, rear.incidence, rear.incidence_in) == (op.Parameter("n", 1.5), 0.7, 1.0)
+    assert same_matrix(path, n=np.array([1.3, 1.7]))
+
+
+def test_frames_in_the_world_are_those_of_light_that_goes_back():
+    there = op.plane_of_incidence((0, 0, 1), (0, 1, -1))
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(), {"out": there.arriving.turned(0.3)})
+    frames = {"in": there.arriving, "reflected": there.reflected}
+    pane = path.add("pane", op.Interface(0.2 + 3j, there.incidence), frames)
+    lamp >> pane >> path.add("eye", op.Detector())
+    there, back = path.mueller().reversed(), path.reversed().mueller()
+    np.testing.assert_allclose(back.matrix, there.matrix, atol=1e-15)
+    assert back.frame_in == there.frame_in
+    assert back.frame_out == there.frame_out
+
+
+def test_a_chain_of_points_is_run_from_its_end():
+    path = op.path_from_vertices(CORNER, [1.5, 0.2 + 3j])
+    there, back = path.mueller().reversed(), path.reversed().mueller()
+    np.testing.assert_allclose(back.matrix, there.matrix, atol=1e-15)
+    for first, second in ((there.frame_in, back.frame_in), (there.frame_out, back.frame_out)):
+        np.testing.assert_allclose(first.turn_to(second), (1.0, 0.0), atol=1e-14)
+
+
+def test_vertices_of_one_chain_share_their_points_on_the_way_back():
+    back = op.path_from_vertices(CORNER, [1.5, 0.2 + 3j]).reversed()
+    assert back.element("vertex1").vertices is back.element("vertex2").vertices
+
+
+def test_a_chain_that_refracts_goes_back_from_its_last_medium():
+    points = [[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2], [1, -2.0, -1.0]]
+    path = op.path_from_vertices(points, [1.5, 0.2 + 3j, 1.0], events="TRT")
+    back = path.reversed()
+    assert [
+        (back.element(f"vertex{k}").outside, back.element(f"vertex{k}").index) for k in (3, 1)
+    ] == [
+        (1.0, 1.5),
+        (1.5, 1.0),
+    ]
+    assert same_matrix(path)
+
+
+@pytest.mark.parametrize("straight_back", [True, False])
+def test_what_stands_beside_a_vertex_without_a_plane_stands_as_it_did(straight_back):
+    # The first vertex turns the light aside; at the second it comes back along its way.
+    end = [0.0, 0.3, 2.0] if straight_back else [0.2, 0.3, 2.0]
+    points = np.array([[0.3, 0, 0], [0, 0, 2.0], [0.0, 2.2, 2.0], end])
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("one", op.SpecularVertex(0.2 + 3j, points, 1))
+    path["one"] >> path.add("two", op.SpecularVertex(1.5, points, 2))
+    path["two"] >> path.add("foil", op.Polarizer(0.4)) >> path.add("eye", op.Detector())
+    assert same_matrix(path)
+
+
+def test_a_loop_is_run_the_other_way():
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source())
+    path.add("split", op.BeamSplitter(0.3, azimuth=0.2))
+    path.add("plate", op.Retarder(1.0, 0.3, azimuth=0.4))
+    path.add("foil", op.Diattenuator(0.9, 0.4, 0.7))
+    path.add("eye", op.Detector())
+    path.connect("lamp", "split")
+    path.connect("split.transmitted", "plate")
+    path.connect("plate", "foil")
+    path.connect("foil", "split.back", azimuth=0.5)
+    path.connect("split.reflected", "eye")
+    assert path.reversed().loops == "sum"
+    assert same_matrix(path)
+
+
+def test_light_begins_at_the_detectors_as_it_is_told():
+    path = op.PathGraph()
+    path.add("lamp", op.Source(7.0)) >> path.add("split", op.BeamSplitter(0.3))
+    path["split.transmitted"] >> path.add("eye", op.Detector("intensity"))
+    path["split.reflected"] >> path.add("wall", op.Dump())
+    assert path.reversed().trace().intensity == pytest.approx(0.7)
+    assert path.reversed(op.Source(10.0)).trace().intensity == pytest.approx(7.0)
+    both = path.reversed({"eye": op.Source(10.0), "wall": op.Source(20.0)})
+    assert both.trace().intensity == pytest.approx(13.0)
+    assert path.reversed().reversed().element("wall") == op.Dump()
+    assert both.element("lamp") == op.Detector()
+
+
+def test_parameters_defaults_cases_and_the_description_stay():
+    path = op.load_preset("npgr026")
+    back = path.reversed()
+    assert {**path.parameters, "intensity": None} == {**back.parameters, "intensity": None}
+    assert back.description == path.description
+    assert back.cases["8"].values["delta"] == path.cases["8"].values["delta"]
+    assert "intensity" not in back.parameters
+    assert not back.cases["8"].published
+    there, at = path.mueller(delta=0.4, rho=0.3, filter=0.2), {"delta": 0.4, "rho": 0.3}
+    np.testing.assert_allclose(
+        back.mueller(**at, filter=0.2).matrix, there.reversed().matrix, atol=1e-16
+    )
+
+
+def test_a_reversed_path_is_written_and_read_back(tmp_path):
+    file = tmp_path / "back.toml"
+    back = op.load_preset("npgr026").reversed()
+    file.write_text(back.to_toml(), "utf-8")
+    assert op.load_preset(file) == back
+
+
+def placed(*, azimuth=0.0):
+    path = op.Source() >> op.Polarizer(0.2) >> op.Retarder(1.0, 0.3, azimuth) >> op.Mirror()
+    path = path >> op.Detector()
+    behind = {"lamp": "source.out", "between": "retarder.out", "eye": "mirror.reflected"}
+    path.offer("place", "polarizer", behind)
+    return path
+
+
+@pytest.mark.parametrize("place", ["lamp", "between", "eye"])
+def test_a_choice_of_places_stays_where_nothing_is_turned(place):
+    chosen = placed().bind(place=place).mueller().reversed()
+    found = placed().reversed().bind(place=place).mueller()
+    np.testing.assert_allclose(found.matrix, chosen.matrix, atol=1e-15)
+
+
+def test_what_is_chosen_stays_chosen_where_a_turn_stands_beside_a_place():
+    path = placed(azimuth=0.4)
+    path.cases["one"] = op.Case({"place": "eye"})
+    back = path.reversed()
+    assert not back.choices
+    assert not back.cases
+    assert same_matrix(path)
+    assert same_matrix(path.bind(place="eye"))
+
+
+class Unsaid(op.Element):
+    mueller_rows = Faraday.__dict__["mueller_rows"]
+    angle: op.Angle = 0.0
+
+
+class Fork(op.Element):
+    outputs = ("left", "right")
+    natural = "left"
+    mirrored = ()
+
+    def couplings(self):
+        half = op.Attenuator(0.5).couplings()[0].operations
+        return tuple(op.Coupling("in", way, half) for way in self.outputs)
+
+
+def test_all_that_has_no_way_back_is_told_at_once():
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("mine", Unsaid()) >> path.add("fork", Fork())
+    path.add("both", op.Combiner())
+    path.connect("fork.left", "both")
+    path.connect("fork.right", "both")
+    path.connect("both", path.add("eye", op.Detector()).name)
+    path.add("second", op.Source())
+    path.connect("second", "eye")
+    path.connect("mine", path.add("tap", op.Detector()).name, tap=True)
+    with pytest.raises(op.PathError) as caught:
+        path.reversed({"ey": op.Source(), "tap": op.Detector()})
+    told = caught.value.faults
+    for sentence in (
+        "source['ey']: no light ends there; did you mean 'eye'?",
+        "source['tap'] must be a Source, not Detector(reads='stokes')",
+        "'mine': element class Unsaid does not say what changes its sign on the way back; write",
+        "'both': combiner adds up light without loss, which has no way back; put a BeamSplitter",
+        "link 'mine.out -> tap.in' is a tap, which takes nothing of the light",
+        "light of 'both.out' and 'second.out' adds up at 'eye.in', which has no way back",
+        "'fork': element class Fork does not say by which port light goes back; give it a class",
+    ):
+        assert any(sentence in fault for fault in told), sentence
+
+
+def test_several_detectors_are_given_their_light_by_name():
+    path = op.Source() >> op.BeamSplitter()
+    path["beam-splitter.transmitted"] >> op.Detector()
+    path["beam-splitter.reflected"] >> op.Detector()
+    with pytest.raises(op.PathError, match=re.escape("give it by name, source={'detector': ...}")):
+        path.reversed(op.Source())
+
+
+def test_the_cures_work_as_they_are_written():
+    path = op.Source() >> op.Polarizer() >> op.Detector()
+    path.connect("polarizer.out", path.add("tap", op.Detector()).name, tap=True)
+    with pytest.raises(op.PathError, match=re.escape("path.disconnect('polarizer.out', 'tap.in')")):
+        path.reversed()
+    path.disconnect("polarizer.out", "tap.in")
+    path.remove("tap")
+    assert same_matrix(path)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_path_stays_what_it_was(seed):
+    path = ReciprocalPath(seed).path()
+    before = path.to_toml()
+    path.reversed()
+    assert path.to_toml() == before
