@@ -9,10 +9,9 @@ from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.vertices.frame import VertexFrame
-from optipath.elements.vertices.place import PlaceInChain
-from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
+from optipath.elements.vertices.place import PlaceInChain, same_points
+from optipath.elements.vertices.vertex_domain import Bad, Vertices, VerticesDomain
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION, TURN_BETWEEN_PLANES
-from optipath.values.arrays.read_only import same
 from optipath.values.domains.quantities import Index, OutsideIndex, Whole
 from optipath.values.made import refuse
 from optipath.values.materials import Material
@@ -44,6 +43,9 @@ class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
         The index of the medium that light comes from, without absorption.
     reflections : int, optional
         How many there are, m; needed only where `vertices` is a parameter without default.
+    bad : {"refuse", "mask"}, optional
+        Whether chains that cannot be, as those with a leg of no length, are refused, or have
+        light that is NaN.
 
     Examples
     --------
@@ -62,6 +64,7 @@ class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
     place: Whole
     outside: OutsideIndex = 1.0
     reflections: Whole | None = None
+    bad: Bad = "refuse"
 
     def __post_init__(self) -> None:
         """Check besides that there is such a place in the chain."""
@@ -78,9 +81,9 @@ class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
         for name, domain in self.domains().items():
             value = getattr(self, name)
             if isinstance(domain, VerticesDomain):
-                whole = replace(domain, tail=self.in_chain.tail)
+                whole = replace(domain, tail=self.in_chain.tail, masks=self.bad == "mask")
                 yield from whole.parts(name, value)
-            elif name not in ("place", "reflections"):
+            elif name not in ("place", "reflections", "bad"):
                 yield from domain.parts(name, value)
 
     def couplings(self) -> tuple[Coupling, ...]:
@@ -104,7 +107,7 @@ class SpecularVertex(MediaOfBoundary, Element, kind="specular-vertex"):
         """Say which vertex light must come from, unless it comes from the one before this."""
         chain, place = getattr(before, "vertices", None), getattr(before, "place", None)
         counted = is_whole(self.place) and is_whole(place)
-        if counted and place == self.place - 1 and same(self.vertices, chain):
+        if counted and place == self.place - 1 and same_points(self.vertices, chain):
             return ""
         wanted = self.place - 1 if isinstance(self.place, int) else "the one"
         return (

@@ -12,8 +12,9 @@ from optipath.elements.vertices.naming import of_chain, pieces_of
 from optipath.errors import ValueFault
 from optipath.kernels.geometry.vertex_chain import LONGEST, SHORTEST
 from optipath.values.arrays.array_likes import array_of
-from optipath.values.arrays.jax_values import namespace
+from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import read_only
+from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import Quantity
 
@@ -25,7 +26,15 @@ _LEAST, _MOST = SHORTEST**2, LONGEST**2
 
 @dataclass(frozen=True)
 class VerticesDomain(Domain):
-    """Points from the light to the eye, in the unit of any length."""
+    """Points from the light to the eye, in the unit of any length.
+
+    Attributes
+    ----------
+    masks : bool
+        Whether chains that cannot be are let in, and have light that is NaN.
+    """
+
+    masks: bool = False
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if isinstance(value, VerticesByAngles):
@@ -54,6 +63,11 @@ class VerticesDomain(Domain):
         return read_only(kept.astype(np.float64)) if whole else kept
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        if self.masks and not is_traced(value):
+            points = array_of(owner, value)
+            if points.dtype.kind in "iuf":
+                self._check_shape(owner, points.shape)
+                return points
         try:
             return super().check(owner, value)
         except ValueFault:
@@ -79,6 +93,8 @@ class VerticesDomain(Domain):
 
     def allows(self, numbers: Any) -> Any:
         """Return which chains of an array are allowed."""
+        if self.masks:
+            return namespace(numbers).ones(numbers.shape[:-2], bool)
         return super().allows(numbers).all(axis=(-2, -1)) & _legs_fit(numbers).all(axis=-1)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
@@ -130,4 +146,7 @@ def _leg_fault(owner: str, chain: npt.NDArray[Any], place: int, where: str) -> s
 
 _COUNTED = ", counted from the light as 0"
 VERTICES = VerticesDomain("coordinate")
+BAD = ("refuse", "mask")
+"""What becomes of chains that cannot be: an error, or light that is NaN."""
 Vertices: TypeAlias = Annotated[Quantity | VerticesByAngles, VERTICES]
+Bad: TypeAlias = Annotated[str, Choice("what becomes of chains that cannot be", words=BAD)]

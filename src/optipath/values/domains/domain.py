@@ -43,6 +43,7 @@ class Domain:
     """
 
     complex_parts: ClassVar[tuple[str, ...]] = ()
+    masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
 
     name: str
     dimension: str = ""
