@@ -29,6 +29,7 @@ GIVEN = {
     "Parameter": ("a", np.ones(3, np.float32)),
     "Retarder": (0.1, 0.2),
     "Rotator": (0.1,),
+    "RefractingVertex": (1.5, [[0, 0, 1], [0, 0, 0], [0, 0, -1]], 1),
     "SpecularVertex": (1.5, CORNER, 1),
     "VerticesByAngles": ((0.1,),),
 }

@@ -44,11 +44,13 @@ if TYPE_CHECKING:
     from optipath.elements.mirror import Mirror
     from optipath.elements.mueller_element import MuellerElement
     from optipath.elements.polarizer import Polarizer
+    from optipath.elements.refracting_vertex import RefractingVertex
     from optipath.elements.retarder import Retarder
     from optipath.elements.rotator import Rotator
     from optipath.elements.source import Source
     from optipath.elements.specular_vertex import SpecularVertex
     from optipath.elements.terminal import Detector, Dump
+    from optipath.elements.vertex import Vertex
     from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
     from optipath.light.frames import Frame
     from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
@@ -138,6 +140,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Polarizer",
     "PresetError",
     "Real",
+    "RefractingVertex",
     "Retarder",
     "Rotator",
     "ShapeError",
@@ -146,6 +149,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "StokesState",
     "UnitError",
     "ValueFault",
+    "Vertex",
     "VerticesByAngles",
     "YesOrNo",
     "fresnel_reflection",
@@ -176,11 +180,13 @@ _HOMES = {
     "elements.mirror": ["Mirror"],
     "elements.mueller_element": ["MuellerElement"],
     "elements.polarizer": ["Polarizer"],
+    "elements.refracting_vertex": ["RefractingVertex"],
     "elements.retarder": ["Retarder"],
     "elements.rotator": ["Rotator"],
     "elements.source": ["Source"],
     "elements.specular_vertex": ["SpecularVertex"],
     "elements.terminal": ["Detector", "Dump"],
+    "elements.vertex": ["Vertex"],
     "elements.vertices.by_angles": ["VerticesByAngles", "vertices_from_angles"],
     "light.frames": ["Frame"],
     "light.incidence": ["PlaneOfIncidence", "plane_of_incidence"],

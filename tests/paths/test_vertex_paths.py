@@ -77,7 +77,7 @@ def test_a_batch_is_the_same_as_one_chain_after_the_other(engine):
     assert light.stokes.shape == (2, 1500, 4)
     assert light.frame.x.shape == (2, 1500, 3)
     for at in [(0, 0), (1, 700), (1, 1499)]:
-        one = op.path_from_vertices(points[at], MATERIALS[:3]).trace()
+        one = op.path_from_vertices(points[at], MATERIALS[:3], events="RRR").trace()
         np.testing.assert_allclose(light.stokes[at], one.stokes, rtol=1e-12, atol=1e-15)
         np.testing.assert_array_equal(light.frame.x[at], one.frame.x)
 

@@ -13,6 +13,7 @@ from optipath.composer.same_medium import SameMedium
 from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
 from optipath.elements.boundary_frames import BoundaryElement
+from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
 from optipath.values.follows import FOLLOWS
@@ -52,11 +53,13 @@ class Media:
     @cached_property
     def open(self) -> tuple[Agreement, ...]:
         """What is looked at when the path runs, since a value is given only then."""
-        return tuple(a for a in (*self._all, *self._in_space) if a.is_open)
+        every = (*self._all, *self._at_vertices, *self._in_space)
+        return tuple(a for a in every if a.is_open)
 
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""
-        known = [agreement for agreement in self._all if not agreement.is_open]
+        every = (*self._all, *self._at_vertices)
+        known = [agreement for agreement in every if not agreement.is_open]
         return [*first_faults(known), *map(_wedge_fault, self.meetings.wedges)]
 
     @property
@@ -140,6 +143,13 @@ class Media:
                 yield from world_angles(
                     name, element, self.meetings.wiring.graph.nodes[name]["frames"]
                 )
+
+    @property
+    def _at_vertices(self) -> Iterator[Agreement]:
+        """What points say of the surfaces that stand by them."""
+        for name, element in self.elements.items():
+            if isinstance(element, ChainVertex):
+                yield from element.agreements(name)
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""

@@ -15,12 +15,14 @@ from optipath.elements.medium import Medium
 from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
+from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.registry import KINDS
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.source import Source
 from optipath.elements.specular_vertex import SpecularVertex
 from optipath.elements.terminal import Detector, Dump
+from optipath.elements.vertex import Vertex
 from optipath.errors import PathError, did_you_mean
 
 STANDARD = (
@@ -35,12 +37,14 @@ STANDARD = (
     Mirror,
     MuellerElement,
     Polarizer,
+    RefractingVertex,
     Retarder,
     Rotator,
     Source,
     SpecularVertex,
     Detector,
     Dump,
+    Vertex,
 )
 """The elements that come with the library; importing them has entered their kinds."""
 

@@ -19,6 +19,7 @@ from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.refraction import Refracting
 from optipath.kernels.geometry import vertex_chain
+from optipath.kernels.geometry.deviation import refraction_at_vertex
 from optipath.kernels.geometry.event_at_vertex import event_at_vertex
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
 from optipath.kernels.numbers.primitives import Factory
@@ -116,11 +117,15 @@ TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)
 GIVEN_TURN = Kernel("turn between world frames", ROTATION, filters.given)
 ALIGN = Kernel("align", ROTATION, rotation.align)
 TURN_BETWEEN_PLANES = Kernel("turn between planes of incidence", ROTATION, TurnBetweenPlanes())
+TURN_BESIDE_REFRACTION = Kernel(
+    "turn between planes beside a refraction", ROTATION, TurnBetweenPlanes(across=True)
+)
 INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
+REFRACTION = Kernel("refraction at a vertex", None, refraction_at_vertex)
 EVENT_AT_VERTEX = Kernel("event at a vertex", None, event_at_vertex)
 ARRIVING = Kernel("arriving axes", None, AxesAtVertex())
 REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
-"""What the points of a chain say: an angle of incidence, and the axes at the last vertex."""
+"""What the points of a chain say: angles of incidence, and the axes at the last vertex."""
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)

@@ -1,4 +1,4 @@
-"""Paths out of the points that light passes: a specular reflection at each but the ends."""
+"""Paths out of the points that light passes: a reflection or refraction at each but the ends."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.source import Source
 from optipath.elements.specular_vertex import SpecularVertex
 from optipath.elements.terminal import Detector
@@ -14,11 +15,16 @@ from optipath.elements.vertices.by_angles import VerticesByAngles, counted
 from optipath.elements.vertices.normals import normal_faults
 from optipath.elements.vertices.vertex_domain import VERTICES
 from optipath.errors import PathError, ValueFault, shown
+from optipath.paths.grazing_or_through import doubtful_vertex
+from optipath.paths.known_media import sides_of
 from optipath.paths.path_graph import PathGraph
+from optipath.paths.vertex_events import REFLECTS, event_faults, media_in_front
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
-from optipath.values.made import checked_later
+from optipath.values.domains.indices import OUTSIDE
+from optipath.values.made import checked_later, faults_of, kept_value, refuse
 from optipath.values.parameters import Parameter
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,10 +37,14 @@ def path_from_vertices(
     materials: Sequence[Any],
     normals: npt.ArrayLike | None = None,
     intensity: Any = 1.0,
+    *,
+    events: str | None = None,
+    outside: Any = 1.0,
 ) -> PathGraph:
-    """Return the path of light from point to point, reflected specularly at each but the ends.
+    """Return the path of light from point to point, reflected or refracted at each but the ends.
 
-    The surfaces tilt themselves: each is perpendicular to the bisector of its two legs. Angles
+    The surfaces tilt themselves: one that reflects is perpendicular to the bisector of its two
+    legs, one that refracts stands by Snell's law. Angles
     of incidence and all frames come from the points; ``path.trace().frame`` is the world frame
     of the last leg, with x = k_out cross k_in at the last vertex. A vertex at which light comes
     back along its way, or goes straight on, has no plane of incidence of its own, and keeps the
@@ -46,12 +56,20 @@ def path_from_vertices(
         The points from the light to the eye, in the unit of any length; legs within 1e-70 and
         1e70. A parameter is given arrays of this shape when the path runs.
     materials : sequence of m float, complex, array_like, Material or Parameter
-        The index of refraction behind each surface, in order from the light.
+        The index of refraction on the other side of each surface, in order from the light. Light
+        that is reflected stays in its medium; light that is refracted goes on in this one, which
+        must not absorb.
     normals : array_like, shape (..., m, 3), optional
         The normals of the surfaces, of any length and to either side, to be checked: each is to
-        be along the bisector to within 1e-6 rad, or the rounding of half precision.
+        be along that of the vertex to within 1e-6 rad, or the rounding of half precision.
     intensity : float, array_like or Parameter, optional
         Of the unpolarised light.
+    events : str, optional
+        A letter for each vertex, in order from the light: R where it is reflected, T where it is
+        refracted (let through). Without it every vertex reflects, and normals say so, or points
+        that are known: where they may as well be those of a refraction, `events` is asked for.
+    outside : float, array_like, Material or Parameter, optional
+        The index of the medium that the light starts in, without absorption.
 
     Returns
     -------
@@ -72,14 +90,26 @@ def path_from_vertices(
     >>> light = path.trace()
     >>> print(light.stokes.round(4), light.frame.z)
     [0.0502 0.0418 0.     0.    ] [0. 1. 0.]
+
+    Straight down through a pane, with an echo in it:
+
+    >>> down = [[0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
+    >>> pane = path_from_vertices(down, materials=[1.5, 1.0, 1.0, 1.0], events="TRRT")
+    >>> float(pane.trace().intensity.round(9))
+    0.00147456
     """
     several, not_several = _several(materials)
     chain, faults = _chain(vertices, len(several))
+    faults += [] if events is None else event_faults(events, len(several))
+    start, of_start = _start(outside)
+    faults += of_start
     if not several:
         raise PathError(*faults, *not_several)
     # With others in place of faulty vertices, so that the rest is checked too.
+    happens = REFLECTS * len(several) if events is None or faults else events
     with checked_later():  # Composing names the vertices, and looks at their array once.
-        path = _path(_any_chain(len(several)) if faults else chain, several, intensity)
+        given = _any_chain(len(several)) if faults else chain
+        path = _path(given, several, intensity, happens, start)
     is_sound = not faults
     try:
         path.compose()
@@ -89,10 +119,32 @@ def path_from_vertices(
     if normals is not None and is_sound and not isinstance(chain, np.ndarray):
         faults.append("normals are checked against points that are known; leave them out")
     elif normals is not None:
-        faults += normal_faults(chain if is_sound else None, normals, len(several))
+        faults += _normal_faults(chain if is_sound else None, normals, several, happens, start)
+    elif events is None and not faults and not isinstance(chain, VerticesByAngles):
+        doubt = doubtful_vertex(chain, several, start)
+        faults += [doubt] * bool(doubt)
     if faults:
         raise PathError(*faults)
     return path
+
+
+def _normal_faults(
+    chain: Any, normals: Any, materials: Sequence[Any], events: str, outside: Any
+) -> list[str]:
+    sides = sides_of(events, materials, outside)
+    if sides is None:
+        return ["normals that refract are checked against media that are known; leave them out"]
+    return normal_faults(chain, normals, len(materials), sides)
+
+
+def _start(outside: Any) -> tuple[Any, list[str]]:
+    """Return the medium that light starts in, and what is wrong with it."""
+    try:
+        kept = kept_value("outside", outside, OUTSIDE)
+        refuse(faults_of([Use(name, n, of) for name, n, of in OUTSIDE.parts("outside", kept)]))
+    except ValueFault as fault:
+        return 1.0, list(fault.faults)
+    return kept, []
 
 
 def _is_sound(chain: Any, count: int) -> bool:
@@ -103,11 +155,15 @@ def _is_sound(chain: Any, count: int) -> bool:
     return True
 
 
-def _path(chain: Any, materials: Sequence[Any], intensity: Any) -> PathGraph:
+def _path(
+    chain: Any, materials: Sequence[Any], intensity: Any, events: str, outside: Any
+) -> PathGraph:
     path = PathGraph()
-    node = path.add("light", Source(intensity))
-    for place, material in enumerate(materials, 1):
-        vertex = SpecularVertex(material, chain, place, reflections=len(materials))
+    node, count = path.add("light", Source(intensity)), len(materials)
+    each = zip(events, materials, media_in_front(events, materials, outside), strict=True)
+    for place, (event, material, front) in enumerate(each, 1):
+        kind = SpecularVertex if event == REFLECTS else RefractingVertex
+        vertex = kind(material, chain, place, front, count)
         node = node >> path.add(f"vertex{place}", vertex)
     node >> path.add("eye", Detector())
     return path
@@ -120,10 +176,10 @@ def _any_chain(count: int) -> VerticesByAngles:
 def _several(materials: Any) -> tuple[tuple[Any, ...], list[str]]:
     """Return the materials one by one, or what is wrong with them."""
     try:
-        several = entries_of("materials", "one for each reflection", materials)
+        several = entries_of("materials", "one for each vertex", materials)
     except ValueFault as fault:
         return (), list(fault.faults)
-    none = "materials must be a sequence of one for each reflection, and there is none"
+    none = "materials must be a sequence of one for each vertex, and there is none"
     return several, [none] * (not several)
 
 

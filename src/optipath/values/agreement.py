@@ -71,6 +71,11 @@ class Agreement:
         raise NotImplementedError
 
     @property
+    def shows_in_light(self) -> bool:
+        """Whether light is not finite where they do not fit, so that nobody need look before."""
+        return False
+
+    @property
     def rests_on(self) -> tuple[str, ...]:
         """What must be right for a fault of it to say something."""
         return ()

@@ -129,7 +129,7 @@ class Inputs:
         lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
         media = [name for name, value in given.items() if isinstance(value, Material)]
         faults += broadcast_fault(shapes, [*self.shapes, *media], lists)
-        faults = faults or first_faults(self.agreements, resolved)
+        faults = faults or first_faults(self.agreements if plain is None else self.hidden, resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.
         if faults:
@@ -149,7 +149,7 @@ class Inputs:
         Returns
         -------
         Resolved
-            With numbers that are not finite, where the light of these is NaN.
+            With numbers that are not finite, where these are taken.
 
         Raises
         ------
@@ -157,7 +157,7 @@ class Inputs:
             If it stands for no number that is allowed.
         """
         parameter, limits = self.open[name], self.limits[name]
-        if name not in self._masked or is_traced(value):
+        if name not in self._taken or is_traced(value):
             return parameter.resolve(value, limits)
         numbers = array_of(f"parameter '{name}'", value, ParameterError)
         there = np.isfinite(numbers) if numbers.dtype.kind == "f" else True
@@ -167,12 +167,17 @@ class Inputs:
         return Resolved(numbers, THERE)
 
     @cached_property
-    def _masked(self) -> frozenset[str]:
-        return frozenset(use.value.name for use in self.uses if use.domain.masks)
+    def _taken(self) -> frozenset[str]:
+        return frozenset(use.value.name for use in self.uses if use.domain.takes_any)
 
     def unsound(self, light: Any) -> Any:
         """Return which numbers of light nobody may get; NaN may say that it cannot be."""
         return np.isinf(light) if self.masks else ~np.isfinite(light)
+
+    @cached_property
+    def hidden(self) -> tuple[Agreement, ...]:
+        """What must fit together, but where light itself shows that it does not."""
+        return tuple([law for law in self.agreements if not law.shows_in_light])
 
     @cached_property
     def distinct_uses(self) -> tuple[Use, ...]:

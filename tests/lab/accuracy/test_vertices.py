@@ -19,6 +19,7 @@ def test_points_in_space_give_the_same_light_as_angles_to_50_digits(case):
 
 @pytest.mark.parametrize("reflections", [1, 3, 5])
 def test_light_along_a_chain_is_right_to_its_last_digits(reflections):
-    path = op.path_from_vertices(random_chains(1, reflections), MATERIALS[:reflections])
+    points, materials = random_chains(1, reflections), MATERIALS[:reflections]
+    path = op.path_from_vertices(points, materials, events="R" * reflections)
     exact = [float(component) for component in exact_lights(path)["eye"].stokes]
     np.testing.assert_allclose(path.trace().stokes, exact, rtol=0, atol=1e-14 * exact[0])

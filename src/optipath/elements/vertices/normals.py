@@ -1,4 +1,4 @@
-"""The check of normals against the bisectors of a chain."""
+"""The check of normals against those that the vertices of a chain have."""
 
 from __future__ import annotations
 
@@ -25,8 +25,13 @@ _STRAIGHT = 1e-7
 """A bisector shorter than this is known to fewer digits than normals are checked to."""
 
 
-def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
-    """Return which normals are not along the bisectors of their vertices, and by how much.
+def normal_faults(
+    chains: Floats | None, normals: Any, count: int, sides: Floats | None = None
+) -> list[str]:
+    """Return which normals are not along those of their vertices, and by how much.
+
+    That of a reflection is along the bisector k_out - k_in, and that of a refraction along
+    n2 k_out - n1 k_in; between equal media any will do.
 
     Parameters
     ----------
@@ -35,7 +40,10 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     normals : array_like, shape (..., count, 3)
         What is given.
     count : int
-        The number of reflections.
+        The number of vertices.
+    sides : ndarray, shape (..., count, 2), optional
+        n1 and n2 at each vertex, over the larger; both 1 where it reflects (by default
+        everywhere), and 0 between equal media.
 
     Returns
     -------
@@ -62,19 +70,28 @@ def normal_faults(chains: Floats | None, normals: Any, count: int) -> list[str]:
     given = as_doubles(given)
     if chains is None:
         return _own_faults(given.reshape(-1, count, 3), given.shape[:-2])
-    shapes = {"vertices": chains.shape[:-2], "normals": given.shape[:-2]}
+    sides = np.ones((count, 2)) if sides is None else sides
+    shapes = {
+        "vertices": chains.shape[:-2],
+        "normals": given.shape[:-2],
+        "materials": sides.shape[:-2],
+    }
     try:
         batch = check_broadcast(shapes)
     except ShapeError as fault:
         return list(fault.faults)
     chains = np.broadcast_to(chains, (*batch, count + 2, 3)).reshape(-1, count + 2, 3)
     given = np.broadcast_to(given, (*batch, count, 3)).reshape(-1, count, 3)
+    sides = np.broadcast_to(sides, (*batch, count, 2)).reshape(-1, count, 2)
     doubted = [
-        piece for piece in pieces_of(len(given)) if not _surely_along(chains[piece], given[piece])
+        piece
+        for piece in pieces_of(len(given))
+        if not _surely_along(chains[piece], given[piece], sides[piece])
     ]
     if not doubted:
         return []
-    return _own_faults(given, batch) or _off_faults(chains, given, batch, doubted, tolerance)
+    whole = chains, given, sides
+    return _own_faults(given, batch) or _off_faults(whole, batch, doubted, tolerance)
 
 
 def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
@@ -91,18 +108,24 @@ def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
 
 
 def _off_faults(
-    chains: Floats, normals: Floats, batch: tuple[int, ...], doubted: list[slice], tolerance: float
+    whole: tuple[Floats, Floats, Floats],
+    batch: tuple[int, ...],
+    doubted: list[slice],
+    tolerance: float,
 ) -> list[str]:
-    """Return the vertex whose normal is furthest off its bisector, if any is too far."""
-    worst, where = tolerance, ""
+    """Return the vertex whose normal is furthest off what it must be, if any is too far."""
+    worst, where, wanted = tolerance, "", ""
     for piece in doubted:
-        off = _off(chains[piece], normals[piece])
+        part = [each[piece] for each in whole]
+        off = _off(*part)
         chain, place = map(int, np.unravel_index(np.argmax(off), off.shape))
         if off[chain, place] > worst:
             worst = float(off[chain, place])
             where = _normal_of(place, piece.start + chain, batch)
+            n1, n2 = part[2][chain, place]
+            wanted = "the bisector of its legs" if n1 == n2 else "the one that refracts light so"
     sentence = (
-        f"{where} is off the bisector of its legs by {np.degrees(worst):.3g} deg; it must be "
+        f"{where} is off {wanted} by {np.degrees(worst):.3g} deg; it must be "
         f"along it to within {tolerance:.2g} rad, or be left out"
     )
     return [sentence] if where else []
@@ -112,17 +135,19 @@ def _normal_of(place: int, chain: int, batch: tuple[int, ...]) -> str:
     return f"the normal of vertex {place + 1}{of_chain(chain, batch)}"
 
 
-def _surely_along(chains: Floats, normals: Floats) -> bool:
-    """Tell, quickly, whether all normals are along their bisectors beyond any doubt.
+def _surely_along(chains: Floats, normals: Floats, sides: Floats) -> bool:
+    """Tell, quickly, whether all normals are along those of their vertices beyond any doubt.
 
     By sin^2 = 1 - cos^2, whose rounding is far below the square of the tolerance.
     """
     # Component by component, each for all chains: sums of rows, and no short last axis.
-    points, n = (np.ascontiguousarray(np.moveaxis(each, 0, -1)) for each in (chains, normals))
+    points, n, n12 = (
+        np.ascontiguousarray(np.moveaxis(each, 0, -1)) for each in (chains, normals, sides)
+    )
     with np.errstate(all="ignore"):
         legs = points[1:] - points[:-1]
         legs /= np.sqrt(_dot(legs, legs))[:, np.newaxis]
-        b = legs[1:] - legs[:-1]
+        b = legs[1:] * n12[:, 1, np.newaxis] - legs[:-1] * n12[:, 0, np.newaxis]
         bb, nb, nn = _dot(b, b), _dot(n, b), _dot(n, n)
         nb *= nb
         bent = bb >= _STRAIGHT * _STRAIGHT
@@ -136,18 +161,21 @@ def _dot(a: Floats, b: Floats) -> Floats:
     return found
 
 
-def _off(chains: Floats, normals: Floats) -> Floats:
-    """Return the angles between normals and bisectors.
+def _off(chains: Floats, normals: Floats, sides: Floats) -> Floats:
+    """Return the angles between normals and those of the vertices.
 
-    Light that goes straight on has none: its surfaces are all those along it.
+    Light that goes straight on has none: surfaces that reflect are all those along it, and
+    those that refract may stand anyhow.
     """
     unit = _units(np.diff(chains, axis=-2))
-    normal, bisector = _units(normals), unit[..., 1:, :] - unit[..., :-1, :]
+    normal, (n1, n2) = _units(normals), np.moveaxis(sides, -1, 0)
+    bisector = n2[..., np.newaxis] * unit[..., 1:, :] - n1[..., np.newaxis] * unit[..., :-1, :]
     along = np.abs(np.sum(normal * bisector, axis=-1))
     angle = np.arctan2(np.linalg.norm(np.cross(normal, bisector), axis=-1), along)
     straight = np.linalg.norm(bisector, axis=-1) < _STRAIGHT
     through = np.arcsin(np.minimum(np.abs(np.sum(normal * unit[..., 1:, :], axis=-1)), 1.0))
-    return np.asarray(np.where(straight, through, angle))
+    grazes = np.where((n1 == n2) & (n1 > 0.0), through, 0.0)
+    return np.asarray(np.where(straight, grazes, angle))
 
 
 def _units(several: Floats) -> Floats:

@@ -27,9 +27,11 @@ class PlaceInChain:
     vertices : array, Parameter or VerticesByAngles
         The chain.
     number : int
-        Which of its reflections, 1 being the first that light meets.
-    reflections : int or None
+        Which of its vertices, 1 being the first that light meets.
+    told : int or None
         How many there are, where that is told.
+    counted_by : str
+        The field that tells it.
 
     Examples
     --------
@@ -40,15 +42,16 @@ class PlaceInChain:
 
     vertices: Any
     number: Any
-    reflections: Any
+    told: Any
+    counted_by: str = "reflections"
 
     @property
     def count(self) -> int:
-        """How many reflections there are; 0 where nothing says so."""
+        """How many vertices there are; 0 where nothing says so."""
         if isinstance(self.vertices, VerticesByAngles):
             return len(self.vertices.incidences)
-        if is_whole(self.reflections, most=_MOST):
-            return int(self.reflections)
+        if is_whole(self.told, most=_MOST):
+            return int(self.told)
         value = self.vertices
         value = value.default if isinstance(value, Parameter) else value
         shape: tuple[int, ...] = getattr(value, "shape", ())
@@ -69,15 +72,13 @@ class PlaceInChain:
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the numbers, a sentence each."""
-        found = []
-        if self.reflections is not None and not is_whole(self.reflections, most=_MOST):
-            found.append(
-                f"{owner}.reflections must be a whole number above 0, not {shown(self.reflections)}"
-            )
+        found, name = [], self.counted_by
+        if self.told is not None and not is_whole(self.told, most=_MOST):
+            found.append(f"{owner}.{name} must be a whole number above 0, not {shown(self.told)}")
         elif not self.count and isinstance(self.vertices, Parameter):
             found.append(
                 f"{owner}.vertices is a parameter without a default; tell the number of "
-                f"reflections of the chain, reflections=..."
+                f"{'vertices' if name == 'count' else name} of the chain, {name}=..."
             )
         if not is_whole(self.number, most=self.count or _MOST):
             up_to = f" of 1 .. {self.count}" if self.count else " above 0"

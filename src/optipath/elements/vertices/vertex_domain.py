@@ -32,9 +32,17 @@ class VerticesDomain(Domain):
     ----------
     masks : bool
         Whether chains that cannot be are let in, and have light that is NaN.
+    ends : bool
+        Whether chains may end before the last point, and nothing is said of those behind.
     """
 
     masks: bool = False
+    ends: bool = False
+
+    @property
+    def takes_any(self) -> bool:
+        """Whether any numbers are let in, which others look at."""
+        return self.masks or self.ends
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if isinstance(value, VerticesByAngles):
@@ -63,7 +71,7 @@ class VerticesDomain(Domain):
         return read_only(kept.astype(np.float64)) if whole else kept
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
-        if self.masks and not is_traced(value):
+        if self.takes_any and not is_traced(value):
             points = array_of(owner, value)
             if points.dtype.kind in "iuf":
                 self._check_shape(owner, points.shape)
@@ -93,7 +101,7 @@ class VerticesDomain(Domain):
 
     def allows(self, numbers: Any) -> Any:
         """Return which chains of an array are allowed."""
-        if self.masks:
+        if self.takes_any:
             return namespace(numbers).ones(numbers.shape[:-2], bool)
         return super().allows(numbers).all(axis=(-2, -1)) & _legs_fit(numbers).all(axis=-1)
 

@@ -61,8 +61,15 @@ class OfPlanes:
         return of
 
 
+@dataclass(frozen=True)
 class TurnBetweenPlanes(OfPlanes):
     """Makes ``(cos 2a, sin 2a)`` of the turn between the planes of the last two vertices.
+
+    Attributes
+    ----------
+    across : bool
+        Whether only what is across the light between the two counts of each x. Where light
+        is hardly refracted, its plane has few digits, and x is not at right angles to it.
 
     Examples
     --------
@@ -72,6 +79,8 @@ class TurnBetweenPlanes(OfPlanes):
     (-1.0, 0.0)
     """
 
+    across: bool = False
+
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
         met, aligned = self.met(xp), align(xp)
@@ -79,7 +88,10 @@ class TurnBetweenPlanes(OfPlanes):
         def turned(*coordinates: Any) -> tuple[Any, Any]:
             several, planes = met(*coordinates)
             *_, x, new_x = planes
-            c, s = aligned(dot(x, new_x), dot(several[-2].unit, cross(x, new_x)))
+            z, along = several[-2].unit, dot(x, new_x)
+            if self.across:
+                along = along - dot(x, z) * dot(new_x, z)
+            c, s = aligned(along, dot(z, cross(x, new_x)))
             return c, s
 
         return turned

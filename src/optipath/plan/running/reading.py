@@ -127,7 +127,7 @@ class InputReader:
 
         A word stands for itself, and 0 is a case of its own. None for what must be looked at.
         """
-        if self.inputs.agreements:
+        if self.inputs.hidden:
             return None
         found: list[Any] = []
         for name, value in parameters.items():

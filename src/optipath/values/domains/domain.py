@@ -159,6 +159,11 @@ class Domain:
         """
         return False
 
+    @property
+    def takes_any(self) -> bool:
+        """Whether any numbers are let in, which others look at."""
+        return False
+
     def quickly_allows(self, value: Any) -> bool:
         """Tell, for the plain floats that long paths are made of, whether all is well."""
         inside = type(value) is float and self.minimum <= value <= self.maximum

@@ -25,6 +25,9 @@ _NO_K_BEHIND = Domain(
     minimum=0.0,
     maximum=0.0,
 )
+_NO_K_BEYOND = Domain(
+    "extinction coefficient of the medium that light goes on in", minimum=0.0, maximum=0.0
+)
 _LEAST = float(np.finfo(float).tiny)
 
 
@@ -138,6 +141,18 @@ class LitBehind(OutsideDomain):
         super()._check_numbers(owner, real, rounding)
 
 
+class ClearDomain(OutsideDomain):
+    """Indices of a medium that light goes on in."""
+
+    of_k = _NO_K_BEYOND
+
+    def described(self) -> str:
+        return (
+            "a real index of refraction above 0, since light goes on in there, and let a Medium "
+            "absorb on the way"
+        )
+
+
 class InnerDomain(OutsideDomain):
     """Indices of the layers of a stack, between which light goes to and fro."""
 
@@ -224,6 +239,7 @@ OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
 FOLLOWED_OUTSIDE = FollowedOutside("index of refraction", minimum=_LEAST)
 OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=_LEAST)
 LIT_BEHIND = LitBehind("index of refraction", minimum=_LEAST)
+CLEAR = ClearDomain("index of refraction", minimum=_LEAST)
 # Beyond, waves across a layer have squares that vanish.
 INNER = InnerDomain("index of refraction", minimum=1e-60, maximum=1e60)
 INDICES = IndicesDomain("indices of refraction")

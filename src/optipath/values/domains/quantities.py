@@ -13,7 +13,13 @@ from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.fraction import FractionDomain
-from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, INDICES, OPTIONAL_OUTSIDE
+from optipath.values.domains.indices import (
+    CLEAR,
+    FOLLOWED_OUTSIDE,
+    INDEX,
+    INDICES,
+    OPTIONAL_OUTSIDE,
+)
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
@@ -42,6 +48,7 @@ INTENSITY = IntensityDomain(NON_NEGATIVE.name, minimum=NON_NEGATIVE.minimum)
 Intensity: TypeAlias = Annotated[Quantity, INTENSITY]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
+ClearIndex: TypeAlias = Annotated[Quantity | Material, CLEAR]
 OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTSIDE]
 Indices: TypeAlias = Annotated[Sequence[Quantity | Material | Follows], INDICES]
 OptionalIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_OUTSIDE]

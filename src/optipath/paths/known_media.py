@@ -1,0 +1,86 @@
+"""Media of a chain as far as they are known: their indices, and those on both sides of a vertex."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError
+from optipath.paths.vertex_events import REFLECTS, media_in_front
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.domains.indices import INDEX
+from optipath.values.materials import Material
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+
+
+def known(value: Any) -> Any:
+    """Return what is known of a value, be it by default; None if nothing is."""
+    value = value.default if isinstance(value, Parameter) else value
+    return None if value is None or is_traced(value) else value
+
+
+def known_index(medium: Any) -> Floats | None:
+    """Return n of a medium; None where it is not known, or absorbs.
+
+    Examples
+    --------
+    >>> known_index(1.5), known_index(Parameter("n")), known_index(1.5 + 2j)
+    (array(1.5), None, None)
+    """
+    parts = (medium.n, medium.k) if isinstance(medium, Material) else (medium,)
+    several = [known(part) for part in parts]
+    if any(part is None for part in several):
+        return None
+    try:
+        n, *k = (INDEX.check("index", INDEX.read("index", part)) for part in several)
+    except OptipathError:
+        return None  # A fault of its own.
+    clear = not (np.any(n.imag) or any(map(np.any, k)) or np.any(n.real <= 0.0))
+    return np.asarray(n.real) if clear else None
+
+
+def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | None:
+    """Return the indices in front of the vertices of a chain and behind, as normals need them.
+
+    Parameters
+    ----------
+    events : str
+        Of R and T, one for each vertex.
+    materials : sequence
+        The media on the other side of each.
+    outside : Any
+        Where light starts.
+
+    Returns
+    -------
+    ndarray, shape (..., m, 2), or None
+        Both over the larger; 1 where a vertex reflects, and 0 between equal media. None if one
+        is not known, or they do not broadcast.
+
+    Examples
+    --------
+    >>> sides_of("RT", (1.5, 1.5), 3.0)
+    array([[1. , 1. ],
+           [1. , 0.5]])
+    """
+    found: list[Any] = []
+    front = media_in_front(events, materials, outside)
+    for event, before, behind in zip(events, front, materials, strict=True):
+        n1, n2 = (np.ones(()),) * 2 if event == REFLECTS else map(known_index, (before, behind))
+        if n1 is None or n2 is None:
+            return None
+        larger = np.where((n1 == n2) & (event != REFLECTS), np.inf, np.maximum(n1, n2))
+        found += [n1 / larger, n2 / larger]
+    try:
+        together = np.broadcast_arrays(*found)
+    except ValueError:
+        return None
+    return np.stack(together, axis=-1).reshape(*together[0].shape, len(events), 2)

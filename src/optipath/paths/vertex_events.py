@@ -1,0 +1,102 @@
+"""What light does at each vertex of a chain, R or T, and the media that it is in meanwhile."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import ValueFault, shown
+from optipath.values.domains.indices import CLEAR
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+REFLECTS, REFRACTS = "R", "T"
+
+
+def event_faults(events: Any, count: int) -> list[str]:
+    """Return what is wrong with the events of a chain, a sentence each.
+
+    Parameters
+    ----------
+    events : str
+        What is given.
+    count : int
+        How many vertices the chain has; 0 where that is not known.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> event_faults("RTR", 3)
+    []
+    >>> event_faults("rt", 2)
+    ["events is 'rt'; give R for each vertex that reflects and T for each that refracts: 'RT'"]
+    """
+    meant = _meant(events)
+    if not isinstance(events, str) or not set(events) <= {REFLECTS, REFRACTS}:
+        cure = "R for each vertex that reflects and T for each that refracts"
+        example = f"'{meant}'" if meant else "such as 'RT'"
+        return [f"events is {shown(events)}; give {cure}{':' if meant else ','} {example}"]
+    if count and len(events) != count:
+        letters = f"{len(events)} letter{'s' * (len(events) != 1)}"
+        media = f"{count} material{'s' * (count != 1)}"
+        return [f"events has {letters} for {media}; give R or T for each vertex, in order"]
+    return []
+
+
+def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[Any]:
+    """Return the medium that light comes from at each vertex.
+
+    Parameters
+    ----------
+    events : str
+        Of R and T, one for each vertex.
+    materials : sequence
+        The media on the other side of each.
+    outside : Any
+        Where light starts.
+
+    Returns
+    -------
+    list
+
+    Examples
+    --------
+    A pane with an echo in it:
+
+    >>> media_in_front("TRT", (1.5, 1.0, 1.0), 1.0)
+    [1.0, 1.5, 1.5]
+    """
+    found, medium = [], outside
+    for event, material in zip(events, materials, strict=True):
+        found.append(medium)
+        # What light cannot go on in is told where it should, and once.
+        if event == REFRACTS and _is_clear(material):
+            medium = material
+    return found
+
+
+def _is_clear(material: Any) -> bool:
+    try:
+        for name, value, domain in CLEAR.parts("", material):
+            if isinstance(value, Parameter):
+                domain.check_parameter(name, value)
+            else:
+                domain.check(name, domain.read(name, value))
+    except ValueFault:
+        return False
+    return True
+
+
+def _meant(events: Any) -> str:
+    """Return the text that was meant, if it is one of the two letters but for how it is written."""
+    if not isinstance(events, str):
+        parts = events if isinstance(events, (list, tuple)) else ()
+        if not all(isinstance(part, str) for part in parts):
+            return ""
+        events = "".join(parts)
+    bare = "".join(letter for letter in events.upper() if letter not in " ,;-\t\n")
+    return bare if set(bare) <= {REFLECTS, REFRACTS} else ""
