@@ -9,9 +9,9 @@ from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.snell_at_vertex import SnellAtVertex
-from optipath.elements.vertices.vertex_domain import Bad  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.elements.vertices.vertex_domain import Bad, Vertices
 from optipath.kernels.catalogue import REFRACTION, TRANSMISSION
-from optipath.values.domains.quantities import ClearIndex, Whole  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.values.domains.quantities import ClearIndex, OutsideIndex, Whole
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import is_checked_later, refuse
 from optipath.values.materials import Material
@@ -68,6 +68,9 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     refracts: ClassVar[bool] = True
 
     index: ClearIndex
+    vertices: Vertices
+    place: Whole
+    outside: OutsideIndex = 1.0
     count: Whole | None = None
     bad: Bad = "refuse"  # type: ignore[misc] # each vertex says it for itself
 

@@ -7,9 +7,9 @@ from typing import ClassVar
 from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.vertices.place import PlaceInChain
-from optipath.elements.vertices.vertex_domain import Bad  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.elements.vertices.vertex_domain import Bad
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION
-from optipath.values.domains.quantities import Whole  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.values.domains.quantities import Whole
 
 
 class SpecularVertex(ChainVertex, kind="specular-vertex"):

@@ -38,7 +38,19 @@ class Coordinates(NamedTuple):
         return *self.events, *self.arguments
 
     def given_to(self, kernel: Kernel, *before: Any) -> Operation:
-        """Return the operation of a kernel of coordinates, and of what is given before them."""
+        """Return the operation of a kernel of coordinates.
+
+        Parameters
+        ----------
+        kernel : Kernel
+            What is computed.
+        *before
+            What it is given before the coordinates.
+
+        Returns
+        -------
+        Operation
+        """
         return Operation(kernel, (*before, *self._coordinates(self.points)))
 
     def planes(self, kernel: Kernel) -> Operation:
