@@ -45,7 +45,7 @@ class ChainVertex(MediaOfBoundary, Element):
     self_placed: ClassVar[bool] = True
     refracts: ClassVar[bool] = False
 
-    bad: ClassVar[str] = "refuse"
+    bad = "refuse"  # No field, which would stand before those of the classes.
 
     index: Index
     vertices: Vertices

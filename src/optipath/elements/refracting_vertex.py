@@ -72,7 +72,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     place: Whole
     outside: OutsideIndex = 1.0
     count: Whole | None = None
-    bad: Bad = "refuse"  # type: ignore[misc] # each vertex says it for itself
+    bad: Bad = "refuse"
 
     def __post_init__(self) -> None:
         """Check besides that the points are those of a refraction."""

@@ -47,7 +47,7 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     natural: ClassVar[str] = "reflected"
 
     reflections: Whole | None = None
-    bad: Bad = "refuse"  # type: ignore[misc] # each vertex says it for itself
+    bad: Bad = "refuse"
 
     @property
     def in_chain(self) -> PlaceInChain:

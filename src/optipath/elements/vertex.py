@@ -62,7 +62,7 @@ class Vertex(ChainVertex, kind="vertex"):
     refracts: ClassVar[bool] = True
 
     events: Events = field(kw_only=True)
-    bad: Bad = "refuse"  # type: ignore[misc] # each vertex says it for itself
+    bad: Bad = "refuse"
 
     def __post_init__(self) -> None:
         """Check besides that light can go so from point to point."""
