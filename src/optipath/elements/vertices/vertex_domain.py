@@ -103,7 +103,7 @@ class VerticesDomain(Domain):
         """Return which chains of an array are allowed."""
         if self.takes_any:
             return namespace(numbers).ones(numbers.shape[:-2], bool)
-        return super().allows(numbers).all(axis=(-2, -1)) & _legs_fit(numbers).all(axis=-1)
+        return super().allows(numbers).all(axis=(-2, -1)) & legs_fit(numbers).all(axis=-1)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         super()._check_numbers(owner, array, rounding)
@@ -113,15 +113,15 @@ class VerticesDomain(Domain):
             if _are_surely_apart(some):
                 continue
             with np.errstate(over="ignore"):
-                bad = ~_legs_fit(some)
+                bad = ~legs_fit(some)
             if bad.any():
                 chain, place = (int(found[0]) for found in np.nonzero(bad))
                 where = of_chain(piece.start + chain, array.shape[:-2])
                 raise ValueFault(_leg_fault(owner, some[chain], place, where))
 
 
-def _legs_fit(chains: Any) -> Any:
-    """Return which legs of chains are within the limits."""
+def legs_fit(chains: Any) -> Any:
+    """Return which legs of chains are within the limits, shape (..., m + 1)."""
     legs = chains[..., 1:, :] - chains[..., :-1, :]
     squares = namespace(chains).einsum("...i,...i", legs, legs)
     return (squares >= _LEAST) & (squares <= _MOST)
