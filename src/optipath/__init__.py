@@ -53,6 +53,7 @@ if TYPE_CHECKING:
     from optipath.elements.source import Source
     from optipath.elements.specular_vertex import SpecularVertex
     from optipath.elements.terminal import Detector, Dump
+    from optipath.elements.vertex import Vertex
     from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
     from optipath.elements.waveplate import Waveplate
     from optipath.light.frames import Frame
@@ -156,6 +157,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "StokesState",
     "UnitError",
     "ValueFault",
+    "Vertex",
     "VerticesByAngles",
     "Waveplate",
     "YesOrNo",
@@ -198,6 +200,7 @@ _HOMES = {
     "elements.specular_vertex": ["SpecularVertex"],
     "elements.terminal": ["Detector", "Dump"],
     "elements.waveplate": ["Waveplate"],
+    "elements.vertex": ["Vertex"],
     "elements.vertices.by_angles": ["VerticesByAngles", "vertices_from_angles"],
     "light.frames": ["Frame"],
     "light.incidence": ["PlaneOfIncidence", "plane_of_incidence"],

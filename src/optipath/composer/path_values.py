@@ -117,6 +117,7 @@ class Values:
             known=tuple(use for use in self.uses if use.is_traced),
             choices=tuple(self.graph.graph.get("choices", ())),
             agreements=agreements,
+            masks=any(use.domain.masks for use in self.uses),
         )
 
     def faults(self) -> list[str]:

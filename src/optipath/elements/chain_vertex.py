@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from optipath.elements.element import Element
 from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.vertices.frame import VertexFrame
+from optipath.elements.vertices.place import same_points
 from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
 from optipath.elements.vertices.vertices_back import vertices_back
 from optipath.kernels.catalogue import TURN_BESIDE_REFRACTION, TURN_BETWEEN_PLANES
-from optipath.values.arrays.read_only import same
 from optipath.values.domains.quantities import Index, OutsideIndex, Whole
 from optipath.values.made import refuse
 from optipath.values.materials import Material
@@ -38,11 +38,15 @@ class ChainVertex(MediaOfBoundary, Element):
     ----------
     refracts : bool
         Whether light goes on through the surface, so that it may hardly be turned there.
+    bad : str
+        Whether chains that cannot be are refused, or masked; each class has it as its last field.
     """
 
     straight: ClassVar[bool] = False
     self_placed: ClassVar[bool] = True
     refracts: ClassVar[bool] = False
+
+    bad = "refuse"  # No field, which would stand before those of the classes.
 
     index: Index
     vertices: Vertices
@@ -67,12 +71,14 @@ class ChainVertex(MediaOfBoundary, Element):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number; which vertex this is, is none."""
         for name, domain in self.domains().items():
-            value = getattr(self, name)
-            if isinstance(domain, VerticesDomain):
-                whole = replace(domain, tail=self.in_chain.tail)
-                yield from whole.parts(name, value)
-            elif name not in ("place", self.in_chain.counted_by):
-                yield from domain.parts(name, value)
+            if name not in ("place", self.in_chain.counted_by, "bad"):
+                yield from self.domain_here(domain).parts(name, getattr(self, name))
+
+    def domain_here(self, domain: Domain) -> Domain:
+        """Return the domain of a field in this chain, which says the axes of its points."""
+        if isinstance(domain, VerticesDomain):
+            return replace(domain, tail=self.in_chain.tail, masks=self.bad == "mask")
+        return domain
 
     def reversed(self) -> Self:
         """Return the vertex in the chain from its end to its start.
@@ -106,7 +112,7 @@ class ChainVertex(MediaOfBoundary, Element):
         """Say which vertex light must come from, unless it comes from the one before this."""
         chain, place = getattr(before, "vertices", None), getattr(before, "place", None)
         counted = is_whole(self.place) and is_whole(place)
-        if counted and place == self.place - 1 and same(self.vertices, chain):
+        if counted and place == self.place - 1 and same_points(self.vertices, chain):
             return ""
         wanted = self.place - 1 if isinstance(self.place, int) else "the one"
         return (

@@ -25,6 +25,7 @@ from optipath.elements.rotator import Rotator
 from optipath.elements.source import Source
 from optipath.elements.specular_vertex import SpecularVertex
 from optipath.elements.terminal import Detector, Dump
+from optipath.elements.vertex import Vertex
 from optipath.elements.waveplate import Waveplate
 from optipath.errors import PathError, did_you_mean
 
@@ -51,6 +52,7 @@ STANDARD = (
     Detector,
     Dump,
     Waveplate,
+    Vertex,
 )
 """The elements that come with the library; importing them has entered their kinds."""
 

@@ -9,7 +9,7 @@ from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.snell_at_vertex import SnellAtVertex
-from optipath.elements.vertices.vertex_domain import Vertices
+from optipath.elements.vertices.vertex_domain import Bad, Vertices
 from optipath.errors import PathError
 from optipath.kernels.catalogue import REFRACTION, TRANSMISSION
 from optipath.values.domains.quantities import ClearIndex, OutsideIndex, Whole
@@ -46,6 +46,9 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     count : int, optional
         How many vertices there are, m; needed only where `vertices` is a parameter without
         default.
+    bad : {"refuse", "mask"}, optional
+        Whether chains that cannot be, as those with a leg of no length, are refused, or have
+        light that is NaN.
 
     Raises
     ------
@@ -71,6 +74,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
     place: Whole
     outside: OutsideIndex = 1.0
     count: Whole | None = None
+    bad: Bad = "refuse"
 
     def __post_init__(self) -> None:
         """Check besides that the points are those of a refraction."""
@@ -110,7 +114,8 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that its points are those of a refraction."""
-        if self.front is FOLLOWS or isinstance(self.vertices, VerticesByAngles):
+        of_angles = isinstance(self.vertices, VerticesByAngles)
+        if self.front is FOLLOWS or of_angles or self.bad == "mask":
             return ()
         media = operand_of(self.front), operand_of(self._behind)
         return (SnellAtVertex((*media, *self.in_chain.points_around().arguments), owner),)

@@ -7,6 +7,7 @@ from typing import ClassVar
 from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.vertices.place import PlaceInChain
+from optipath.elements.vertices.vertex_domain import Bad
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION
 from optipath.values.domains.quantities import Whole
 
@@ -31,6 +32,9 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     reflections : int, optional
         How many vertices there are, m; needed only where `vertices` is a parameter without
         default.
+    bad : {"refuse", "mask"}, optional
+        Whether chains that cannot be, as those with a leg of no length, are refused, or have
+        light that is NaN.
 
     Examples
     --------
@@ -44,6 +48,7 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     mirrored: ClassVar[tuple[str, ...]] = ()
 
     reflections: Whole | None = None
+    bad: Bad = "refuse"
 
     @property
     def in_chain(self) -> PlaceInChain:

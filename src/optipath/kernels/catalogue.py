@@ -14,11 +14,13 @@ from optipath.kernels.carriers.structures import (
 )
 from optipath.kernels.filters import bench, emission, filters, rotation, stretch
 from optipath.kernels.fresnel import amplitude, powers, stable, textbook
+from optipath.kernels.fresnel.at_event import AtEvent
 from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.refraction import Refracting
 from optipath.kernels.geometry import vertex_chain
 from optipath.kernels.geometry.deviation import refraction_at_vertex
+from optipath.kernels.geometry.event_at_vertex import event_at_vertex
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
 from optipath.kernels.numbers.primitives import Factory
 
@@ -76,6 +78,22 @@ TRANSMISSION = _fresnel(
 METHODS = tuple(REFLECTION.methods)
 
 
+def _at_event(method: str) -> Kernel:
+    """Return the kernel of a method for what is reflected on some paths, let through on others."""
+    reflection, transmission = REFLECTION.methods[method], TRANSMISSION.methods[method]
+    name, cheaper = f"Fresnel reflection or transmission ({method}", None
+    if reflection.without:
+        lossless = AtEvent(reflection.without[1], transmission)
+        # Of (event, n1, n, k, cos, sin), k is the fourth.
+        cheaper = 3, Kernel(f"{name}, lossless)", BLOCK, lossless)
+    return Kernel(f"{name})", BLOCK, AtEvent(reflection, transmission), cheaper)
+
+
+AT_EVENT = KernelFamily(
+    "Fresnel reflection or transmission", {method: _at_event(method) for method in METHODS}
+)
+
+
 def _stack_family(*, through: bool, measured: str) -> KernelFamily:
     """Return the kernels of what a stack of layers lets through, or sends back."""
     what = "stack transmission" if through else "stack reflection"
@@ -104,6 +122,7 @@ TURN_BESIDE_REFRACTION = Kernel(
 )
 INCIDENCE = Kernel("incidence", None, vertex_chain.incidence)
 REFRACTION = Kernel("refraction at a vertex", None, refraction_at_vertex)
+EVENT_AT_VERTEX = Kernel("event at a vertex", None, event_at_vertex)
 ARRIVING = Kernel("arriving axes", None, AxesAtVertex())
 REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
 """What the points of a chain say: angles of incidence, and the axes at the last vertex."""

@@ -21,7 +21,7 @@ _TURNED = 2.0**-50
 """The deviation below which light goes straight on, which changes nothing."""
 
 
-def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any) -> str:
+def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: Any = None) -> str:
     """Ask what is meant at a vertex where every chain may be reflected, and refracted as well.
 
     Parameters
@@ -32,6 +32,8 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any) -> str:
         The media on the other side of each.
     outside : float, array_like, Material or Parameter
         Where light starts.
+    there : ndarray of bool, shape (..., m), optional
+        Which vertices are those of chains that can be, and have not ended before; by default all.
 
     Returns
     -------
@@ -45,6 +47,8 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any) -> str:
     for place, material in enumerate(materials):
         behind = known_index(material)
         around = points[..., place : place + 3, :]
+        if there is not None and behind is not None:
+            around, behind = _of_those(there[..., place], around, behind)
         if behind is None or not _may_all_refract(around, front, behind):
             events += REFLECTS
             continue
@@ -57,6 +61,18 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any) -> str:
         f"{told}; say which, events={REFLECTS * len(events)!r} where it is reflected, "
         f"events={events!r} where it goes through"
     )
+
+
+def _of_those(there: Any, around: Any, behind: Any) -> tuple[Any, Any]:
+    """Return points and indices, those of chains that are not there replaced by one that is."""
+    if np.all(there) or not np.any(there):
+        return around, behind
+    first = np.unravel_index(np.argmax(there), there.shape)
+    if around.shape[:-2] == there.shape:
+        around = np.where(there[..., np.newaxis, np.newaxis], around, around[first])
+    if behind.shape == there.shape:
+        behind = np.where(there, behind, behind[first])
+    return around, behind
 
 
 def _may_all_refract(around: Any, front: Any, behind: Any) -> bool:

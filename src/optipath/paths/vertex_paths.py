@@ -7,18 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.refracting_vertex import RefractingVertex
-from optipath.elements.source import Source
-from optipath.elements.specular_vertex import SpecularVertex
-from optipath.elements.terminal import Detector
 from optipath.elements.vertices.by_angles import VerticesByAngles, counted
-from optipath.elements.vertices.normals import normal_faults
-from optipath.elements.vertices.vertex_domain import VERTICES
-from optipath.errors import PathError, ValueFault, shown
+from optipath.elements.vertices.vertex_domain import BAD, VERTICES, legs_fit
+from optipath.errors import PathError, ValueFault, shown, unknown
 from optipath.paths.grazing_or_through import doubtful_vertex
-from optipath.paths.known_media import sides_of
+from optipath.paths.histories.chain_histories import Histories, apart_where_absorbed, histories
+from optipath.paths.histories.normals_of_chains import normals_checked
+from optipath.paths.histories.path_of_chains import path_of_chains
 from optipath.paths.path_graph import PathGraph
-from optipath.paths.vertex_events import REFLECTS, event_faults, media_in_front
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.domains.indices import OUTSIDE
@@ -38,8 +34,11 @@ def path_from_vertices(
     normals: npt.ArrayLike | None = None,
     intensity: Any = 1.0,
     *,
-    events: str | None = None,
+    events: Any = None,
     outside: Any = 1.0,
+    ids: npt.ArrayLike | None = None,
+    lengths: npt.ArrayLike | None = None,
+    bad: str = "refuse",
 ) -> PathGraph:
     """Return the path of light from point to point, reflected or refracted at each but the ends.
 
@@ -99,42 +98,52 @@ def path_from_vertices(
     0.00147456
     """
     several, not_several = _several(materials)
-    chain, faults = _chain(vertices, len(several))
-    faults += [] if events is None else event_faults(events, len(several))
-    start, of_start = _start(outside)
-    faults += of_start
+    chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))
+    points, not_points = _chain(vertices, chains.count)
+    start, not_start = _start(outside)
+    faults += [*not_points, *not_start, *unknown("bad", bad, BAD)]
+    if isinstance(points, VerticesByAngles) and isinstance(chains.events, np.ndarray):
+        faults.append("vertices by angles have one length and reflect; give the points")
     if not several:
         raise PathError(*faults, *not_several)
-    # With others in place of faulty vertices, so that the rest is checked too.
-    happens = REFLECTS * len(several) if events is None or faults else events
-    with checked_later():  # Composing names the vertices, and looks at their array once.
-        given = _any_chain(len(several)) if faults else chain
-        path = _path(given, several, intensity, happens, start)
     is_sound = not faults
-    try:
-        path.compose()
-    except PathError as error:
-        faults += error.faults
-        is_sound = is_sound and _is_sound(chain, len(several))
-    if normals is not None and is_sound and not isinstance(chain, np.ndarray):
+    if bad == "mask" and is_sound:
+        chains = apart_where_absorbed(chains)
+    path, more, is_sound = _composed(points, chains, intensity, start, bad, is_sound=is_sound)
+    faults += more
+    known = isinstance(points, np.ndarray)
+    if normals is not None and is_sound and not known:
         faults.append("normals are checked against points that are known; leave them out")
     elif normals is not None:
-        faults += _normal_faults(chain if is_sound else None, normals, several, happens, start)
-    elif events is None and not faults and not isinstance(chain, VerticesByAngles):
-        doubt = doubtful_vertex(chain, several, start)
+        of_points = points if is_sound else None
+        masked, more = normals_checked(of_points, normals, chains, start, bad)
+        faults += more
+        if masked is not chains and not faults:
+            path, *_ = _composed(points, masked, intensity, start, bad, is_sound=True)
+    elif events is None and not faults and not isinstance(points, VerticesByAngles):
+        doubt = doubtful_vertex(points, chains.materials, start, _there(points, chains, bad))
         faults += [doubt] * bool(doubt)
     if faults:
         raise PathError(*faults)
     return path
 
 
-def _normal_faults(
-    chain: Any, normals: Any, materials: Sequence[Any], events: str, outside: Any
-) -> list[str]:
-    sides = sides_of(events, materials, outside)
-    if sides is None:
-        return ["normals that refract are checked against media that are known; leave them out"]
-    return normal_faults(chain, normals, len(materials), sides)
+def _composed(
+    points: Any, chains: Histories, intensity: Any, start: Any, bad: str, *, is_sound: bool
+) -> tuple[PathGraph, list[str], bool]:
+    """Return the path, what is wrong with it, and whether points and histories are not."""
+    with checked_later():  # Composing names the vertices, and looks at their array once.
+        if not is_sound:  # With others in their place, so that the rest is checked too.
+            points, chains, bad = _any_chain(chains.count), Histories(chains.materials), BAD[0]
+        try:
+            path = path_of_chains(points, chains, intensity, start, bad)
+        except ValueFault as fault:
+            return PathGraph(), list(fault.faults), False
+    try:
+        path.compose()
+    except PathError as error:
+        return path, list(error.faults), is_sound and _is_sound(points, chains, bad)
+    return path, [], is_sound
 
 
 def _start(outside: Any) -> tuple[Any, list[str]]:
@@ -147,26 +156,34 @@ def _start(outside: Any) -> tuple[Any, list[str]]:
     return kept, []
 
 
-def _is_sound(chain: Any, count: int) -> bool:
+def _is_sound(points: Any, chains: Histories, bad: str) -> bool:
+    masks = bad == "mask" or isinstance(chains.events, np.ndarray)
     try:
-        replace(VERTICES, tail=(count + 2, 3)).check("vertices", chain)
+        replace(VERTICES, tail=(chains.count + 2, 3), masks=masks).check("vertices", points)
     except ValueFault:
-        return not isinstance(chain, np.ndarray)
+        return not isinstance(points, np.ndarray)
     return True
 
 
-def _path(
-    chain: Any, materials: Sequence[Any], intensity: Any, events: str, outside: Any
-) -> PathGraph:
-    path = PathGraph()
-    node, count = path.add("light", Source(intensity)), len(materials)
-    each = zip(events, materials, media_in_front(events, materials, outside), strict=True)
-    for place, (event, material, front) in enumerate(each, 1):
-        kind = SpecularVertex if event == REFLECTS else RefractingVertex
-        vertex = kind(material, chain, place, front, count)
-        node = node >> path.add(f"vertex{place}", vertex)
-    node >> path.add("eye", Detector())
-    return path
+def _there(points: Any, chains: Histories, bad: str) -> Any:
+    """Return at which vertices of which chains light arrives, where that is not all of them."""
+    if chains.ended is None and (bad != "mask" or not isinstance(points, np.ndarray)):
+        return None
+    there = np.ones(chains.count, bool) if chains.ended is None else ~chains.ended
+    if bad == "mask" and isinstance(points, np.ndarray):
+        there = there & legs_fit(points)[..., 1:]
+    return there
+
+
+def _batch_of(vertices: Any) -> tuple[int, ...]:
+    """Return the shape of a batch of points, as far as it is known."""
+    if isinstance(vertices, (Parameter, VerticesByAngles)):
+        return ()
+    try:
+        shape: tuple[int, ...] = np.shape(vertices)
+    except (TypeError, ValueError):
+        return ()  # A fault of its own.
+    return shape[:-2]
 
 
 def _any_chain(count: int) -> VerticesByAngles:

@@ -7,8 +7,12 @@ from functools import cached_property, reduce
 from operator import and_
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.errors import OptipathError, ParameterError
 from optipath.values.agreement import first_faults
+from optipath.values.arrays.array_likes import array_of
+from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.cures import how_to_give
 from optipath.values.domains.axis import axes_for
@@ -47,6 +51,8 @@ class Inputs:
         What is chosen before a path is composed, and not given when it runs.
     agreements : tuple of Agreement
         What must fit together, and is not known to.
+    masks : bool
+        Whether light of what cannot be is NaN, and is not refused.
     """
 
     open: Mapping[str, Parameter]
@@ -56,6 +62,7 @@ class Inputs:
     known: tuple[Use, ...] = ()
     choices: tuple[str, ...] = ()
     agreements: tuple[Agreement, ...] = ()
+    masks: bool = False
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
@@ -95,7 +102,7 @@ class Inputs:
                 try:
                     self._ask_in_doubt(name, value)
                     value = axes_for(name, value, self.uses)
-                    resolved[name] = parameter.resolve(value, self.limits[name])
+                    resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
                     faults += self._of_a_fit(fault.faults, name, value)
         found: dict[str, tuple[int, ...]] = {}
@@ -128,6 +135,44 @@ class Inputs:
         if faults:
             raise ParameterError(*faults)
         return resolved, joint_shape(*shapes.values())
+
+    def numbers_for(self, name: str, value: Any) -> Resolved:
+        """Return the numbers that are given for an open parameter.
+
+        Parameters
+        ----------
+        name : str
+            The parameter.
+        value : Any
+            What is given for it.
+
+        Returns
+        -------
+        Resolved
+            With numbers that are not finite, where these are taken.
+
+        Raises
+        ------
+        ParameterError, UnitError
+            If it stands for no number that is allowed.
+        """
+        parameter, limits = self.open[name], self.limits[name]
+        if name not in self._taken or is_traced(value):
+            return parameter.resolve(value, limits)
+        numbers = array_of(f"parameter '{name}'", value, ParameterError)
+        there = np.isfinite(numbers) if numbers.dtype.kind == "f" else True
+        if np.all(there):
+            return parameter.resolve(value, limits)
+        parameter.resolve(np.where(there, numbers, 0.0), limits)
+        return Resolved(numbers, THERE)
+
+    @cached_property
+    def _taken(self) -> frozenset[str]:
+        return frozenset(use.value.name for use in self.uses if use.domain.takes_any)
+
+    def unsound(self, light: Any) -> Any:
+        """Return which numbers of light nobody may get; NaN may say that it cannot be."""
+        return np.isinf(light) if self.masks else ~np.isfinite(light)
 
     @cached_property
     def hidden(self) -> tuple[Agreement, ...]:

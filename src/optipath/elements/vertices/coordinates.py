@@ -24,10 +24,18 @@ class Coordinates(NamedTuple):
         Coordinates, or cosines and sines of angles.
     points : PointsByAngles or None
         Makes coordinates of the arguments, where they are none.
+    events : tuple of Operand
+        What happens at each vertex between the points, where that differs from path to path.
     """
 
     arguments: tuple[Operand, ...]
     points: PointsByAngles | None
+    events: tuple[Operand, ...] = ()
+
+    @property
+    def operands(self) -> tuple[Operand, ...]:
+        """All that is given of them."""
+        return *self.events, *self.arguments
 
     def given_to(self, kernel: Kernel, *before: Any) -> Operation:
         """Return the operation of a kernel of coordinates.
@@ -51,7 +59,8 @@ class Coordinates(NamedTuple):
         Angles tell a plane where points do not; the points are to be all from the start.
         """
         if self.points is None:
-            return Operation(kernel, self.arguments)
+            factory: Any = replace(kernel.factory, events=len(self.events))  # type: ignore[type-var]
+            return Operation(replace(kernel, factory=factory), self.operands)
         known: Any = replace(kernel.factory, known=True)  # type: ignore[type-var]
         points = replace(self.points, axes=True)
         return Operation(replace(kernel, factory=known), self._coordinates(points))

@@ -86,7 +86,7 @@ class VertexFrame:
                 "a frame is of numbers, not of vertices that JAX traces; look at it outside of "
                 "jit and grad"
             )
-        points = {id(o): cut(_doubles(o, given)) for o in self.points.arguments}
+        points = {id(o): cut(_doubles(o, given)) for o in self.points.operands}
         turns = [cut(_doubles(operand, given)) for operand in self.turns]
         shape = joint_shape(*(number.shape for number in (*points.values(), *turns)))
         with np.errstate(all="ignore"), enough_for(shape, _THREE_AXES, error=FrameError):
@@ -102,7 +102,7 @@ class VertexFrame:
 
     @property
     def _views(self) -> tuple[Operand, ...]:
-        return *self.points.arguments, *self.turns
+        return *self.points.operands, *self.turns
 
 
 def _doubles(operand: Operand, given: Mapping[str, Resolved]) -> npt.NDArray[np.float64]:

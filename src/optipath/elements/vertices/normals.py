@@ -94,6 +94,36 @@ def normal_faults(
     return _own_faults(given, batch) or _off_faults(whole, batch, doubted, tolerance)
 
 
+def are_off(chains: Floats, normals: Any, sides: Floats) -> npt.NDArray[np.bool_]:
+    """Return which chains have a normal that is not along that of its vertex.
+
+    Parameters
+    ----------
+    chains, normals, sides
+        As `normal_faults` takes them, which has found no fault with these normals alone.
+
+    Returns
+    -------
+    ndarray of bool, shape (...)
+        False of chains whose points tell no direction.
+    """
+    count = normals.shape[-2]
+    tolerance = max(_TOLERANCE, 2.0 * rounding_of(normals))
+    batch = np.broadcast_shapes(chains.shape[:-2], normals.shape[:-2], sides.shape[:-2])
+    ends = (count + 2, 3), (count, 3), (count, 2)
+    several = (chains, as_doubles(normals), sides)
+    whole = [
+        np.broadcast_to(each, (*batch, *end)).reshape(-1, *end)
+        for each, end in zip(several, ends, strict=True)
+    ]
+    with np.errstate(all="ignore"):
+        off = [
+            np.any(_off(*(e[piece] for e in whole)) > tolerance, -1)
+            for piece in pieces_of(len(whole[0]))
+        ]
+    return np.concatenate(off).reshape(batch)
+
+
 def _own_faults(normals: Floats, batch: tuple[int, ...]) -> list[str]:
     """Return which normals are none, whatever the chain."""
     found = []

@@ -5,13 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.coordinates import Coordinates, coordinates
 from optipath.errors import shown
+from optipath.values.arrays.read_only import same
 from optipath.values.parameters import Parameter
 from optipath.values.whole_numbers import is_whole
 
 _MOST = (1 << 31) - 1
+_DOUBLE = np.dtype(np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,3 +94,27 @@ class PlaceInChain:
 
     def _points(self, first: int) -> Coordinates:
         return coordinates(self.vertices, self.tail[0], first, self._number + 1)
+
+
+def same_points(first: Any, second: Any) -> bool:
+    """Tell whether two chains are equal; points that are not finite are, where they stand alike.
+
+    Parameters
+    ----------
+    first, second : Any
+        What is given for the vertices of an element.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> same_points(np.full((3, 3), np.nan), np.full((3, 3), np.nan))
+    True
+    """
+    if same(first, second):
+        return True
+    kinds = {getattr(chain, "dtype", None) for chain in (first, second)}
+    return kinds == {_DOUBLE} and np.array_equal(first, second, equal_nan=True)

@@ -12,8 +12,9 @@ from optipath.elements.vertices.naming import of_chain, pieces_of
 from optipath.errors import ValueFault
 from optipath.kernels.geometry.vertex_chain import LONGEST, SHORTEST
 from optipath.values.arrays.array_likes import array_of
-from optipath.values.arrays.jax_values import namespace
+from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.read_only import read_only
+from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.quantities import Quantity
 
@@ -25,7 +26,23 @@ _LEAST, _MOST = SHORTEST**2, LONGEST**2
 
 @dataclass(frozen=True)
 class VerticesDomain(Domain):
-    """Points from the light to the eye, in the unit of any length."""
+    """Points from the light to the eye, in the unit of any length.
+
+    Attributes
+    ----------
+    masks : bool
+        Whether chains that cannot be are let in, and have light that is NaN.
+    ends : bool
+        Whether chains may end before the last point, and nothing is said of those behind.
+    """
+
+    masks: bool = False
+    ends: bool = False
+
+    @property
+    def takes_any(self) -> bool:
+        """Whether any numbers are let in, which others look at."""
+        return self.masks or self.ends
 
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if isinstance(value, VerticesByAngles):
@@ -54,6 +71,11 @@ class VerticesDomain(Domain):
         return read_only(kept.astype(np.float64)) if whole else kept
 
     def check(self, owner: str, value: Any) -> npt.NDArray[Any]:
+        if self.takes_any and not is_traced(value):
+            points = array_of(owner, value)
+            if points.dtype.kind in "iuf":
+                self._check_shape(owner, points.shape)
+                return points
         try:
             return super().check(owner, value)
         except ValueFault:
@@ -79,7 +101,9 @@ class VerticesDomain(Domain):
 
     def allows(self, numbers: Any) -> Any:
         """Return which chains of an array are allowed."""
-        return super().allows(numbers).all(axis=(-2, -1)) & _legs_fit(numbers).all(axis=-1)
+        if self.takes_any:
+            return namespace(numbers).ones(numbers.shape[:-2], bool)
+        return super().allows(numbers).all(axis=(-2, -1)) & legs_fit(numbers).all(axis=-1)
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
         super()._check_numbers(owner, array, rounding)
@@ -89,15 +113,15 @@ class VerticesDomain(Domain):
             if _are_surely_apart(some):
                 continue
             with np.errstate(over="ignore"):
-                bad = ~_legs_fit(some)
+                bad = ~legs_fit(some)
             if bad.any():
                 chain, place = (int(found[0]) for found in np.nonzero(bad))
                 where = of_chain(piece.start + chain, array.shape[:-2])
                 raise ValueFault(_leg_fault(owner, some[chain], place, where))
 
 
-def _legs_fit(chains: Any) -> Any:
-    """Return which legs of chains are within the limits."""
+def legs_fit(chains: Any) -> Any:
+    """Return which legs of chains are within the limits, shape (..., m + 1)."""
     legs = chains[..., 1:, :] - chains[..., :-1, :]
     squares = namespace(chains).einsum("...i,...i", legs, legs)
     return (squares >= _LEAST) & (squares <= _MOST)
@@ -130,4 +154,7 @@ def _leg_fault(owner: str, chain: npt.NDArray[Any], place: int, where: str) -> s
 
 _COUNTED = ", counted from the light as 0"
 VERTICES = VerticesDomain("coordinate")
+BAD = ("refuse", "mask")
+"""What becomes of chains that cannot be: an error, or light that is NaN."""
 Vertices: TypeAlias = Annotated[Quantity | VerticesByAngles, VERTICES]
+Bad: TypeAlias = Annotated[str, Choice("what becomes of chains that cannot be", words=BAD)]

@@ -20,11 +20,12 @@ from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.light.underflow import UNDERFLOW
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Mapping
+    from collections.abc import Hashable, Mapping, Sequence
 
     from optipath.engines.program.loops import LoopSolver
     from optipath.engines.program.program import Program, Reading
     from optipath.kernels.carriers.carrier import Carrier
+    from optipath.kernels.numbers.primitives import Primitives
     from optipath.values.input_key import InputKey
 
 
@@ -45,6 +46,7 @@ def lights_formula(
     polynomials: bool,
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     unreduced: bool = False,
+    masks: bool = False,
 ) -> Formula:
     """Return the formula of the light at every end.
 
@@ -71,6 +73,8 @@ def lights_formula(
         Along which axes of the batch each array differs.
     unreduced : bool, optional
         Whether nothing is left out.
+    masks : bool, optional
+        Whether light that is NaN is so on purpose, and the formula holds for it.
 
     Returns
     -------
@@ -94,12 +98,14 @@ def lights_formula(
     holds = [condition for solver in solvers for condition in solver.conditions]
     for reading in program.readings.values():
         components, exponent = found[reading.light]
-        read = components[: 4 if unreduced else reading.components]
+        read: Any = components[: 4 if unreduced else reading.components]
+        sound = _finite(read, recorder.dtype)
+        if carrier is StokesCarrier:
+            sound = sound & (components[0] >= tiny * UNDERFLOW)
+        read, sound = _masked(xp, read, sound) if masks else (read, sound)
         outputs += [*read, *[np.nan] * (4 - len(read))]
         exponents.append(exponent)
-        holds.append(_finite(read, recorder.dtype))
-        if carrier is StokesCarrier:
-            holds.append(components[0] >= tiny * UNDERFLOW)
+        holds.append(sound)
     return _formula(recorder, [*outputs, *exponents], holds)
 
 
@@ -183,6 +189,8 @@ def matrix_formula(
     forms: Mapping[InputKey, str],
     limits: Mapping[Hashable, Limits],
     axes: Mapping[str, frozenset[int]] = NO_AXES,
+    *,
+    masks: bool = False,
 ) -> Formula:
     """Return the formula of the Mueller matrix from a source to a reading, row by row.
 
@@ -202,6 +210,8 @@ def matrix_formula(
         The range of each parameter.
     axes : mapping of str to frozenset of int, optional
         Along which axes of the batch each array differs.
+    masks : bool, optional
+        As `lights_formula` takes it.
 
     Returns
     -------
@@ -224,9 +234,18 @@ def matrix_formula(
         columns.append(components)
     rows = range(reading.components)
     outputs = [column[row] for row in rows for column in columns]
+    sound = _finite(outputs, recorder.dtype)
+    if masks:
+        outputs, sound = _masked(operands.primitives, outputs, sound)
     unread = [np.nan] * (16 - len(outputs))
     holds = [condition for solver in solvers[:1] for condition in solver.conditions]
-    return _formula(recorder, [*outputs, *unread], [*holds, _finite(outputs, recorder.dtype)])
+    return _formula(recorder, [*outputs, *unread], [*holds, sound])
+
+
+def _masked(xp: Primitives, numbers: Sequence[Any], sound: Any) -> tuple[list[Any], Any]:
+    """Return numbers that are all NaN where the first is, and whether they are sound or so."""
+    there = numbers[0] == numbers[0]  # Of all numbers, NaN alone differs from itself.
+    return [xp.where(there, number, np.nan) for number in numbers], sound | ~there
 
 
 def _finite(numbers: Any, dtype: np.dtype[Any]) -> Any:

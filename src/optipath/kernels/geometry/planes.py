@@ -7,6 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.filters.rotation import align
+from optipath.kernels.geometry.events import Event
 from optipath.kernels.geometry.vectors import Vector, choice, cross, dot, minus, times
 from optipath.kernels.geometry.vertex_chain import legs, points_of
 
@@ -34,9 +35,12 @@ class OfPlanes:
     known : bool
         Whether, behind the points, an x is given for each vertex: for those next to the
         normal or to grazing incidence, whose points tell no plane.
+    events : int
+        How many vertices have what happens at them given before the points, by `Event`.
     """
 
     known: bool = False
+    events: int = 0
 
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the function of coordinates."""
@@ -46,11 +50,12 @@ class OfPlanes:
         """Make ``(x0, y0, z0, ...) -> legs and the x of each vertex``."""
         along, planes = legs(xp), axes(xp)
 
-        def of(*coordinates: Any) -> tuple[list[Leg], list[Vector]]:
-            vectors = points_of(coordinates)
+        def of(*numbers: Any) -> tuple[list[Leg], list[Vector]]:
+            vectors = points_of(numbers[self.events :])
             # Of n vertices there are n + 2 points.
             count = len(vectors) // 2 + 1 if self.known else len(vectors)
-            several = along(vectors[:count])
+            ended = [event == Event.BEHIND for event in numbers[: self.events]]
+            several = along(vectors[:count], ended)
             return several, planes(several, vectors[count:])
 
         return of

@@ -10,7 +10,7 @@ from itertools import pairwise
 from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.geometry.vectors import Vector, dot, minus, plus, times
+from optipath.kernels.geometry.vectors import Vector, choice, dot, minus, plus, times
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -75,12 +75,20 @@ def points_of(coordinates: Sequence[Any]) -> list[Vector]:
     return [(coordinates[i], coordinates[i + 1], coordinates[i + 2]) for i in rows]
 
 
-def legs(xp: Primitives) -> Callable[[Sequence[Vector]], list[Leg]]:
-    """Make ``points -> legs``; one that is too short or too long is not finite."""
-    sqrt, where = xp.sqrt, xp.where
+def legs(xp: Primitives) -> Callable[..., list[Leg]]:
+    """Make ``points, ended -> legs``; one that is too short or too long is not finite.
 
-    def between(points: Sequence[Vector]) -> list[Leg]:
-        found = []
+    What has ended, by a condition for each vertex between the points, goes straight on, wherever
+    the points behind it are.
+    """
+    sqrt, where, chosen = xp.sqrt, xp.where, choice(xp)
+
+    def between(points: Sequence[Vector], ended: Sequence[Any] = ()) -> list[Leg]:
+        found: list[Leg] = []
+        points = list(points)
+        for place, has_ended in enumerate(ended):
+            # A point that is there, at the length of the leg before, so that all is finite.
+            points[place + 2] = chosen(has_ended, points[place], points[place + 2])
         for start, end in pairwise(points):
             along = minus(end, start)
             squared = dot(along, along)
@@ -88,7 +96,15 @@ def legs(xp: Primitives) -> Callable[[Sequence[Vector]], list[Leg]]:
             # Both limits are 0 in single precision, which has none of the other numbers.
             kept = (squared > _LEAST) & (inverse > _INVERSE)
             inverse = where(kept, inverse, nan)
-            found.append(Leg(along, inverse, times(inverse, along)))
+            leg = Leg(along, inverse, times(inverse, along))
+            if found and ended:
+                has_ended, before = ended[len(found) - 1], found[-1]
+                along, unit = (
+                    chosen(has_ended, *two)
+                    for two in ((before.along, along), (before.unit, leg.unit))
+                )
+                leg = Leg(along, inverse, unit)
+            found.append(leg)
         return found
 
     return between

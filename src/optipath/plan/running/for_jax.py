@@ -92,7 +92,7 @@ class ForJax:
         return not traces and not np.all(sound)
 
     def nan_outside(self, numbers: Any, resolved: Mapping[str, Resolved], axes: int) -> Any:
-        """Return what JAX gives, NaN where a value that it traces is not allowed.
+        """Return what JAX gives, NaN where a value that it traces is not allowed, or S0 is NaN.
 
         Parameters
         ----------
@@ -108,10 +108,11 @@ class ForJax:
         Array
             Of the shape of the numbers.
         """
-        inside = self.inputs.inside(resolved)
+        inside, xp = self.inputs.inside(resolved), namespace(numbers)
+        if self.inputs.masks:
+            inside = inside & ~xp.isnan(numbers[(..., *[0] * axes)])
         if inside is True:
             return numbers
-        xp = namespace(numbers)
         # As a factor it makes slopes NaN as well, and those of what is allowed stay as they are.
         factor = xp.where(inside, 1.0, xp.nan).astype(numbers.dtype)
         return numbers * factor.reshape(*factor.shape, *[1] * axes)

@@ -57,6 +57,7 @@ class FormulaMaker:
     ) -> None:
         self.program = program
         self.limits = inputs.limits
+        self.masks = inputs.masks
         self.carrier = carrier
         self.dtype = dtype
         self.unreduced = unreduced
@@ -96,6 +97,7 @@ class FormulaMaker:
             Of four components at every end, and of the exponents behind them.
         """
         kind, carrier = self.dtype.name, carrier or self.carrier
+        options["masks"] = self.masks
         return lights_formula(self.program, carrier, kind, forms, self.limits, **options)
 
     def all_given_as(self, form: str) -> dict[InputKey, str]:

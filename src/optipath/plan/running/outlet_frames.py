@@ -51,7 +51,7 @@ class LaterFrame:
     def _made(self) -> Frame:
         opened = self.inputs.open
         given = {
-            name: opened[name].resolve(self.parameters.get(name, opened[name].default))
+            name: self.inputs.numbers_for(name, self.parameters.get(name, opened[name].default))
             for name in self.frame.names
         }
         if not self.where:

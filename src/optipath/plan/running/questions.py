@@ -52,6 +52,7 @@ class LightQuestion(Question):
         found = runner.interpreter.lights(given, shared)
         for (stokes, _), count in zip(found, self.counts, strict=True):
             runner.refuse_infinite(stokes[..., :count])
+            stokes[np.isnan(stokes[..., 0])] = np.nan
         components = [stokes.reshape(-1, 4).T for stokes, _ in found]
         return np.concatenate([*components, *(power.reshape(1, -1) for _, power in found)])
 
@@ -117,12 +118,14 @@ class MatrixQuestion(Question):
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         kind, limits = maker.dtype.name, maker.limits
-        return matrix_formula(self.program, self.source, self.reading, kind, forms, limits, axes)
+        ends = self.source, self.reading
+        return matrix_formula(self.program, *ends, kind, forms, limits, axes, masks=maker.masks)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.
         found = runner.interpreter.matrix(given, self.source, self.reading)
         runner.refuse_infinite(found[..., : self.reading.components, :])
+        found[np.isnan(found[..., 0, 0])] = np.nan
         return found.reshape(-1, 16).T
 
     def by_jax(self, runner: Asked, resolved: Any, batch: Batch, parameters: Any) -> Any:

@@ -296,7 +296,7 @@ class Runner(Answering):
         return (given.part(piece.where) for piece in pieces(given.batch, CACHED))
 
     def refuse_infinite(self, numbers: Array) -> None:
-        """Refuse light that is not finite.
+        """Refuse light that is not finite, but for NaN where that says what cannot be.
 
         Raises
         ------
@@ -304,7 +304,7 @@ class Runner(Answering):
             Telling the cure.
         """
         method = self.options.method
-        if not is_traced(numbers) and not np.all(np.isfinite(numbers)):
+        if not is_traced(numbers) and np.any(self.inputs.unsound(numbers)):
             raise ParameterError(
                 f"the light is not finite in {self.dtype} by method '{method}': a value is "
                 f"too extreme{self.first_values.doubt}; give values nearer to 1"

@@ -43,6 +43,7 @@ class Domain:
     """
 
     complex_parts: ClassVar[tuple[str, ...]] = ()
+    masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
 
     name: str
     dimension: str = ""
@@ -160,6 +161,11 @@ class Domain:
 
         Formulas look at their light anyway, so that nobody needs to look at the array first.
         """
+        return False
+
+    @property
+    def takes_any(self) -> bool:
+        """Whether any numbers are let in, which others look at."""
         return False
 
     def quickly_allows(self, value: Any) -> bool:

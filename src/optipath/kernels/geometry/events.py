@@ -1,0 +1,26 @@
+"""What happens to light at a vertex of a chain, as kernels are given it: a number for each."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+
+class Event:
+    """The numbers by which kernels tell what happens at a vertex, which differs from path to path.
+
+    Attributes
+    ----------
+    REFLECTS : float
+        Light goes back into its medium.
+    REFRACTS : float
+        It goes on in the medium on the other side.
+    BEHIND : float
+        The chain has ended before; light goes on as it is, wherever the points are.
+    CANNOT : float
+        There is no such chain, and its light is not a number.
+    """
+
+    REFLECTS: ClassVar[float] = 0.0
+    REFRACTS: ClassVar[float] = 1.0
+    BEHIND: ClassVar[float] = 2.0
+    CANNOT: ClassVar[float] = 3.0

@@ -1,0 +1,128 @@
+"""What happens at the vertices of chains that differ in it: out of letters, a number for each."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.vertices.naming import of_chain
+from optipath.errors import ValueFault, shown
+from optipath.kernels.geometry.events import Event
+from optipath.paths.histories.chain_lengths import has_ended
+from optipath.paths.vertex_events import REFLECTS, REFRACTS
+from optipath.values.arrays.array_likes import as_given
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+    Letters = npt.NDArray[np.uint32]
+
+_CURE = "give R for each vertex that reflects and T for each that refracts"
+
+
+def letters_given(events: Any, count: int) -> Letters:
+    """Return the letter of each vertex of each chain, as its number in Unicode; 0 for none.
+
+    Parameters
+    ----------
+    events : str, sequence of str, or array_like of str, shape (..., count)
+        A text for all chains, one for each, or a letter for each vertex of each.
+    count : int
+        The most vertices that there are.
+
+    Returns
+    -------
+    ndarray, shape (..., count)
+
+    Raises
+    ------
+    ValueFault
+        If they are no texts, or of more letters than there are vertices.
+
+    Examples
+    --------
+    >>> letters_given(["RT", "T"], 2).tolist()
+    [[82, 84], [84, 0]]
+    """
+    texts = _texts(events)
+    width = max(texts.dtype.itemsize // 4, 1)
+    letters = np.ascontiguousarray(texts).view(np.uint32).reshape(*texts.shape, width)
+    if texts.ndim < 2:
+        if width > count:
+            raise ValueFault(_too_long(texts, count))
+        room = np.zeros((*texts.shape, count - width), np.uint32)
+        return np.concatenate([letters, room], axis=-1)
+    if texts.shape[-1] != count or width > 1:
+        raise ValueFault(
+            f"events is an array of {texts.shape} texts of up to {width} letters; give a text for "
+            f"each chain, in one row, or an array of shape (..., {count}) of single letters"
+        )
+    return letters[..., 0]
+
+
+def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats:
+    """Return what happens at each vertex of each chain, by numbers of `Event`.
+
+    Parameters
+    ----------
+    letters : ndarray, shape (..., count)
+        As `letters_given` returns them.
+    lengths : ndarray of int, shape (...), or None
+        How many vertices each chain has; by default as many as there are letters.
+
+    Returns
+    -------
+    ndarray, shape (..., count)
+
+    Raises
+    ------
+    ValueFault
+        If another letter is among them, or there is none for a vertex.
+
+    Examples
+    --------
+    >>> events_of(letters_given(["RTR", "T"], 3), None)
+    array([[0., 1., 0.],
+           [1., 2., 2.]])
+    """
+    codes = np.full(letters.shape, np.nan)
+    codes[letters == ord(REFLECTS)] = Event.REFLECTS
+    codes[letters == ord(REFRACTS)] = Event.REFRACTS
+    if lengths is None:
+        # Of a text, all behind its last letter is none.
+        ended = np.logical_and.accumulate(letters[..., ::-1] == 0, axis=-1)[..., ::-1]
+        ended[..., 0] = False
+    else:
+        ended = has_ended(lengths, letters.shape[-1])
+    codes = np.where(ended, Event.BEHIND, codes)
+    if np.any(bad := np.isnan(codes)):
+        chain, place = (int(found[0]) for found in np.nonzero(bad.reshape(-1, bad.shape[-1])))
+        letter = np.broadcast_to(letters, codes.shape).reshape(-1, bad.shape[-1])[chain, place]
+        found = f"is {chr(letter)!r}" if letter else "is missing"
+        where = of_chain(chain, codes.shape[:-1])
+        raise ValueFault(f"events: letter {place + 1}{where} {found}; {_CURE}")
+    return codes
+
+
+def _texts(events: Any) -> npt.NDArray[np.str_]:
+    array = as_given("events", events)
+    if array.dtype.kind == "O" and all(isinstance(text, str) for text in array.ravel()):
+        array = array.astype(str)
+    if array.dtype.kind != "U":
+        raise ValueFault(
+            f"events is {shown(events)}; {_CURE}: one text for all chains, a text for each, or an "
+            f"array of single letters"
+        )
+    return array
+
+
+def _too_long(texts: npt.NDArray[np.str_], count: int) -> str:
+    lengths = np.char.str_len(texts)
+    chain = int(np.argmax((lengths > count).ravel()))
+    most = f"{count} vert{'ices' if count != 1 else 'ex'}"
+    return (
+        f"events{of_chain(chain, texts.shape)} has {lengths.ravel()[chain]} letters for {most} at "
+        f"most; give R or T for each vertex, in order"
+    )

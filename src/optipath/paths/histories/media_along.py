@@ -1,0 +1,74 @@
+"""The media that light is in along chains whose events differ: computed once, for all chains."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.kernels.geometry.events import Event
+from optipath.paths.histories.palette import index_numbers
+from optipath.values.materials import Material
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    Floats = npt.NDArray[np.float64]
+
+_WHY = "which medium light is in differs from chain to chain"
+
+
+class Sides(NamedTuple):
+    """The media on both sides of a vertex, for each chain.
+
+    Attributes
+    ----------
+    front : float or ndarray
+        n where light comes from.
+    behind : float, ndarray or Material
+        On the other side of the surface.
+    """
+
+    front: Any
+    behind: Any
+
+
+def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[Sides]:
+    """Return the media on both sides of each vertex.
+
+    Parameters
+    ----------
+    events : ndarray, shape (..., m)
+        What happens at each vertex, by `Event`.
+    materials : sequence of m float, complex, array_like or Material
+        The media on the other sides.
+    outside : float, array_like or Material
+        Where light starts.
+
+    Returns
+    -------
+    list of Sides
+
+    Raises
+    ------
+    ValueFault
+        If one is not known.
+
+    Examples
+    --------
+    A pane, from which some light comes back:
+
+    >>> events = np.array([[1.0, 1.0], [1.0, 0.0]])
+    >>> media_along(events, (1.5, 1.2), 1.0)[1].front
+    array([1.5, 1.5])
+    """
+    front = index_numbers("outside", outside, _WHY).real
+    found = []
+    for place, material in enumerate(materials):
+        m = index_numbers(f"materials[{place}]", material, _WHY)
+        n, k = m.real.copy(), m.imag.copy()
+        found.append(Sides(front[()], Material(n[()], k[()]) if np.any(k) else n[()]))
+        front = np.where(events[..., place] == Event.REFRACTS, n, front)
+    return found

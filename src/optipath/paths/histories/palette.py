@@ -1,0 +1,158 @@
+"""The media of chains of a batch, by an id for each vertex: an entry of a palette."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault
+from optipath.paths.histories.chain_lengths import number_of, whole_numbers
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.shapes import first_place
+from optipath.values.domains.indices import INDEX
+from optipath.values.materials import Material
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    Complex = npt.NDArray[np.complex128]
+
+
+def rows_of_ids(ids: Any) -> npt.NDArray[Any]:
+    """Return ids as an array of real numbers, shape (..., m).
+
+    Raises
+    ------
+    ValueFault
+        If they are no such rows.
+    """
+    numbers = whole_numbers("ids", ids)
+    if not numbers.ndim or not numbers.shape[-1]:
+        raise ValueFault(f"ids must have shape (..., m), one for each vertex, not {numbers.shape}")
+    return numbers
+
+
+def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray[np.intp]:
+    """Return which medium stands behind each vertex of each chain.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (..., m)
+        Ids: whole numbers from 0.
+    media : int
+        How many there are.
+    ended : ndarray of bool, shape (..., m), or None
+        Which vertices are behind the end of their chain, so that their ids say nothing.
+
+    Returns
+    -------
+    ndarray of int
+
+    Raises
+    ------
+    ValueFault
+        If one is no whole number of 0 .. media - 1.
+
+    Examples
+    --------
+    >>> ids_within(np.array([[0, 1], [1, -1]]), 2, np.array([[False, False], [False, True]]))
+    array([[0, 1],
+           [1, 0]])
+    """
+    if ended is not None and np.any(ended):
+        numbers = np.where(ended, 0, numbers)
+    bad = ~((numbers >= 0) & (numbers < media))
+    if numbers.dtype.kind == "f":
+        bad |= numbers != np.rint(numbers)
+    if np.any(bad):
+        raise ValueFault(
+            f"ids is {number_of(numbers, bad)}{first_place(bad)}; give the place of one of the "
+            f"materials, 0 .. {media - 1}"
+        )
+    return numbers.astype(np.intp, copy=False)
+
+
+def media_by_ids(
+    materials: Sequence[Any], ids: npt.NDArray[np.intp] | None
+) -> tuple[Any, ...] | None:
+    """Return the medium behind each vertex, an array over chains for each.
+
+    Parameters
+    ----------
+    materials : sequence of m float, complex or Material
+        The palette.
+    ids : ndarray of int, shape (..., m), or None
+        Which of them, as `ids_within` returns it; without them the palette alone is looked at.
+
+    Returns
+    -------
+    tuple of m ndarray or Material, or None
+        The latter of the two where some absorb; None without ids.
+
+    Raises
+    ------
+    ValueFault
+        With what is wrong with each entry of the palette.
+
+    Examples
+    --------
+    >>> media_by_ids([1.5, 1.0], np.array([[0, 1], [1, 1]]))
+    (array([1.5, 1. ]), array([1., 1.]))
+    """
+    faults: list[str] = []
+    palette = np.ones(len(materials), complex)
+    for place, material in enumerate(materials):
+        name = f"materials[{place}]"
+        try:
+            index = index_numbers(name, material, "ids choose from numbers")
+        except ValueFault as fault:
+            faults += fault.faults
+            continue
+        if index.ndim:
+            faults.append(f"{name} is an array, and ids choose from numbers; give one number")
+        else:
+            palette[place] = index
+    if faults:
+        raise ValueFault(*faults)
+    if ids is None:
+        return None
+    n, k = palette.real.copy(), palette.imag.copy()
+    each = [ids[..., place] for place in range(ids.shape[-1])]
+    return tuple(
+        Material(n[one], k[one]) if np.any(k) and np.any(k[one]) else n[one] for one in each
+    )
+
+
+def index_numbers(name: str, medium: Any, why: str) -> Complex:
+    """Return the index of a medium as numbers.
+
+    Parameters
+    ----------
+    name : str
+        What has it, as sentences name it.
+    medium : float, complex, array_like or Material
+        What is given.
+    why : str
+        Why it must be known.
+
+    Returns
+    -------
+    ndarray of complex
+
+    Raises
+    ------
+    ValueFault
+        If it is a parameter, or traced by JAX, or no index.
+    """
+    parts = (medium.n, medium.k) if isinstance(medium, Material) else (medium,)
+    if any(isinstance(part, Parameter) or is_traced(part) for part in parts):
+        raise ValueFault(
+            f"{name} is given when the path runs, but {why}; give a number here, and make a path "
+            f"for each value"
+        )
+    given = medium.refractive_index if isinstance(medium, Material) else medium
+    return np.asarray(INDEX.check(name, given)).astype(complex)
