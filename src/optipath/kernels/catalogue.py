@@ -13,13 +13,22 @@ from optipath.kernels.carriers.structures import (
     SCALE,
 )
 from optipath.kernels.filters import emission, filters, rotation, stretch
-from optipath.kernels.fresnel import amplitude, powers, stable, textbook
+from optipath.kernels.fresnel import (
+    amplitude,
+    amplitude_from_absorbing,
+    from_absorbing,
+    inhomogeneous,
+    powers,
+    stable,
+    textbook,
+)
 from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.refraction import Refracting
 from optipath.kernels.geometry import vertex_chain
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
 from optipath.kernels.numbers.primitives import Factory
+from optipath.kernels.numbers.with_zero import WithZero
 
 Factories: TypeAlias = tuple[Factory, ...]
 """One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
@@ -73,6 +82,62 @@ TRANSMISSION = _fresnel(
     textbook=(Refracting(textbook.textbook_transmission),),
 )
 METHODS = tuple(REFLECTION.methods)
+
+
+def _from_absorbing(stable: Factory, amplitude: Factory) -> dict[str, Factory]:
+    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)`` of all methods.
+
+    Textbooks print no form by angles: by that method, too, it is the amplitudes.
+    """
+    by_amplitudes = Sloped(amplitude, stable)
+    return {
+        "stable": stable,
+        "compensated": Sloped(Compensated(stable), stable),
+        "amplitude": by_amplitudes,
+        "textbook": by_amplitudes,
+    }
+
+
+def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for a medium in front that absorbs, and where it does not, the other."""
+    what, methods = f"{family.name} out of an absorbing medium", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, family.methods[method]))
+    return KernelFamily(what, methods)
+
+
+def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for light from behind; where nothing absorbs, it is the other."""
+    what, methods = f"{family.name} from behind", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        usual = family.methods[method]
+        name = f"{what} ({method}, lossless)"
+        lossless = (
+            usual.without[1] if usual.without else Kernel(name, BLOCK, WithZero(usual.factory, 2))
+        )
+        name = f"{what} ({method}, lossless in front)"
+        rarer = Kernel(name, BLOCK, WithZero(factory, 1), (2, lossless))
+        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, rarer))
+    return KernelFamily(what, methods)
+
+
+REFLECTION_FROM_ABSORBING = _from_front(
+    REFLECTION,
+    from_absorbing.inhomogeneous_reflection,
+    amplitude_from_absorbing.amplitude_inhomogeneous_reflection,
+)
+TRANSMISSION_FROM_ABSORBING = _from_front(
+    TRANSMISSION,
+    from_absorbing.inhomogeneous_transmission,
+    amplitude_from_absorbing.amplitude_inhomogeneous_transmission,
+)
+TRANSMISSION_FROM_BEHIND = _from_behind(
+    TRANSMISSION,
+    from_absorbing.transmission_from_behind,
+    amplitude_from_absorbing.amplitude_transmission_from_behind,
+)
+PHASE_INDEX = Kernel("index of planes of constant phase", None, inhomogeneous.phase_index)
+"""The index by which Snell's law holds for the real angle in an absorbing medium."""
 
 
 def _stack_family(*, through: bool, measured: str) -> KernelFamily:
