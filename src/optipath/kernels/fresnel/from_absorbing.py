@@ -34,7 +34,7 @@ def inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
         P, entering = _powers(where, at)
         small = _small(at, P)
         Fs = where(entering < 0.6, 1.0 - entering, small)
-        along = _slant(where, at)
+        along = slant_of(where, at)
         there, q = is_there(where, along.q)
         f = Fs / q
         parted = 2.0 * f * (at.s * at.s)
@@ -70,13 +70,17 @@ def transmission_from_behind(xp: Primitives) -> KernelFunction:
 
 def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any]:
     """Return P = |g1 + g2|^2, 1 in place of 0, and 1 - Fs = 4 Re(g1 conj g2) / P."""
-    p, fades = at.p, at.fades
-    P = p * p + (2.0 * p * at.a + at.squared)
-    P = P + fades * (fades + 2.0 * at.b)
+    p, fades, P = at.p, at.fades, sum_squared(at)
     # It vanishes only at grazing incidence on an equal medium, which is no interface.
     there = P > 0.0
     P = where(there, P, 1.0)
     return P, where(there, 4.0 * p / P * at.a + 4.0 * fades / P * at.b, 1.0)
+
+
+def sum_squared(at: InhomogeneousBoundary) -> Any:
+    """Return P = |g1 + g2|^2."""
+    P = at.p * at.p + (2.0 * at.p * at.a + at.squared)
+    return P + at.fades * (at.fades + 2.0 * at.b)
 
 
 def _small(at: InhomogeneousBoundary, P: Any) -> Any:
@@ -85,8 +89,20 @@ def _small(at: InhomogeneousBoundary, P: Any) -> Any:
     return re * re + im * im
 
 
-def _slant(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
-    """Return how the polarisations differ, with g1 g2 / n1 in place of c g."""
+def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
+    """Return how the polarisations differ, with g1 g2 / n1 in place of c g.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    at : InhomogeneousBoundary
+        The boundary.
+
+    Returns
+    -------
+    Slant
+    """
     z = at.n1 * (at.s * at.s)
     re, im = at.c * at.a - at.e * at.b, at.c * at.b + at.e * at.a
     z2, g2 = z * z, (at.c * at.c + at.e * at.e) * at.squared
@@ -107,7 +123,7 @@ def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any,
         more = where(arrives, at.e * (at.e / where(arrives, at.c, 1.0)), 0.0)
         direct = (entering < 0.6) | (at.fades > 0.0)
         Ts = where(direct, 4.0 * (at.p + at.n1 * more) / P * at.a, 1.0 - small)
-        along = _slant(where, at)
+        along = slant_of(where, at)
         _, q = is_there(where, along.q)
         behind = at.squared + at.n1 * along.z
         kappa2 = at.kappa * at.kappa
