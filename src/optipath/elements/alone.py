@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.elements.arriving_wave import arriving_waves
 from optipath.elements.azimuths import azimuth_at
 from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.own_couplings import couplings_of
@@ -14,6 +15,7 @@ from optipath.errors import PathError, shown
 from optipath.kernels.catalogue import REFLECTION
 from optipath.light.frames import Frame
 from optipath.light.mueller.matrix import Mueller
+from optipath.values.agreement import first_faults
 from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.made import faults_of
@@ -88,6 +90,7 @@ def mueller_alone(
     frames = {port: frame for port, frame in pairs if frame is not None}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
+    faults = faults or first_faults(arriving_waves(owner, element, enters))
     if not faults and element.frame_of(enters, frames) is not None:
         faults = _twice_turned(owner, element, enters)
     if faults:

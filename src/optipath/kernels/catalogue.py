@@ -13,7 +13,15 @@ from optipath.kernels.carriers.structures import (
     SCALE,
 )
 from optipath.kernels.filters import bench, emission, filters, rotation, stretch
-from optipath.kernels.fresnel import amplitude, powers, stable, textbook
+from optipath.kernels.fresnel import (
+    amplitude,
+    amplitude_from_absorbing,
+    from_absorbing,
+    inhomogeneous,
+    powers,
+    stable,
+    textbook,
+)
 from optipath.kernels.fresnel.at_event import AtEvent
 from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
@@ -23,6 +31,7 @@ from optipath.kernels.geometry.deviation import refraction_at_vertex
 from optipath.kernels.geometry.event_at_vertex import event_at_vertex
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
 from optipath.kernels.numbers.primitives import Factory
+from optipath.kernels.numbers.with_zero import WithZero
 
 Factories: TypeAlias = tuple[Factory, ...]
 """One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
@@ -92,6 +101,67 @@ def _at_event(method: str) -> Kernel:
 AT_EVENT = KernelFamily(
     "Fresnel reflection or transmission", {method: _at_event(method) for method in METHODS}
 )
+
+
+def _from_absorbing(stable: Factory, amplitude: Factory) -> dict[str, Factory]:
+    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)`` of all methods.
+
+    Textbooks print no form by angles: by that method, too, it is the amplitudes.
+    """
+    by_amplitudes = Sloped(amplitude, stable)
+    return {
+        "stable": stable,
+        "compensated": Sloped(Compensated(stable), stable),
+        "amplitude": by_amplitudes,
+        "textbook": by_amplitudes,
+    }
+
+
+def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for a medium in front that absorbs, and where it does not, the other."""
+    what, methods = f"{family.name} out of an absorbing medium", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        usual, name = family.methods[method], f"{what} ({method})"
+        alone = None
+        if usual.powers:
+            intensities = powers.inhomogeneous_powers
+            alone = Kernel(f"{name}, powers", POWERS, intensities, (1, usual.powers))
+        methods[method] = Kernel(name, BLOCK, factory, (1, usual), powers=alone)
+    return KernelFamily(what, methods)
+
+
+def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for light from behind; where nothing absorbs, it is the other."""
+    what, methods = f"{family.name} from behind", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        usual = family.methods[method]
+        name = f"{what} ({method}, lossless)"
+        lossless = (
+            usual.without[1] if usual.without else Kernel(name, BLOCK, WithZero(usual.factory, 2))
+        )
+        name = f"{what} ({method}, lossless in front)"
+        rarer = Kernel(name, BLOCK, WithZero(factory, 1), (2, lossless))
+        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, rarer))
+    return KernelFamily(what, methods)
+
+
+REFLECTION_FROM_ABSORBING = _from_front(
+    REFLECTION,
+    from_absorbing.inhomogeneous_reflection,
+    amplitude_from_absorbing.amplitude_inhomogeneous_reflection,
+)
+TRANSMISSION_FROM_ABSORBING = _from_front(
+    TRANSMISSION,
+    from_absorbing.inhomogeneous_transmission,
+    amplitude_from_absorbing.amplitude_inhomogeneous_transmission,
+)
+TRANSMISSION_FROM_BEHIND = _from_behind(
+    TRANSMISSION,
+    from_absorbing.transmission_from_behind,
+    amplitude_from_absorbing.amplitude_transmission_from_behind,
+)
+PHASE_INDEX = Kernel("index of planes of constant phase", None, inhomogeneous.phase_index)
+"""The index by which Snell's law holds for the real angle in an absorbing medium."""
 
 
 def _stack_family(*, through: bool, measured: str) -> KernelFamily:

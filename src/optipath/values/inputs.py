@@ -53,6 +53,8 @@ class Inputs:
         What must fit together, and is not known to.
     masks : bool
         Whether light of what cannot be is NaN, and is not refused.
+    for_complex : tuple of Agreement
+        What must fit together besides, once a complex number is given.
     """
 
     open: Mapping[str, Parameter]
@@ -63,6 +65,7 @@ class Inputs:
     choices: tuple[str, ...] = ()
     agreements: tuple[Agreement, ...] = ()
     masks: bool = False
+    for_complex: tuple[Agreement, ...] = ()
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
@@ -129,7 +132,8 @@ class Inputs:
         lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
         media = [name for name, value in given.items() if isinstance(value, Material)]
         faults += broadcast_fault(shapes, [*self.shapes, *media], lists)
-        faults = faults or first_faults(self.agreements if plain is None else self.hidden, resolved)
+        laws = self._agreements_of(resolved, seen=plain is None)
+        faults = faults or first_faults(laws, resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.
         if faults:
@@ -189,8 +193,21 @@ class Inputs:
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths all values that JAX traces are allowed; True where it has none."""
-        asked: tuple[Use | Agreement, ...] = (*self.uses, *self.known, *self.agreements)
+        asked: tuple[Use | Agreement, ...] = (
+            *self.uses,
+            *self.known,
+            *self._agreements_of(resolved),
+        )
         return reduce(and_, (each.inside(resolved) for each in asked), True)  # noqa: FBT003
+
+    def _agreements_of(
+        self, resolved: Mapping[str, Resolved], *, seen: bool = True
+    ) -> tuple[Agreement, ...]:
+        """Return what must fit together of these values, and what light itself shows if seen."""
+        laws = self.agreements if seen else self.hidden
+        if not self.for_complex or not any(map(_is_complex, resolved.values())):
+            return laws
+        return *laws, *self.for_complex
 
     @cached_property
     def limits(self) -> Ranges:
@@ -257,3 +274,8 @@ class Inputs:
                 f"path.bind({name}=...) or load_preset(..., {name}=...)"
             )
         return unknown_parameter(name, self.open)
+
+
+def _is_complex(given: Resolved) -> bool:
+    kind = getattr(given.value, "dtype", None)
+    return isinstance(given.value, complex) if kind is None else kind.kind == "c"

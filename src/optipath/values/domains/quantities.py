@@ -17,9 +17,11 @@ from optipath.values.domains.followed import Followed
 from optipath.values.domains.fraction import FractionDomain
 from optipath.values.domains.indices import (
     CLEAR,
+    FOLLOWED_LIT_INDEX,
     FOLLOWED_OUTSIDE,
     INDEX,
     INDICES,
+    OPTIONAL_LIT_INDEX,
     OPTIONAL_OUTSIDE,
 )
 from optipath.values.domains.optional import OptionalDomain
@@ -53,6 +55,8 @@ Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
 ClearIndex: TypeAlias = Annotated[Quantity | Material, CLEAR]
 OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTSIDE]
+LitIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_LIT_INDEX]
+OptionalLitIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_LIT_INDEX]
 Indices: TypeAlias = Annotated[Sequence[Quantity | Material | Follows], INDICES]
 OptionalIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_OUTSIDE]
 AMPLITUDE = AmplitudeDomain("amplitude")
