@@ -347,3 +347,42 @@ def test_a_path_stays_what_it_was(seed):
     before = path.to_toml()
     path.reversed()
     assert path.to_toml() == before
+
+
+class Raising(Fork):
+    inputs = ("in",)
+    outputs = ("out",)
+    natural = "out"
+
+    def reversed(self):
+        return {}["nothing"]
+
+
+class Wrong(Raising):
+    def reversed(self):
+        return 3
+
+
+class Elsewhere(Raising):
+    def reversed(self):
+        return op.Mirror()
+
+
+@pytest.mark.parametrize(
+    ("element", "sentence"),
+    [
+        (Raising(), r"reversed\(\) of element class Raising"),
+        (Wrong(), r"reversed\(\) of element class Wrong gives 3; return an element"),
+        (Elsewhere(), "'mine': element class Elsewhere does not say by which port light goes back"),
+    ],
+)
+def test_what_ones_own_class_gives_is_looked_at(element, sentence):
+    path = op.Source() >> element.named("mine") >> op.Detector()
+    with pytest.raises(op.PathError, match=sentence):
+        path.reversed()
+
+
+def test_one_element_in_two_places_is_reversed_once():
+    plate = op.Retarder(1.0, 0.3)
+    back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
+    assert back.element("retarder") is back.element("retarder-2")

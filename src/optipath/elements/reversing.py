@@ -131,10 +131,9 @@ class Reversible:
                 f"BeamSplitter in its place, or make one path for each light"
             )
         for one in type(self).__mro__:
-            said = vars(one).get("mirrored")
-            if said is not None:
+            if (said := vars(one).get("mirrored")) is not None:
                 return tuple(said)
-            if any(name in vars(one) for name in _SAYS):
+            if any(name in vars(one) for name in ("mirrored", *_SAYS)):
                 break
         name = type(self).__name__
         raise PathError(
