@@ -81,7 +81,7 @@ class ChainVertex(MediaOfBoundary, Element):
         Raises
         ------
         PathError
-            If the vertices are an open parameter, or given by angles.
+            If the vertices are an open parameter.
         """
         vertices = vertices_back(self.kind, self.vertices)
         place = self.in_chain.count + 1 - self.place

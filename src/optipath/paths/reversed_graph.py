@@ -206,14 +206,11 @@ class _Turning:
         if placed[0] == placed[1] or not (others[0].inputs and others[0].outputs):
             return 0.0
         name, port = ends[placed.index(True)]
-        there, back = (
-            element.own_frame(at).frame({})  # type: ignore[union-attr]
-            for element, at in (
-                (self.before[name], port),
-                (self.elements[name], self.port(name, port)),
-            )
-        )
-        c, s = there.reversed().turn_to(back)
+        there = self.before[name].own_frame(port)
+        back = self.elements[name].own_frame(self.port(name, port))
+        if there is None or back is None or there.names:
+            return 0.0  # What is open are angles, which tell the plane.
+        c, s = there.frame({}).reversed().turn_to(back.frame({}))
         turn = 0.5 * np.arctan2(s, c)
         turn = np.where(np.abs(turn) > _SAME, turn, 0.0)[()]
         return turn if placed[0] else -turn
