@@ -32,6 +32,7 @@ ELEMENTS = [
     op.Retarder([0.4, 1.0], 0.3),
     op.Rotator(0.3),
     op.SpecularVertex(0.2 + 3j, POINTS, 2),
+    op.SpecularVertex(0.2 + 3j, op.VerticesByAngles((0.3, 0.7, 1.2), (0.4, -2.0)), 1),
     op.Waveplate(1e-3, 0.009, 589e-9, 0.3),
 ]
 """Each that is reciprocal, and lets light through."""
@@ -153,10 +154,6 @@ REFUSED = [
         "polarizer.angle and polarizer.azimuth are values that make no one angle",
     ),
     (op.MuellerElement(op.Parameter("m")), r"bind it first, path.bind\(m=...\)"),
-    (
-        op.SpecularVertex(1.5, op.VerticesByAngles((0.3,)), 1),
-        "given by angles, which put them into a world of their own",
-    ),
     (
         op.SpecularVertex(1.5, op.Parameter("points"), 1, reflections=1),
         r"bind them first, path.bind\(points=...\)",

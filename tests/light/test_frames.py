@@ -182,3 +182,13 @@ def test_an_x_very_near_to_z_still_makes_a_frame():
     z = np.array([0.3, 0.5, 0.81]) / np.linalg.norm([0.3, 0.5, 0.81])
     frame = op.Frame.from_direction(z, z + np.array([1e-8, 0, 0]))
     assert abs(frame.x @ frame.z) <= 1e-15
+
+
+@given(ANGLES)
+def test_a_frame_of_light_that_goes_back_is_turned_the_other_way(angle):
+    there = op.Frame().turned(angle)
+    np.testing.assert_allclose(there.reversed().x, there.x)
+    np.testing.assert_array_equal(there.reversed().z, -there.z)
+    assert there.reversed().reversed() == there
+    back = op.Frame().reversed().turned(-angle)
+    np.testing.assert_allclose(there.reversed().y, back.y, atol=1e-15)

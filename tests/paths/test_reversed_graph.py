@@ -196,16 +196,50 @@ def test_a_chain_that_refracts_goes_back_from_its_last_medium():
     assert same_matrix(path)
 
 
-@pytest.mark.parametrize("straight_back", [True, False])
-def test_what_stands_beside_a_vertex_without_a_plane_stands_as_it_did(straight_back):
-    # The first vertex turns the light aside; at the second it comes back along its way.
-    end = [0.0, 0.3, 2.0] if straight_back else [0.2, 0.3, 2.0]
-    points = np.array([[0.3, 0, 0], [0, 0, 2.0], [0.0, 2.2, 2.0], end])
+def chain_of(points, *, first=None, last=None):
+    """A chain of two vertices, an element before it and one behind."""
     path = op.PathGraph()
-    path.add("lamp", op.Source()) >> path.add("one", op.SpecularVertex(0.2 + 3j, points, 1))
-    path["one"] >> path.add("two", op.SpecularVertex(1.5, points, 2))
-    path["two"] >> path.add("foil", op.Polarizer(0.4)) >> path.add("eye", op.Detector())
+    node = path.add("lamp", op.Source())
+    chain = [op.SpecularVertex(0.2 + 3j, points, 1), op.SpecularVertex(1.5, points, 2)]
+    for name, element in {"first": first, "one": chain[0], "two": chain[1], "last": last}.items():
+        node = node if element is None else node >> path.add(name, element)
+    node >> path.add("eye", op.Detector())
+    return path
+
+
+@pytest.mark.parametrize("aside", [0.0, 0.2])
+@pytest.mark.parametrize("order", [1, -1])
+def test_what_stands_beside_a_vertex_without_a_plane_stands_as_it_did(order, aside):
+    # At one vertex light is turned aside; at the other it comes back along its way.
+    points = np.array([[0.3, 0, 0], [0, 0, 2.0], [0.0, 2.2, 2.0], [aside, 0.3, 2.0]])[::order]
+    foils = {"first": op.Polarizer(0.4, 0.3), "last": op.Diattenuator(0.9, 0.2, 0.4)}
+    path = chain_of(points, **foils)
     assert same_matrix(path)
+    beside, vertex = ("one", "first") if order == -1 else ("last", "two")
+    turns = {(a, b): turn for a, b, turn in path.reversed().graph.edges(data="azimuth")}
+    assert (turns[beside, vertex] is None) == (aside > 0.0)
+
+
+ANGLES = op.VerticesByAngles((op.Parameter("a"), 0.7, 1.2), (0.4, op.Parameter("b")))
+
+
+@pytest.mark.parametrize(("a", "b"), [(0.3, 1.0), (0.0, -2.0), (np.pi / 2, 0.3)])
+def test_a_chain_by_angles_goes_back_through_the_same_points(a, b):
+    path = op.path_from_vertices(ANGLES, [1.5, 0.2 + 3j, 1.5])
+    back = path.reversed()
+    there, found = path.mueller(a=a, b=b).reversed(), back.mueller(a=a, b=b)
+    np.testing.assert_allclose(found.matrix, there.matrix, atol=1e-15)
+    for first, second in ((there.frame_in, found.frame_in), (there.frame_out, found.frame_out)):
+        np.testing.assert_allclose(first.turn_to(second), (1.0, 0.0), atol=1e-14)
+    assert back.reversed().reversed() == back
+
+
+def test_a_chain_by_angles_that_goes_back_is_written_and_read_back(tmp_path):
+    file = tmp_path / "back.toml"
+    back = op.load_preset("npgr026-3d").reversed()
+    file.write_text(back.to_toml(), "utf-8")
+    assert op.load_preset(file) == back
+    assert "backwards = true" in back.to_toml()
 
 
 def test_a_loop_is_run_the_other_way():
@@ -347,3 +381,42 @@ def test_a_path_stays_what_it_was(seed):
     before = path.to_toml()
     path.reversed()
     assert path.to_toml() == before
+
+
+class Raising(Fork):
+    inputs = ("in",)
+    outputs = ("out",)
+    natural = "out"
+
+    def reversed(self):
+        return {}["nothing"]
+
+
+class Wrong(Raising):
+    def reversed(self):
+        return 3
+
+
+class Elsewhere(Raising):
+    def reversed(self):
+        return op.Mirror()
+
+
+@pytest.mark.parametrize(
+    ("element", "sentence"),
+    [
+        (Raising(), r"reversed\(\) of element class Raising"),
+        (Wrong(), r"reversed\(\) of element class Wrong gives 3; return an element"),
+        (Elsewhere(), "'mine': element class Elsewhere does not say by which port light goes back"),
+    ],
+)
+def test_what_ones_own_class_gives_is_looked_at(element, sentence):
+    path = op.Source() >> element.named("mine") >> op.Detector()
+    with pytest.raises(op.PathError, match=sentence):
+        path.reversed()
+
+
+def test_one_element_in_two_places_is_reversed_once():
+    plate = op.Retarder(1.0, 0.3)
+    back = (op.Source() >> plate >> plate >> op.Detector()).reversed()
+    assert back.element("retarder") is back.element("retarder-2")

@@ -34,11 +34,16 @@ glass >> metal >> mirror >> partial >> ground >> sugar >> ink >> plate
 plate >> path.add("eye", op.Detector(reads="linear"))
 cube: op.Mueller = op.PolarizingBeamSplitter("1000:1", 50.0).mueller("in", "reflected")
 chained: op.PathGraph = op.Source(100.0) >> op.Polarizer(0.3).named("analyser") >> op.Detector()
+doubled_pass: op.PathGraph = op.there_and_back(op.Retarder(1.0, 0.3).named("plate"), op.Mirror())
+there_again: op.PathGraph = (op.Source() >> doubled_pass >> op.Detector()).reversed(op.Source(2.0))
+plate_back: op.Retarder = op.Retarder(1.0, 0.3).reversed()
 longer: op.PathGraph = op.PathGraph() >> op.Source() >> op.Polarizer() >> op.Detector()
 light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])
 lights: dict[str, op.Light] = path.trace_all(theta=0.1, angle=0.2)
 matrix: op.Mueller = path.mueller(theta=0.1, angle=0.2) @ op.Polarizer(0.1).mueller()
 attenuated: op.Light = matrix @ light
+matrix_back: op.Mueller = matrix.reversed()
+frame_back: op.Frame = light.frame.reversed()
 brighter: op.Light = 2 * light[0] / 3 + op.Polarizer(0.1) @ light[..., 0, :1]
 single: list[float] = [float(each.S0.max()) for each in light.reshape(-1)]
 noisy: op.Light = op.Light([1, 1, 1, 1], physical=False).nearest_physical()

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from optipath.elements.element import Element
 from optipath.elements.media_of_boundary import MediaOfBoundary
+from optipath.elements.reversing import with_values
 from optipath.elements.vertices.frame import VertexFrame
 from optipath.elements.vertices.place import same_points
 from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
@@ -86,11 +87,11 @@ class ChainVertex(MediaOfBoundary, Element):
         Raises
         ------
         PathError
-            If the vertices are an open parameter, or given by angles.
+            If the vertices are an open parameter.
         """
         vertices = vertices_back(self.kind, self.vertices)
         place = self.in_chain.count + 1 - self.place
-        return super().reversed().with_values(vertices=vertices, place=place)
+        return with_values(super().reversed(), vertices=vertices, place=place)
 
     def own_frame(self, port: str) -> VertexFrame:
         """Return the frame of a port, made when somebody looks at it."""

@@ -7,6 +7,7 @@ from typing import ClassVar, Self
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.elements.matrix_domain import ElementMatrix
+from optipath.elements.reversing import with_values
 from optipath.errors import PathError
 from optipath.kernels.catalogue import MATRIX
 from optipath.light.mueller.reciprocity import reciprocal
@@ -63,4 +64,4 @@ class MuellerElement(Element, kind="mueller"):
                     f"bind it first, path.bind({matrix.name}=...)"
                 )
             matrix = matrix.placed(matrix.resolve(matrix.default).value)
-        return super().reversed().with_values(matrix=reciprocal(matrix))
+        return with_values(super().reversed(), matrix=reciprocal(matrix))

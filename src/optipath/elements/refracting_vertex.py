@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, ClassVar, Self
 
 from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.reversing import with_values
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.snell_at_vertex import SnellAtVertex
@@ -110,7 +111,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
                 f"{self.kind} takes its outside over from the vertex before it (FOLLOWS), which "
                 f"alone it has not; reverse the path that it stands in, path.reversed()"
             )
-        return super().reversed().with_values(index=self.outside, outside=self.index)
+        return with_values(super().reversed(), index=self.outside, outside=self.index)
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that its points are those of a refraction."""

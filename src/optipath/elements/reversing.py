@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 import numpy as np
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.values.domains.domain import Domain
+
+E = TypeVar("E", bound="Reversible")
 
 _SAYS = ("mueller_rows", "couplings")
 """By what a class says what it does to light."""
@@ -86,7 +88,7 @@ class Reversible:
         others = {name: _opposite(value) for name, value in others.items() if value is not None}
         if is_turned:
             others = {name: self._turned_on(name, angle, turn) for name, angle in others.items()}
-        return self.with_values(**others) if others else self
+        return with_values(self, **others) if others else self
 
     @classmethod
     def port_back(cls, port: str) -> str:
@@ -104,20 +106,6 @@ class Reversible:
         """
         ports = (*cls.inputs, *cls.outputs)
         return ports[1 - ports.index(port)] if len(cls.inputs) == len(cls.outputs) == 1 else ""
-
-    def with_values(self, **values: Any) -> Self:
-        """Return the element with other values, of which no degrees are asked about again.
-
-        Raises
-        ------
-        PathError
-            With every value that is not allowed.
-        """
-        kept = {name: read_only(value, widened=False) for name, value in values.items()}
-        found = not_known_sound(changed(self, **kept))
-        if faults := found.faults(self._called):
-            raise PathError(*(f"on the way back, {fault}" for fault in faults))
-        return found
 
     @property
     def _called(self) -> str:
@@ -143,10 +131,9 @@ class Reversible:
                 f"BeamSplitter in its place, or make one path for each light"
             )
         for one in type(self).__mro__:
-            said = vars(one).get("mirrored")
-            if said is not None:
+            if (said := vars(one).get("mirrored")) is not None:
                 return tuple(said)
-            if any(name in vars(one) for name in _SAYS):
+            if any(name in vars(one) for name in ("mirrored", *_SAYS)):
                 break
         name = type(self).__name__
         raise PathError(
@@ -181,3 +168,35 @@ def _is_known(value: Any) -> bool:
 def _opposite(value: Any) -> Any:
     """Return a value with the other sign; of 0 that is 0."""
     return -value if isinstance(value, Parameter) else 0.0 - value
+
+
+def with_values(element: E, **values: Any) -> E:
+    """Return an element with other values, of which no degrees are asked about again.
+
+    Parameters
+    ----------
+    element : Element
+        The element.
+    **values : float, array or Parameter
+        By the names of its fields.
+
+    Returns
+    -------
+    Element
+
+    Raises
+    ------
+    PathError
+        With every value that is not allowed.
+
+    Examples
+    --------
+    >>> from optipath import Rotator
+    >>> with_values(Rotator(0.5), angle=-0.5)
+    Rotator(angle=-0.5)
+    """
+    kept = {name: read_only(value, widened=False) for name, value in values.items()}
+    found = not_known_sound(changed(element, **kept))
+    if faults := found.faults(element.kind or type(element).__name__):
+        raise PathError(*(f"on the way back, {fault}" for fault in faults))
+    return found

@@ -72,7 +72,7 @@ def _text(value: Any, unit: str) -> str:
     if isinstance(value, VerticesByAngles):
         each = ((name, getattr(value, name)) for name in ("incidences", "turns"))
         texts = (f"{name} ({', '.join(_text(a, 'deg') for a in angles)})" for name, angles in each)
-        return ", ".join(texts)
+        return ", ".join([*texts, *["backwards"] * value.backwards])
     if isinstance(value, tuple):
         return "[" + ", ".join(_text(one, unit) for one in value) + "]"
     if isinstance(value, np.ndarray):

@@ -12,7 +12,9 @@ from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.boundary_frames import BoundaryElement
-from optipath.errors import OptipathError, PathError, listed
+from optipath.elements.element import Element
+from optipath.errors import OptipathError, PathError, listed, shown
+from optipath.kernels.carriers.own_code import called
 from optipath.paths.reversed_choices import reversed_choices
 from optipath.paths.reversed_ends import reversed_end, sources_by_name
 from optipath.values.arrays.read_only import changed
@@ -22,7 +24,6 @@ if TYPE_CHECKING:
 
     from optipath.composer.travel import Port
     from optipath.composer.wiring import Link
-    from optipath.elements.element import Element
     from optipath.light.frames import Frame
 
 _SAME = 1e-9
@@ -93,7 +94,7 @@ class _Turning:
                 continue
             try:
                 if id(element) not in known:
-                    known[id(element)] = _without_azimuth(element).reversed()
+                    known[id(element)] = _reversed(element)
             except OptipathError as fault:
                 self.faults += [f"'{name}': {text}" for text in fault.faults]
                 continue
@@ -137,7 +138,7 @@ class _Turning:
             return "in"
         if not element.outputs:
             return self.elements[name].outputs[0]
-        return element.port_back(port)
+        return str(called(f"port_back of element class {_named(element)}", element.port_back, port))
 
     def link_faults(self) -> Iterator[str]:
         """Yield what has no way back of the links, a sentence each."""
@@ -160,7 +161,7 @@ class _Turning:
         used = {end for link in self.wiring.graph.edges(keys=True) for end in _ends(link)}
         for name in sorted({name for name, port in used if not self._has_back(name, port)}):
             yield (
-                f"'{name}': element class {type(self.before[name]).__name__} does not say by "
+                f"'{name}': element class {_named(self.before[name])} does not say by "
                 f"which port light goes back; give it a class method port_back(port), which "
                 f"returns an out-port for an in-port, and the other way"
             )
@@ -170,8 +171,8 @@ class _Turning:
         element = self.before[name]
         if not element.inputs or not element.outputs:
             return True
-        others = element.outputs if port in element.inputs else element.inputs
-        return element.port_back(port) in others
+        back = self.elements.get(name, element)
+        return self.port(name, port) in (back.outputs if port in element.inputs else back.inputs)
 
     def frames(self, name: str) -> dict[str, Frame]:
         """Return the world frames of a node: those of light that goes back."""
@@ -205,14 +206,11 @@ class _Turning:
         if placed[0] == placed[1] or not (others[0].inputs and others[0].outputs):
             return 0.0
         name, port = ends[placed.index(True)]
-        there, back = (
-            element.own_frame(at).frame({})  # type: ignore[union-attr]
-            for element, at in (
-                (self.before[name], port),
-                (self.elements[name], self.port(name, port)),
-            )
-        )
-        c, s = there.reversed().turn_to(back)
+        there = self.before[name].own_frame(port)
+        back = self.elements[name].own_frame(self.port(name, port))
+        if there is None or back is None or there.names:
+            return 0.0  # What is open are angles, which tell the plane.
+        c, s = there.frame({}).reversed().turn_to(back.frame({}))
         turn = 0.5 * np.arctan2(s, c)
         turn = np.where(np.abs(turn) > _SAME, turn, 0.0)[()]
         return turn if placed[0] else -turn
@@ -223,6 +221,16 @@ def _ends(link: Link) -> tuple[Port, Port]:
     return (start, leaves), (end, enters)
 
 
-def _without_azimuth(element: Element) -> Element:
-    """Return an element that links turn in place of its azimuth."""
-    return element if is_zero(getattr(element, "azimuth", 0.0)) else changed(element, azimuth=0.0)
+def _named(element: Element) -> str:
+    return type(element).__name__
+
+
+def _reversed(element: Element) -> Element:
+    """Return an element on the way back, which links turn in place of its azimuth."""
+    if not is_zero(getattr(element, "azimuth", 0.0)):
+        element = changed(element, azimuth=0.0)
+    what = f"reversed() of element class {_named(element)}"
+    back = called(what, element.reversed)
+    if not isinstance(back, Element):
+        raise PathError(f"{what} gives {shown(back)}; return an element")
+    return back

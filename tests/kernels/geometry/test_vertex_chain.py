@@ -88,3 +88,13 @@ def test_the_axes_of_angles_are_across_the_planes_of_their_points(count):
     for vertex in range(count):
         x = ARRIVING.made_for(FLOAT)(*points[: 3 * vertex + 9])[:3]
         assert across[3 * vertex : 3 * vertex + 3] == pytest.approx(x, abs=1e-13)
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 4])
+def test_points_by_angles_are_the_same_in_the_other_order_backwards(count):
+    rng = np.random.default_rng(count)
+    numbers = [float(f(a)) for a in rng.uniform(0, 1.5, 2 * count - 1) for f in (np.cos, np.sin)]
+    whole = np.reshape(PointsByAngles(count, 0, count + 1)(FLOAT)(*numbers), (-1, 3))[::-1]
+    for first in range(count):
+        some = PointsByAngles(count, first, first + 2, backwards=True)(FLOAT)(*numbers)
+        np.testing.assert_array_equal(np.reshape(some, (-1, 3)), whole[first : first + 3])

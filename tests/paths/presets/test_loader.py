@@ -66,6 +66,20 @@ def test_two_panes_at_brewsters_angle_follow_malus_law():
     )
 
 
+def test_a_double_pass_is_a_plate_of_twice_the_retardance():
+    # Chipman, Lam & Young, table 6.5; then y and z are turned over.
+    d, a = np.random.default_rng(2).uniform(-3.0, 3.0, (2, 20))
+    c, s = np.cos(2 * a), np.sin(2 * a)
+    expected = [
+        1 + 0 * a,
+        c**2 + s**2 * np.cos(2 * d),
+        c * s * (np.cos(2 * d) - 1),
+        s * np.sin(2 * d),
+    ]
+    light = op.load_preset("double-pass-waveplate").trace(retardance=d, angle=a)
+    np.testing.assert_allclose(light.stokes.T, expected, atol=1e-15)
+
+
 def test_senarmonts_compensator_is_dark_at_half_the_retardance():
     retardance = np.linspace(-np.pi, np.pi, 41)
     path = op.load_preset("senarmont")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import PathError
+from optipath.errors import PathError, shown
 from optipath.kernels.geometry.points_by_angles import PointsByAngles
 from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY
@@ -39,11 +39,15 @@ class VerticesByAngles:
     turns : sequence of float, array_like or Parameter, optional
         The angle by which each next plane of incidence is turned about the direction of
         travel against the one before, right-handed; one fewer than `incidences`.
+    backwards : bool, optional
+        Whether light goes the other way through the same points, from the last one to the first;
+        the angles are in the order from there to here then.
 
     Raises
     ------
     PathError
-        If there is no incidence, or the numbers of angles do not fit.
+        If there is no incidence, the numbers of angles do not fit, or `backwards` is neither
+        True nor False.
 
     Examples
     --------
@@ -56,8 +60,11 @@ class VerticesByAngles:
 
     incidences: tuple[Any, ...]
     turns: tuple[Any, ...] = ()
+    backwards: bool = False
 
     def __post_init__(self) -> None:
+        if not isinstance(self.backwards, bool):
+            raise PathError(f"backwards must be True or False, not {shown(self.backwards)}")
         for name, domain in (("incidences", INCIDENCE), ("turns", ANGLE)):
             several = entries_of(name, "angles", getattr(self, name), PathError)
             each = tuple(

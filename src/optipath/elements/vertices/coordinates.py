@@ -97,6 +97,7 @@ def coordinates(vertices: Any, count: int, first: int, last: int) -> Coordinates
     if isinstance(vertices, VerticesByAngles):
         angles = [angle for _, angle, _ in vertices.parts("")]
         operands = tuple(Operand(angle, part) for angle in angles for part in ("cos", "sin"))
-        return Coordinates(operands, PointsByAngles(len(vertices.incidences), first, last))
+        count, backwards = len(vertices.incidences), vertices.backwards
+        return Coordinates(operands, PointsByAngles(count, first, last, backwards=backwards))
     places = range(3 * first, 3 * last + 3)
     return Coordinates(tuple(Operand(vertices, place, (count, 3)) for place in places), None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from optipath.elements.vertices.by_angles import VerticesByAngles
@@ -21,13 +22,12 @@ def vertices_back(owner: str, vertices: Any) -> Any:
 
     Returns
     -------
-    array, shape (..., m + 2, 3)
+    array, shape (..., m + 2, 3), or VerticesByAngles
 
     Raises
     ------
     PathError
-        If they are an open parameter, or given by angles: the middle leg of those runs along the
-        world's z, and on the way back it would run against it.
+        If they are an open parameter.
 
     Examples
     --------
@@ -36,10 +36,7 @@ def vertices_back(owner: str, vertices: Any) -> Any:
     [[0, 1, 1], [0, 0, 1], [0, 0, 0]]
     """
     if isinstance(vertices, VerticesByAngles):
-        raise PathError(
-            f"the vertices of {owner} are given by angles, which put them into a world of their "
-            f"own; give points, such as those of vertices_from_angles(incidences, turns)"
-        )
+        return replace(vertices, backwards=not vertices.backwards)
     if isinstance(vertices, Parameter):
         if not vertices.bound:
             raise PathError(

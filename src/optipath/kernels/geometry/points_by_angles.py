@@ -27,6 +27,8 @@ class PointsByAngles:
         Which points are wanted, 0 being the start.
     axes : bool
         Whether the x of each vertex between these points is wanted behind them.
+    backwards : bool
+        Whether light goes from the end to the start, so that points are counted from there.
 
     Examples
     --------
@@ -39,6 +41,7 @@ class PointsByAngles:
     first: int
     last: int
     axes: bool = False
+    backwards: bool = False
 
     @property
     def gives(self) -> int:
@@ -50,6 +53,9 @@ class PointsByAngles:
         """Return the function of cosines and sines."""
         del xp
         count, middle = self.reflections, self.reflections // 2
+        first, last, order = self.first, self.last, 1
+        if self.backwards:
+            first, last, order = count + 1 - self.last, count + 1 - self.first, -1
 
         def points(*numbers: Any) -> tuple[Any, ...]:
             pairs = list(zip(numbers[::2], numbers[1::2], strict=True))
@@ -58,20 +64,20 @@ class PointsByAngles:
             turned = dict(enumerate(pairs[count:], 2))
             found, across = {middle: _ORIGIN, middle + 1: _Z}, {}
             light = _Axes(_X, _Y, _Z)
-            for vertex in range(middle + 1, self.last):
+            for vertex in range(middle + 1, last):
                 light = light.turned(*turned[vertex]) if vertex in turned else light
                 across[vertex] = light.x
                 light = light.reflected(*met[vertex])
                 found[vertex + 1] = plus(found[vertex], light.z)
             light = _Axes(_X, _Y, _Z)
-            for vertex in range(middle, self.first, -1):
+            for vertex in range(middle, first, -1):
                 across[vertex] = light.x
                 light = light.before_reflection(*met[vertex])
                 found[vertex - 1] = minus(found[vertex], light.z)
                 light = light.before_turn(*turned[vertex]) if vertex in turned else light
-            wanted = [found[point] for point in range(self.first, self.last + 1)]
+            wanted = [found[point] for point in range(first, last + 1)][::order]
             if self.axes:
-                wanted += [across[vertex] for vertex in range(self.first + 1, self.last)]
+                wanted += [across[vertex] for vertex in range(first + 1, last)][::order]
             return tuple(number for vector in wanted for number in vector)
 
         return points

@@ -10,9 +10,10 @@ import numpy as np
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.vertex_domain import VerticesDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
-from optipath.paths.format.faults import Faults
+from optipath.paths.format.faults import Faults, unknown_keys
 from optipath.paths.format.references import named, referred
 from optipath.paths.format.schema import as_meant
+from optipath.paths.format.tables_of_angles import chain_by_angles, table_of_angles
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.domains.axis import axes_for
 from optipath.values.domains.choice import Choice
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
 
     from optipath.values.use import Use
 
-_ANGLES = ("incidences", "turns")
 _AFFINE = ("parameter", "scale", "offset")
 """The keys of a multiple of a parameter with an offset."""
 
@@ -103,7 +103,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     if isinstance(raw, dict) and domain.complex_parts:
         return _complex(_parts(raw, domain, {}))
     if isinstance(raw, dict) and isinstance(domain, VerticesDomain):
-        return _by_angles(raw, parameters)
+        return chain_by_angles(raw, lambda angle: decode(angle, ANGLE, parameters))
     if isinstance(raw, str) and raw.strip() in parameters:
         return named(raw, domain)
     if domain.complex_parts and pair_in(raw, domain):
@@ -204,7 +204,7 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     if isinstance(value, Material):
         return {"n": encode(value.n, unit), "k": encode(value.k, unit)}
     if isinstance(value, VerticesByAngles):
-        return {key: [encode(a, ANGLE.unit) for a in getattr(value, key)] for key in _ANGLES}
+        return table_of_angles(value, lambda angle: encode(angle, ANGLE.unit))
     if isinstance(value, str):
         return value
     if isinstance(value, complex) or (isinstance(value, np.ndarray) and value.dtype.kind == "c"):
@@ -221,7 +221,7 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
 
 def _affine(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Parameter:
     """Return a multiple of a parameter with an offset that is written as a table."""
-    faults = _unknown_keys(raw, _AFFINE)
+    faults = unknown_keys(raw, _AFFINE)
     raw = as_meant(raw, _AFFINE)
     name = raw.get("parameter")
     if name is None:
@@ -254,7 +254,7 @@ def _parameter(value: Parameter, unit: str) -> Any:
 def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
     """Return the parts of a complex number or a material that is written as a table."""
     names = domain.complex_parts or INDEX.complex_parts
-    faults = _unknown_keys(raw, names)
+    faults = unknown_keys(raw, names)
     if names[0] not in raw:
         faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
     pure, given = Domain(domain.name), [key for key in names if key in raw]
@@ -271,26 +271,6 @@ def _complex(parts: Mapping[str, Any]) -> Any:
     except ValueError:
         names = " and ".join(f"'{name}'" for name in parts)
         raise UnitError(f"the shapes of {names} do not fit; make all rows equally long") from None
-
-
-def _by_angles(raw: Any, parameters: Mapping[str, Parameter]) -> VerticesByAngles:
-    faults = _unknown_keys(raw, _ANGLES)
-    angles = []
-    for key in _ANGLES:
-        several = raw.get(key, [])
-        if not isinstance(several, list):
-            faults.append(f"{key} must be a list of angles, not {shown(several)}")
-            continue
-        places = [(f".{key}[{place}]", angle) for place, angle in enumerate(several)]
-        angles.append(tuple(faults.attempt(at, decode, a, ANGLE, parameters) for at, a in places))
-    if faults:
-        raise PresetError(*faults)
-    return VerticesByAngles(*angles)
-
-
-def _unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
-    unknown = [key for key in raw if key not in names]
-    return Faults(f"key '{key}' is unknown{did_you_mean(key, names)}" for key in unknown)
 
 
 def _several(raw: Any, unit: str = "") -> Any:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-from optipath.errors import OptipathError, listed
+from optipath.errors import OptipathError, did_you_mean, listed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
 T = TypeVar("T")
 P = ParamSpec("P")
@@ -51,6 +51,18 @@ class Faults(list[str]):
         except OptipathError as error:
             self += [_placed(where, fault) for fault in error.faults]
             return None
+
+
+def unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
+    """Return a sentence for each key of a table that is none of those that there are.
+
+    Examples
+    --------
+    >>> unknown_keys({"scal": 2}, ["scale", "offset"])
+    ["key 'scal' is unknown; did you mean 'scale'?"]
+    """
+    unknown = [key for key in raw if key not in names]
+    return Faults(f"key '{key}' is unknown{did_you_mean(key, names)}" for key in unknown)
 
 
 def _placed(where: str, fault: str) -> str:
