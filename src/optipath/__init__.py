@@ -32,11 +32,13 @@ if TYPE_CHECKING:
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
     from optipath.elements.beam_splitter import BeamSplitter
+    from optipath.elements.circular_diattenuator import CircularDiattenuator
     from optipath.elements.combiner import Combiner
     from optipath.elements.coupling import Coupling, Operation
     from optipath.elements.depolarizer import Depolarizer
     from optipath.elements.diattenuator import Diattenuator
     from optipath.elements.element import Element
+    from optipath.elements.elliptical_retarder import EllipticalRetarder
     from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
     from optipath.elements.interface import Interface
     from optipath.elements.layer_stack import LayerStack
@@ -94,6 +96,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "BeamSplitter",
     "Case",
     "Certificate",
+    "CircularDiattenuator",
     "Combiner",
     "Composer",
     "ComposerError",
@@ -104,6 +107,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Diattenuator",
     "Dump",
     "Element",
+    "EllipticalRetarder",
     "FOLLOWS",
     "Fraction",
     "Frame",
@@ -164,11 +168,13 @@ _HOMES = {
     "composer.composer": ["Composer"],
     "elements.attenuator": ["Attenuator"],
     "elements.beam_splitter": ["BeamSplitter"],
+    "elements.circular_diattenuator": ["CircularDiattenuator"],
     "elements.combiner": ["Combiner"],
     "elements.coupling": ["Coupling", "Operation"],
     "elements.depolarizer": ["Depolarizer"],
     "elements.diattenuator": ["Diattenuator"],
     "elements.element": ["Element"],
+    "elements.elliptical_retarder": ["EllipticalRetarder"],
     "elements.fresnel": ["fresnel_reflection", "fresnel_transmission", "refraction_angle"],
     "elements.interface": ["Interface"],
     "elements.layer_stack": ["LayerStack"],

@@ -10,6 +10,7 @@ import numpy as np
 from optipath.composer.wiring import link_text
 from optipath.elements.own_couplings import couplings_of
 from optipath.errors import ValueFault
+from optipath.values.agreement import first_faults
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
@@ -107,6 +108,15 @@ class Values:
         }
         return {name: r for name, r in found.items() if r.present.ndim == 0 and r.present}
 
+    @cached_property
+    def agreements(self) -> tuple[Agreement, ...]:
+        """What must fit of the values of one element."""
+        return tuple(
+            agreement
+            for name, element in self.graph.nodes(data="element")
+            for agreement in element.agreements(name)
+        )
+
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
         return Inputs(
@@ -116,7 +126,7 @@ class Values:
             shapes=self.known_shapes,
             known=tuple(use for use in self.uses if use.is_traced),
             choices=tuple(self.graph.graph.get("choices", ())),
-            agreements=agreements,
+            agreements=(*agreements, *(a for a in self.agreements if a.is_open)),
         )
 
     def faults(self) -> list[str]:
@@ -146,6 +156,7 @@ class Values:
             *found,
             *self._parameter_faults(),
             *self._optional_faults(),
+            *first_faults(a for a in self.agreements if not a.is_open),
             *broadcast_fault(sound),
         ]
 

@@ -7,6 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
 from optipath.elements.acting import ActsOnLight
+from optipath.elements.agreeing import OwnAgreements
 from optipath.elements.alone import mueller_alone
 from optipath.elements.chaining import Chainable, NamedElement
 from optipath.elements.class_faults import class_faults
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
-class Element(Chainable, ActsOnLight):
+class Element(Chainable, ActsOnLight, OwnAgreements):
     """An optical element: ports, values, and the way light goes through.
 
     A subclass is a frozen dataclass without further ado. Its fields are values
@@ -160,7 +161,6 @@ class Element(Chainable, ActsOnLight):
         Returns
         -------
         list of Use
-            One for each number.
         """
         return [
             Use(f"{owner}.{name}", value, domain)

@@ -6,9 +6,11 @@ from typing import Any
 
 from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.circular_diattenuator import CircularDiattenuator
 from optipath.elements.combiner import Combiner
 from optipath.elements.depolarizer import Depolarizer
 from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.elliptical_retarder import EllipticalRetarder
 from optipath.elements.interface import Interface
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
@@ -26,9 +28,11 @@ from optipath.errors import PathError, did_you_mean
 STANDARD = (
     Attenuator,
     BeamSplitter,
+    CircularDiattenuator,
     Combiner,
     Depolarizer,
     Diattenuator,
+    EllipticalRetarder,
     Interface,
     LayerStack,
     Medium,
