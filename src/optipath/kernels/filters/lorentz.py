@@ -39,26 +39,33 @@ def lorentz(xp: Primitives) -> KernelFunction:
 
     So scaled, it lets all through of one state of light at most.
     """
-    near, far, size_of, length = _near(xp), _far(xp), common_size(xp), norm(xp)
-    where, absolute, sqrt = xp.where, xp.absolute, xp.sqrt
-
-    def exponential(*generator: Any) -> tuple[Any, ...]:
-        size = size_of(*generator)
-        n, m = (tuple(part / size for part in of) for of in (generator[:3], generator[3:]))
-        # T = size / 2 sqrt(a + 2ib).
-        a, b = dot(n, n) - dot(m, m), -dot(n, m)
-        small = sqrt(absolute(a) + 2.0 * absolute(b)) * size < 1.0
-        faint = length(*generator[:3])
-        pairs = zip(near(a, b, size, faint, small), far(a, b, size, faint, small), strict=True)
-        return _mueller(n, m, *(where(small, one, other) for one, other in pairs))
-
-    return exponential
+    parts, matrix = xp.apart(_parts(xp)), xp.apart(_mueller)
+    return lambda *generator: matrix(*parts(*generator))
 
 
 def retardance(xp: Primitives) -> KernelFunction:
     """Make ``(q1, q2, q3) ->`` the sixteen numbers of a rotation of the sphere (Rodrigues)."""
     exponential = lorentz(xp)
     return lambda q1, q2, q3: exponential(0.0, 0.0, 0.0, q1, q2, q3)
+
+
+def _parts(xp: Primitives) -> KernelFunction:
+    """Make what `_mueller` takes of the generator."""
+    near, far, size_of, length = _near(xp), _far(xp), common_size(xp), norm(xp)
+    where, absolute, sqrt = xp.where, xp.absolute, xp.sqrt
+
+    def numbers(*generator: Any) -> tuple[Any, ...]:
+        size = size_of(*generator)
+        near_one = tuple(part / size for part in generator)
+        n, m = near_one[:3], near_one[3:]
+        # T = size / 2 sqrt(a + 2ib).
+        a, b = dot(n, n) - dot(m, m), -dot(n, m)
+        small = sqrt(absolute(a) + 2.0 * absolute(b)) * size < 1.0
+        faint = length(*generator[:3])
+        pairs = zip(near(a, b, size, faint, small), far(a, b, size, faint, small), strict=True)
+        return *near_one, *(where(small, one, other) for one, other in pairs)
+
+    return numbers
 
 
 def _near(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
@@ -111,11 +118,12 @@ def _far(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
     return numbers
 
 
-def _mueller(n: Vector, m: Vector, u: Any, k: Any, along: Any, across: Any) -> tuple[Any, ...]:
+def _mueller(*parts: Any) -> tuple[Any, ...]:
     """Return the Mueller matrix of the Jones matrix U + K (n - im) . sigma.
 
-    It takes |U|^2, |K|^2, and the two parts of conj(U) K.
+    It takes n, m, |U|^2, |K|^2, and the two parts of conj(U) K.
     """
+    n, m, (u, k, along, across) = parts[:3], parts[3:6], parts[6:]
     weight = k * (dot(n, n) + dot(m, m))
     rest = u - weight
     filtering = _mixed(2.0 * along, n, 2.0 * across, m)
