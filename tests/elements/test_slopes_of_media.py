@@ -28,9 +28,7 @@ def generator(values, dichroic_angle):
     a, linear, p3, q1, rotation, d = (*map(mpmath.mpf, values), 0)[:6]
     p1, p2 = (linear * part(2 * mpmath.mpf(dichroic_angle)) for part in (mpmath.cos, mpmath.sin))
     q3, d = 2 * rotation, a + d
-    return mpmath.matrix(
-        [[-a, p1, p2, p3], [p1, -d, -q3, 0], [p2, q3, -d, -q1], [p3, 0, q1, -d]]
-    )
+    return mpmath.matrix([[-a, p1, p2, p3], [p1, -d, -q3, 0], [p2, q3, -d, -q1], [p3, 0, q1, -d]])
 
 
 def exact_slopes(values, dichroic_angle):
