@@ -64,7 +64,7 @@ class Draw:
             case 4:
                 return op.Rotator(self.turn())
             case 5:
-                return op.Retarder(self.turn(), self.turn(), self.turn())
+                return self.retarder()
             case 6:
                 return op.Attenuator(self.number(0, 1))
             case 7:
@@ -72,8 +72,7 @@ class Draw:
             case 8:
                 return op.Mirror(self.amplitude(), self.amplitude(), self.turn())
             case 9:
-                transmittances = self.number(0, 1), self.number(0, 1)
-                return op.Diattenuator(*transmittances, self.turn(), self.turn())
+                return self.diattenuator()
             case 10:
                 return op.Depolarizer(self.number(0, 1))
             case 11:
@@ -82,6 +81,17 @@ class Draw:
                 layers = [self.number(1, 2.5) for _ in range(self.rng.integers(1, 4))]
                 return op.LayerStack([1.0, *layers, self.index()], self.number(0, 1.5), self.turn())
         return op.BeamSplitter(float(self.rng.uniform(0, 1)), self.turn())
+
+    def retarder(self):
+        if self.chance(0.3):
+            return op.EllipticalRetarder(*(self.number(-3, 3) for _ in range(3)), self.turn())
+        return op.Retarder(self.turn(), self.turn(), self.turn())
+
+    def diattenuator(self):
+        transmittances = self.number(0, 1), self.number(0, 1)
+        if self.chance(0.3):
+            return op.CircularDiattenuator(*transmittances)
+        return op.Diattenuator(*transmittances, self.turn(), self.turn())
 
     def amplitude(self):
         """A constant, an array, or a parameter; real, or of any phase."""
@@ -96,6 +106,8 @@ class Draw:
         return op.Parameter(name)
 
     def medium(self):
+        if self.chance(0.4):
+            return self.general_medium()
         length, absorption = self.number(0, 0.1), self.number(0, 30)
         either = (self.number(-40, 40), 0.0)
         turns, retardance = either if self.chance(0.5) else either[::-1]
@@ -104,6 +116,21 @@ class Draw:
             ("rotation", "dextrorotation")[len(self.values) % 2]: turns,
         }
         return op.Medium(length, absorption, angle=self.turn(), azimuth=self.turn(), **rates)
+
+    def general_medium(self):
+        """One whose dichroism is never more than its absorption."""
+        length, absorption = self.number(0, 0.1), self.number(20, 30)
+        names = "dichroism", "circular_dichroism", "retardance", "rotation", "depolarization"
+        ranges = (-14, 14), (-14, 14), (-40, 40), (-40, 40), (0, 20)
+        rates = {
+            name: self.number(*ends)
+            for name, ends in zip(names, ranges, strict=True)
+            if self.chance(0.6)
+        }
+        axes = {"dichroic_angle": self.turn()} if self.chance(0.5) else {}
+        return op.Medium(
+            length, absorption, angle=self.turn(), azimuth=self.turn(), **rates, **axes
+        )
 
     def source(self):
         intensity = float(self.rng.uniform(0.5, 100))
@@ -115,6 +142,18 @@ class Draw:
         return op.Source(intensity, [1.0, *state])
 
     def path(self, *, loops=False):
+        """A path of which some light gets out again from every ring."""
+        while True:
+            self.values = {}
+            path = self.any_path(loops=loops)
+            try:
+                path.check()
+            except op.PathError as error:
+                if "reaches no detector" in str(error):
+                    continue
+            return path
+
+    def any_path(self, *, loops=False):
         """A path that parts and meets; every light ends in a detector or a dump.
 
         With loops, some light goes back into beam splitters that it may come from. Boundaries

@@ -32,12 +32,14 @@ if TYPE_CHECKING:
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
     from optipath.elements.beam_splitter import BeamSplitter
+    from optipath.elements.circular_diattenuator import CircularDiattenuator
     from optipath.elements.circular_polarizer import CircularPolarizer
     from optipath.elements.combiner import Combiner
     from optipath.elements.coupling import Coupling, Operation
     from optipath.elements.depolarizer import Depolarizer
     from optipath.elements.diattenuator import Diattenuator
     from optipath.elements.element import Element
+    from optipath.elements.elliptical_retarder import EllipticalRetarder
     from optipath.elements.faraday_rotator import FaradayRotator
     from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
     from optipath.elements.interface import Interface
@@ -102,6 +104,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Case",
     "Certificate",
     "CircularPolarizer",
+    "CircularDiattenuator",
     "Combiner",
     "Composer",
     "ComposerError",
@@ -112,6 +115,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Diattenuator",
     "Dump",
     "Element",
+    "EllipticalRetarder",
     "FOLLOWS",
     "FaradayRotator",
     "Fraction",
@@ -179,12 +183,14 @@ _HOMES = {
     "elements.attenuator": ["Attenuator"],
     "elements.beam_splitter": ["BeamSplitter"],
     "elements.circular_polarizer": ["CircularPolarizer"],
+    "elements.circular_diattenuator": ["CircularDiattenuator"],
     "elements.combiner": ["Combiner"],
     "elements.coupling": ["Coupling", "Operation"],
     "elements.depolarizer": ["Depolarizer"],
     "elements.diattenuator": ["Diattenuator"],
     "elements.element": ["Element"],
     "elements.faraday_rotator": ["FaradayRotator"],
+    "elements.elliptical_retarder": ["EllipticalRetarder"],
     "elements.fresnel": ["fresnel_reflection", "fresnel_transmission", "refraction_angle"],
     "elements.interface": ["Interface"],
     "elements.layer_stack": ["LayerStack"],

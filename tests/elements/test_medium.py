@@ -95,11 +95,6 @@ def test_a_rotation_by_both_signs_is_refused(rotation, dextrorotation):
         op.Medium(0.1, rotation=rotation, dextrorotation=dextrorotation)
 
 
-def test_a_dextrorotation_beside_a_retardance_is_refused():
-    with pytest.raises(op.ValueFault, match=r"retardance.*put two Media one after the other"):
-        op.Medium(0.1, retardance=1.0, dextrorotation=1.0)
-
-
 def test_a_dextrorotation_may_come_with_an_extinction():
     medium = op.Medium.from_extinction(0.1, k=1e-7, wavelength=589e-9, dextrorotation=1.0)
     assert medium == op.Medium(0.1, medium.absorption, dextrorotation=1.0)
@@ -171,22 +166,6 @@ def test_a_medium_that_does_nothing_takes_no_step():
     assert len(chain([op.Medium(op.Parameter("l"))]).compose().program.steps) == 1
 
 
-@pytest.mark.parametrize(
-    ("rotation", "retardance"),
-    [
-        (1.0, 2.0),
-        (op.Parameter("a"), 2.0),
-        (1.0, op.Parameter("a")),
-        (op.Parameter("a"), op.Parameter("b")),
-        (np.array([0.0, 1.0]), np.array([1.0, 0.0])),
-        (op.Parameter("a", 1.0, bound=True), op.Parameter("b", 2.0, bound=True)),
-    ],
-)
-def test_rotation_and_retardance_together_are_refused(rotation, retardance):
-    with pytest.raises(op.ValueFault, match=r"retardance.*put two Media one after the other"):
-        op.Medium(0.1, rotation=rotation, retardance=retardance)
-
-
 @pytest.mark.parametrize("zero", [0.0, np.zeros(3), op.Parameter("a", 0.0, bound=True)])
 def test_one_of_both_may_be_0(zero):
     found = op.Medium(0.5, rotation=zero, retardance=1.0).mueller().matrix
@@ -203,7 +182,7 @@ def test_all_faults_are_told_at_once():
     assert "Medium length is -100 mm; give a real length of 0 mm or more" in found
     assert "Medium absorption is -0.02 1/cm" in found
     assert "Medium rotation: 'x' is not a quantity; write a number such as '30 deg/mm'" in found
-    assert "Medium retardance is parameter 'r'" in found
+    assert "parameter 'r' is in deg, but Medium retardance takes a real angle per length" in found
 
 
 def test_a_parameter_in_a_unit_of_another_dimension_is_refused():

@@ -14,15 +14,19 @@ FOIL = (op.Retarder(1.0, 0.3) @ op.Diattenuator(0.9, 0.3, 0.8) @ op.Rotator(0.2)
 ELEMENTS = [
     op.Attenuator(0.3),
     op.BeamSplitter(0.3),
+    op.CircularDiattenuator(0.8, 0.3),
     op.CircularPolarizer("left", 0.9, 0.1),
     op.Depolarizer(0.3),
     op.Diattenuator(0.8, 0.3, 0.4),
+    op.EllipticalRetarder(0.4, -0.7, 1.1),
     op.Interface(1.5, 1.2),
     op.Interface(0.2 + 3j, 1.2, outside=1.3),
     op.LayerStack([1.0, 1.5, 1.7], 0.7),
     op.Medium(0.1, 2.0, retardance=3.0, angle=0.3),
     op.Medium(0.1, 2.0, rotation=3.0),
     op.Medium(0.1, dextrorotation=[1.0, 2.0]),
+    op.Medium(0.1, 9.0, 2.0, 7.0, 0.3, dichroism=4.0, dichroic_angle=0.8, circular_dichroism=-3.0),
+    op.Medium(0.1, 9.0, 2.0, 7.0, 0.3, dichroism=4.0, depolarization=5.0),
     op.Mirror(-0.97 + 0.12j, 0.92 - 0.26j),
     op.MuellerElement(FOIL),
     op.MuellerElement(op.Parameter("m", FOIL, bound=True)),
@@ -37,7 +41,7 @@ ELEMENTS = [
 ]
 """Each that is reciprocal, and lets light through."""
 
-OTHERS = {op.Combiner, op.Detector, op.Dump, op.FaradayRotator, op.Source}
+OTHERS = {op.Combiner, op.Detector, op.Dump, op.FaradayRotator, op.Source, op.Vertex}
 
 
 def ways(element):
@@ -92,6 +96,8 @@ AXES = [
     op.Retarder(1.0, 0.3, 0.5),
     op.Waveplate(1e-3, 0.009, 589e-9, 0.3, 0.5),
     op.Medium(0.1, 2.0, retardance=9.0, angle=0.3, azimuth=0.5),
+    op.Medium(0.1, 9.0, 2.0, 7.0, 0.3, 0.5, dichroism=4.0, circular_dichroism=-3.0),
+    op.Medium(0.1, 9.0, 2.0, 7.0, 0.3, 0.5, dichroism=4.0, dichroic_angle=0.8),
 ]
 
 
@@ -123,6 +129,12 @@ def test_faradays_rotation_changes_its_sign_and_natural_rotation_does_not():
     glass = op.FaradayRotator(verdet=5.0, field=2.0, length=0.1)
     assert glass.reversed() == op.FaradayRotator(verdet=5.0, field=-2.0, length=0.1)
     assert op.Rotator(0.3).reversed() == op.Rotator(0.3)
+
+
+def test_chains_that_differ_have_no_one_way_back():
+    vertex = op.Vertex(1.5, POINTS, place=1, events=[[0, 0, 0], [0, 2, 2]])
+    with pytest.raises(op.PathError, match="begin at several places"):
+        vertex.reversed()
 
 
 def test_a_matrix_does_not_know_of_a_magnetic_field():

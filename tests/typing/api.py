@@ -24,6 +24,9 @@ plate = path.add("plate", HalfWavePlate(angle=-op.Parameter("angle")))
 mirror = path.add("mirror", op.Mirror(r_s=-0.97 + 0.12j, r_p=op.Parameter("r", 0.9)))
 partial = path.add("partial", op.Diattenuator(maximum=0.9, minimum=0.2, angle=0.1))
 ground = path.add("ground", op.Depolarizer(depolarization=[0.1, 0.2, 0.3, 0.4, 0.5]))
+dyed = path.add("dyed", op.Medium(0.1, 9.0, dichroism=op.Parameter("d", 4.0), retardance=2.0))
+ellipse = path.add("ellipse", op.EllipticalRetarder(s1=0.1, s2=op.Parameter("s2", 0.2), s3=[0.3]))
+handed = path.add("handed", op.CircularDiattenuator(right=0.9, left="0.2"))
 sugar = path.add("sugar", op.Medium(length=0.1, rotation=2.0))
 ink = path.add("ink", op.Medium.from_extinction(1e-6, k=0.1, wavelength=500e-9))
 rod = path.add("rod", op.FaradayRotator(verdet="-134 rad/(T m)", field=-0.2, length="2 cm"))
@@ -31,7 +34,8 @@ circular = path.add("circular", op.CircularPolarizer("left", leakage=op.Paramete
 quartz = path.add("quartz", op.Waveplate("2 mm", 0.0091, op.Parameter("w", 5e-7), angle=0.1))
 lamp >> rod >> circular >> quartz >> glass
 glass >> metal >> mirror >> partial >> ground >> sugar >> ink >> plate
-plate >> path.add("eye", op.Detector(reads="linear"))
+plate >> dyed >> ellipse >> handed
+handed >> path.add("eye", op.Detector(reads="linear"))
 cube: op.Mueller = op.PolarizingBeamSplitter("1000:1", 50.0).mueller("in", "reflected")
 chained: op.PathGraph = op.Source(100.0) >> op.Polarizer(0.3).named("analyser") >> op.Detector()
 doubled_pass: op.PathGraph = op.there_and_back(op.Retarder(1.0, 0.3).named("plate"), op.Mirror())

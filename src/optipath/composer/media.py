@@ -14,7 +14,6 @@ from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
 from optipath.elements.arriving_wave import ArrivingWave, arriving_waves
 from optipath.elements.boundary_frames import BoundaryElement
-from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
 from optipath.values.follows import FOLLOWS
@@ -54,18 +53,17 @@ class Media:
     @cached_property
     def open(self) -> tuple[Agreement, ...]:
         """What is looked at when the path runs, since a value is given only then."""
-        every = (*self._all, *self._at_vertices, *self._in_space)
-        return tuple(a for a in every if a.is_open)
+        return tuple(a for a in (*self._all, *self._in_space) if a.is_open)
 
     def faults(self) -> list[str]:
         """Return what does not fit of the values that are known, a sentence each."""
-        every = (*self._all, *self._at_vertices)
-        known = [agreement for agreement in every if not agreement.is_open]
+        known = [agreement for agreement in self._all if not agreement.is_open]
         return [*first_faults(known), *map(_wedge_fault, self.meetings.wedges)]
 
     @property
     def _all(self) -> tuple[Agreement, ...]:
-        return *self._media, *self._planes, *self._angles, *self._rounds, *self._arriving
+        between = *self._media, *self._planes, *self._angles, *self._rounds, *self._arriving
+        return *between, *self._within
 
     @cached_property
     def _media(self) -> tuple[SameMedium, ...]:
@@ -146,11 +144,10 @@ class Media:
                 )
 
     @property
-    def _at_vertices(self) -> Iterator[Agreement]:
-        """What points say of the surfaces that stand by them."""
+    def _within(self) -> Iterator[Agreement]:
+        """What must fit of the values of one element."""
         for name, element in self.elements.items():
-            if isinstance(element, ChainVertex):
-                yield from element.agreements(name)
+            yield from element.agreements(name)
 
     @property
     def _arriving(self) -> Iterator[ArrivingWave]:

@@ -1,4 +1,4 @@
-"""What may be nothing but 0 beside a rotation: what does not commute with it, or is the same."""
+"""What may be nothing but 0 beside another: the same rotation by another sign."""
 
 from __future__ import annotations
 
@@ -43,10 +43,6 @@ def _beside(name: str, why: str) -> Beside:
     return Beside(name, "angle per length", minimum=0.0, maximum=0.0, why=why)
 
 
-RETARDANCE_BESIDE_ROTATION = _beside(
-    "retardance",
-    "a rotation, with which it does not commute, or put two Media one after the other",
-)
 ROTATION_BESIDE_DEXTROROTATION = _beside(
     "rotation", "a dextrorotation, which is the same rotation with the other sign"
 )

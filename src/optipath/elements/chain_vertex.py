@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from optipath.elements.coupling import Operation
     from optipath.elements.vertices.place import PlaceInChain
     from optipath.light.frames import Frame
-    from optipath.values.agreement import Agreement
     from optipath.values.domains.domain import Domain
 
 
@@ -103,11 +102,6 @@ class ChainVertex(MediaOfBoundary, Element):
         hardly = self.refracts or getattr(before, "refracts", False)
         turn = TURN_BESIDE_REFRACTION if hardly else TURN_BETWEEN_PLANES
         return self.in_chain.points_from_start().planes(turn)
-
-    def agreements(self, owner: str) -> tuple[Agreement, ...]:
-        """Return what must hold between its points and its media, which `owner` calls so."""
-        del owner
-        return ()
 
     def fault_behind(self, before: Element) -> str:
         """Say which vertex light must come from, unless it comes from the one before this."""

@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
-from optipath.elements.coupling import Coupling, Operation, turned
+from optipath.elements.circular_axes import along_circular_axes
+from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
-from optipath.kernels.catalogue import POLARIZER, RETARDER
+from optipath.kernels.catalogue import POLARIZER
 from optipath.values.domains.quantities import Fraction, Handedness
-
-if TYPE_CHECKING:
-    from typing import Any
 
 
 class CircularPolarizer(Element, kind="circular-polarizer"):
@@ -45,15 +42,7 @@ class CircularPolarizer(Element, kind="circular-polarizer"):
     leakage: Fraction = 0.0
 
     def couplings(self) -> tuple[Coupling, ...]:
-        """Return a linear polariser at 45 degrees between two crossed quarter-wave plates.
-
-        It is the same, with the same digits, and no depolarisation in any step.
-        """
-        quarter = -math.pi / 2 if self.handedness == "right" else math.pi / 2
-        filtering = Operation(POLARIZER, (self.transmittance, self.leakage))
-        linear = turned(math.pi / 4, filtering)
-        return (Coupling("in", "out", (_plate(quarter), *linear, _plate(-quarter))),)
-
-
-def _plate(retardance: Any) -> Operation:
-    return Operation(RETARDER, (retardance,))
+        """Return the filter, its axes circular."""
+        shares = self.transmittance, self.leakage
+        along = shares if self.handedness == "right" else shares[::-1]
+        return (Coupling("in", "out", along_circular_axes(Operation(POLARIZER, along))),)

@@ -7,6 +7,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, ClassVar, dataclass_transform
 
 from optipath.elements.acting import ActsOnLight
+from optipath.elements.agreeing import OwnAgreements
 from optipath.elements.alone import mueller_alone
 from optipath.elements.chaining import Chainable, NamedElement
 from optipath.elements.class_faults import class_faults
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
-class Element(Chainable, ActsOnLight, Reversible):
+class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
     """An optical element: ports, values, and the way light goes through.
 
     A subclass is a frozen dataclass without further ado. Its fields are values
@@ -161,7 +162,6 @@ class Element(Chainable, ActsOnLight, Reversible):
         Returns
         -------
         list of Use
-            One for each number.
         """
         return [
             Use(f"{owner}.{name}", value, domain)

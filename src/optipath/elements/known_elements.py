@@ -6,10 +6,12 @@ from typing import Any
 
 from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.circular_diattenuator import CircularDiattenuator
 from optipath.elements.circular_polarizer import CircularPolarizer
 from optipath.elements.combiner import Combiner
 from optipath.elements.depolarizer import Depolarizer
 from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.elliptical_retarder import EllipticalRetarder
 from optipath.elements.faraday_rotator import FaradayRotator
 from optipath.elements.interface import Interface
 from optipath.elements.layer_stack import LayerStack
@@ -33,10 +35,12 @@ STANDARD = (
     Attenuator,
     BeamSplitter,
     CircularPolarizer,
+    CircularDiattenuator,
     Combiner,
     Depolarizer,
     Diattenuator,
     FaradayRotator,
+    EllipticalRetarder,
     Interface,
     LayerStack,
     Medium,

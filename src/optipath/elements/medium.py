@@ -3,25 +3,18 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from optipath.elements.beside_rotation import (
-    RETARDANCE_BESIDE_ROTATION,
-    ROTATION_BESIDE_DEXTROROTATION,
-)
-from optipath.elements.coupling import Coupling, Operation, turned
+from optipath.elements.beside_rotation import ROTATION_BESIDE_DEXTROROTATION
+from optipath.elements.coupling import Coupling
 from optipath.elements.element import Element
+from optipath.elements.known_sizes import largest, over_a_length, overflow, vanishes
+from optipath.elements.medium_limits import PassiveDichroism, WithinReach
+from optipath.elements.medium_operations import operations_along
 from optipath.errors import ValueFault, did_you_mean
-from optipath.kernels.catalogue import (
-    ABSORPTION_ALONG,
-    DEXTROROTATION_ALONG,
-    RETARDANCE_ALONG,
-    ROTATION_ALONG,
-    THIRD_OF_ABSORPTION,
-)
+from optipath.values.agreement import first_faults
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import read_only
 from optipath.values.arrays.shapes import check_broadcast
@@ -33,42 +26,47 @@ from optipath.values.domains.quantities import (
     Angle,
     AnglePerLength,
     Axis,
+    Depolarization,
+    Dichroism,
     Length,
+    OptionalAxis,
     RotatoryPower,
 )
-from optipath.values.made import is_checked_later
+from optipath.values.made import is_checked_later, refuse
+from optipath.values.operands import operand_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from optipath.kernels.carriers.kernel import Kernel
+    from optipath.values.agreement import Agreement
 
 
 _EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 _TURNING = ("rotation", "retardance", "dextrorotation")
-_RATES = ("absorption", *_TURNING)
-_OTHERS = ("rotation", "retardance", "angle", "azimuth", "dextrorotation")
-_FAR = 50.0
-"""From what absorption times length on it is done in three steps, each within any precision."""
+_RATES = ("absorption", *_TURNING, "dichroism", "circular_dichroism", "depolarization")
 
 
 class Medium(Element, kind="medium"):
-    """A straight stretch of a homogeneous medium that absorbs, and turns or retards light.
+    """A straight stretch of a medium that absorbs, turns, retards, filters and depolarises light.
 
-    The intensity goes as exp(-absorption length) (Beer and Lambert). A rotation and a
-    retardance together are refused: they do not commute; put two Media one after the other.
+    The intensity of unpolarised light goes as exp(-absorption length) (Beer and Lambert) where
+    there is no dichroism. All that acts at once does so all along the way: the Mueller matrix is
+    the exponential of what the medium does per length (R. C. Jones, J. Opt. Soc. Am. 38, 671
+    (1948); Azzam, J. Opt. Soc. Am. 68, 1756 (1978); `docs/media.md`).
 
     However faint the light becomes, its polarisation and `Light.log10_intensity` are right up to
     an absorption times length of 2000, or 150 in float32; soon beyond, the light is dark. Two
-    Media one after the other go twice as far.
+    Media one after the other go twice as far. Beside dichroism it is up to a dichroism times
+    length of 300, or 40 in float32.
 
     Parameters
     ----------
     length : float, array_like or Parameter
         How far light goes through it, in metres.
     absorption : float, array_like or Parameter, optional
-        The napierian absorption coefficient of the intensity, per metre, not negative.
+        The napierian absorption coefficient of the intensity, per metre, not negative; beside
+        dichroism, the mean of all states of polarisation, and no less than the dichroism.
     rotation : float, array_like or Parameter, optional
         The optical rotation, in radians per metre from x towards y: counter-clockwise to who
         looks at the source.
@@ -82,6 +80,22 @@ class Medium(Element, kind="medium"):
         The optical rotation by the chemists' sign, in radians per metre: positive for what is
         dextrorotatory, (+), and turns light clockwise to who looks at the source. In place of
         ``rotation``, which is the same with the other sign (IUPAC, Gold Book, "optical rotation").
+    dichroism : float, array_like or Parameter, optional
+        The linear dichroism, per metre: light along the dichroic axis is absorbed by
+        absorption - dichroism, light across it by absorption + dichroism. So it is half the
+        difference of the two napierian coefficients of the intensity, 2 pi / wavelength times
+        that of the extinction coefficients, as ``retardance`` is that of the indices.
+    dichroic_angle : float, array_like or Parameter, optional
+        The dichroic axis, in radians from x towards y of the medium's frame; the fast axis,
+        ``angle``, if it is not given. Along it more light passes if the dichroism is positive,
+        as along the axis of a `Polarizer`.
+    circular_dichroism : float, array_like or Parameter, optional
+        The circular dichroism, per metre: light of S3 > 0 is absorbed by absorption -
+        circular_dichroism, light of S3 < 0 by absorption + circular_dichroism. Chemists count the
+        other way, and call S3 > 0 left-handed.
+    depolarization : float, array_like or Parameter, optional
+        By how much polarisation decays per metre, not negative: as exp(-depolarization length),
+        alike for all states.
 
     Examples
     --------
@@ -96,9 +110,15 @@ class Medium(Element, kind="medium"):
     >>> horizontal = Light([1.0, 1.0, 0.0, 0.0])
     >>> print(np.degrees((sugar.mueller() @ horizontal).aop).round(9))
     -66.5
+
+    A sheet whose dyes absorb across its axis, and which is stretched at 45 degrees to that:
+
+    >>> dyed = Medium(0.1, 8.0, retardance=5.0, angle="45 deg", dichroism=7.0, dichroic_angle=0.0)
+    >>> print((dyed.mueller() @ horizontal).stokes.round(3))
+    [ 0.889  0.832  0.    -0.314]
     """
 
-    mirrored: ClassVar[tuple[str, ...]] = ("angle",)
+    mirrored: ClassVar[tuple[str, ...]] = ("angle", "dichroic_angle")
 
     length: Length
     absorption: Absorption = 0.0
@@ -107,6 +127,10 @@ class Medium(Element, kind="medium"):
     angle: Axis = 0.0
     azimuth: Angle = 0.0
     dextrorotation: RotatoryPower = 0.0
+    dichroism: Dichroism = 0.0
+    dichroic_angle: OptionalAxis | None = None
+    circular_dichroism: Dichroism = 0.0
+    depolarization: Depolarization = 0.0
 
     def __post_init__(self) -> None:
         """Keep values as every element does; warn of turns that look typed in degrees."""
@@ -115,8 +139,9 @@ class Medium(Element, kind="medium"):
         for name, rate in given.items():
             if rate is not getattr(Medium, name) and not is_checked_later():
                 warn_of_turning(
-                    f"Medium {name}", rate, _largest(self.length), self.domains()[name].unit
+                    f"Medium {name}", rate, largest(self.length), self.domains()[name].unit
                 )
+        refuse(first_faults(a for a in self.agreements("Medium") if not a.is_open))
 
     @classmethod
     def from_extinction(cls, length: Any, k: Any, wavelength: Any, **others: Any) -> Medium:
@@ -133,8 +158,7 @@ class Medium(Element, kind="medium"):
         wavelength : float or array_like
             The wavelength in vacuum, in metres, 1e-12 to 1e-3; values, no Parameter.
         **others : float, array_like or Parameter
-            The rotation or dextrorotation, the retardance, the angle and the azimuth, as in
-            `Medium`.
+            All that `Medium` takes besides.
 
         Returns
         -------
@@ -157,7 +181,7 @@ class Medium(Element, kind="medium"):
         wavelength = read_only(WAVELENGTH.read("wavelength", wavelength))
         given = {"k": (k, _EXTINCTION), "wavelength": (wavelength, WAVELENGTH)}
         faults = [f for name, (v, domain) in given.items() for f in _value_faults(name, v, domain)]
-        faults += [cls._option_fault(name) for name in others if name not in _OTHERS]
+        faults += [cls._option_fault(name) for name in others if name not in cls._others()]
         if faults:
             raise ValueFault(*faults)
         check_broadcast({name: np.shape(value) for name, (value, _) in given.items()})
@@ -170,72 +194,52 @@ class Medium(Element, kind="medium"):
                 "absorption is computed from k and wavelength; leave it out, or give it to Medium "
                 "without them"
             )
-        return f"option '{name}' of Medium.from_extinction is unknown{did_you_mean(name, _OTHERS)}"
+        cure = did_you_mean(name, cls._others())
+        return f"option '{name}' of Medium.from_extinction is unknown{cure}"
+
+    @classmethod
+    def _others(cls) -> tuple[str, ...]:
+        """Return what is not computed from an extinction coefficient."""
+        return tuple(cls.domains())[2:]
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
-        """Yield every value; beside a rotation, a retardance may be nothing but 0.
+        """Yield every value.
 
         Only one of the two rotations may be other than 0, and what is given per metre no more
         than what floats hold over the whole length.
         """
-        rotates, dextrorotates = not _vanishes(self.rotation), not _vanishes(self.dextrorotation)
         for name, value, domain in super().quantities():
-            if name == "retardance" and (rotates or dextrorotates):
-                yield name, value, RETARDANCE_BESIDE_ROTATION
-            elif name == "rotation" and dextrorotates:
+            if name == "rotation" and not vanishes(self.dextrorotation):
                 yield name, value, ROTATION_BESIDE_DEXTROROTATION
-            elif name in _RATES and _overflow(value, self.length):
-                yield name, value, _over_a_length(domain, _largest(self.length))
+            elif name in _RATES and overflow(value, self.length):
+                yield name, value, over_a_length(domain, largest(self.length))
             else:
                 yield name, value, domain
 
+    def agreements(self, owner: str) -> Iterator[Agreement]:
+        """Yield what must fit: dichroism with the absorption, and with depolarisation."""
+        dichroism = self.dichroism, self.circular_dichroism
+        if all(map(vanishes, dichroism)):
+            return
+        yield PassiveDichroism(tuple(map(operand_of, (self.absorption, *dichroism))), owner)
+        if not vanishes(self.depolarization):
+            others = self.retardance, self.turning, self.depolarization, self.length
+            yield WithinReach(tuple(map(operand_of, (*dichroism, *others))), owner)
+
+    @property
+    def dichroic_axis(self) -> Any:
+        """The axis of the linear dichroism: its own angle, or that of the fast axis."""
+        return self.angle if self.dichroic_angle is None else self.dichroic_angle
+
+    @property
+    def turning(self) -> Any:
+        """The rotation, by whichever sign it was given."""
+        other: Any = self.dextrorotation
+        return self.rotation if vanishes(other) else -other
+
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is done along the way, but for what is known to be 0."""
-        if _largest(self.absorption) * _largest(self.length) <= _FAR:
-            absorbing = self._along(ABSORPTION_ALONG, self.absorption)
-        else:
-            absorbing = 3 * self._along(THIRD_OF_ABSORPTION, self.absorption)
-        rotating = self._along(ROTATION_ALONG, self.rotation)
-        rotating += self._along(DEXTROROTATION_ALONG, self.dextrorotation)
-        retarding = self._along(RETARDANCE_ALONG, self.retardance)
-        if retarding:
-            retarding = turned(self.angle, *retarding)
-        return (Coupling("in", "out", (*absorbing, *rotating, *retarding)),)
-
-    def _along(self, kernel: Kernel, per_metre: Any) -> tuple[Operation, ...]:
-        return () if _vanishes(per_metre) else (Operation(kernel, (per_metre, self.length)),)
-
-
-def _vanishes(value: Any) -> bool:
-    """Tell whether a value is known to be 0."""
-    if isinstance(value, Parameter):
-        return value.bound and _vanishes(value.placed(value.resolve(value.default).value))
-    return isinstance(value, (int, float, np.ndarray)) and not np.any(value)
-
-
-def _largest(value: Any) -> float:
-    """Return the size of a known value, or the most of an open one; infinite without a range."""
-    if isinstance(value, Parameter):
-        if not value.bound:
-            return value.span_of(value.minimum, value.maximum)[1]
-        value = value.placed(value.resolve(value.default).value)
-    if type(value) is float:
-        return abs(value)
-    known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)
-    return float(np.max(np.abs(known), initial=0.0)) if known.dtype.kind in "iuf" else math.inf
-
-
-def _overflow(per_metre: Any, length: Any) -> bool:
-    """Tell whether two values are known, and their product is too large for a float."""
-    sizes = _largest(per_metre), _largest(length)
-    return max(sizes) < math.inf and math.prod(sizes) == math.inf
-
-
-def _over_a_length(domain: Domain, length: float) -> Domain:
-    """Return the domain of what floats hold times a length."""
-    most = np.finfo(np.float64).max / length
-    name = f"{domain.name}, over a length of {length:g} m,"
-    return replace(domain, name=name, minimum=max(domain.minimum, -most), maximum=most)
+        return (Coupling("in", "out", operations_along(self)),)
 
 
 def _absorption(k: Any, wavelength: Any) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import field, replace
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar, NoReturn
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from optipath.elements.vertices.event_domain import Events, EventsDomain
 from optipath.elements.vertices.event_fits import EventFits
 from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.vertex_domain import Bad, VerticesDomain
+from optipath.errors import PathError
 from optipath.kernels.catalogue import AT_EVENT, EVENT_AT_VERTEX, TURN_BESIDE_REFRACTION
 from optipath.kernels.geometry.events import Event
 from optipath.values.follows import FOLLOWS
@@ -109,6 +110,20 @@ class Vertex(ChainVertex, kind="vertex"):
         del before  # The one that this chain says; some chains are refracted at either.
         points = self.in_chain.points_from_start()._replace(events=self._events)
         return points.planes(TURN_BESIDE_REFRACTION)
+
+    def reversed(self) -> NoReturn:
+        """Refuse: chains that end at several places have no one way back.
+
+        Raises
+        ------
+        PathError
+            Always.
+        """
+        raise PathError(
+            f"{self.kind} stands for chains that differ in their events or their lengths, whose "
+            f"ways back begin at several places; make a path of the chains of each kind, with one "
+            f"text for events, and reverse that"
+        )
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that light can go so from point to point, unless that is masked."""

@@ -12,7 +12,7 @@ from optipath.kernels.carriers.structures import (
     ROTATION,
     SCALE,
 )
-from optipath.kernels.filters import bench, emission, filters, rotation, stretch
+from optipath.kernels.filters import bench, emission, filters, lorentz, rotation, stretch
 from optipath.kernels.fresnel import (
     amplitude,
     amplitude_from_absorbing,
@@ -199,6 +199,7 @@ REFLECTED = Kernel("reflected axes", None, AxesAtVertex(leaves=True))
 
 POLARIZER = Kernel("polarizer", BLOCK, filters.polarizer)
 RETARDER = Kernel("retarder", BLOCK, filters.retarder)
+ELLIPTICAL_RETARDER = Kernel("elliptical retarder", FULL, lorentz.retardance)
 ATTENUATOR = Kernel("attenuator", SCALE, filters.attenuator)
 COMPLEMENT = Kernel("complement", SCALE, filters.complement)
 DEPOLARIZER = Kernel("depolarizer", FULL, filters.depolarizer)
@@ -215,6 +216,20 @@ FARADAY_ROTATION = Kernel("Faraday rotation", ROTATION, bench.faraday_rotation)
 WAVEPLATE = Kernel("wave plate", BLOCK, bench.waveplate)
 POLARIZING_REFLECTION = Kernel("polarising reflection", BLOCK, bench.polarizing_reflection)
 POLARIZING_TRANSMISSION = Kernel("polarising transmission", BLOCK, bench.polarizing_transmission)
+ABSORPTION_BESIDE_DICHROISM = Kernel(
+    "absorption beside dichroism", SCALE, stretch.absorption_beside_dichroism
+)
+THIRD_BESIDE_DICHROISM = Kernel(
+    "a third of absorption beside dichroism", SCALE, stretch.third_of_absorption_beside_dichroism
+)
+DICHROISM_ALONG = Kernel("dichroism along the way", BLOCK, stretch.dichroism_along)
+DEPOLARIZATION_ALONG = Kernel("depolarisation along the way", FULL, stretch.depolarization_along)
+DICHROISM_AND_RETARDANCE_ALONG = Kernel(
+    "dichroism and retardance along the way", FULL, stretch.dichroism_and_retardance_along
+)
+DEPOLARIZING_DICHROISM_ALONG = Kernel(
+    "dichroism and depolarisation along the way", FULL, stretch.depolarizing_dichroism_along
+)
 CONSTANT_BLOCK = Kernel("retarding diattenuator", BLOCK, filters.given)
 CONSTANT_DEPOLARIZING_BLOCK = Kernel("depolarising diattenuator", DEPOLARIZING_BLOCK, filters.given)
 MATRIX = Kernel("matrix", FULL, filters.given)

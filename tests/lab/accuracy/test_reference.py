@@ -121,6 +121,11 @@ def everything():
             op.FaradayRotator(verdet=-134.0, field=0.17, length=0.02),
             op.CircularPolarizer("left", 0.9, 0.3),
             op.Waveplate(2.3e-3, -0.0091, 5.89e-7, 0.3, azimuth=0.2),
+            op.EllipticalRetarder(0.3, -0.7, 1.1, azimuth=0.4),
+            op.CircularDiattenuator(0.9, 0.4),
+            op.Medium(0.1, 3.0, dichroism=2.0, circular_dichroism=1.0, retardance=9.0, angle=0.3),
+            op.Medium(0.1, 3.0, dichroism=2.0, retardance=4.0, dichroic_angle=0.8, rotation=2.0),
+            op.Medium(0.1, 3.0, dichroism=-1.0, depolarization=1.5, dextrorotation=4.0),
         )
     ):
         node = node >> path.add(f"e{number}", element)

@@ -272,3 +272,35 @@ def test_a_folder_is_no_preset(tmp_path):
     folder.mkdir()
     with pytest.raises(op.PresetError, match="cannot be read"):
         op.load_preset(folder)
+
+
+def test_a_dichroic_sheet_at_45_degrees_between_crossed_polarizers_is_a_filter_and_a_plate():
+    # Along one axis, amplitudes t1 and t2 exp(i delta) interfere.
+    path = op.load_preset("dichroic-sheet")
+    thickness = np.linspace(0.0, 1e-4, 21)
+    t1, t2 = (np.exp(-0.5 * (0.1e6 + sign * 0.09e6) * thickness) for sign in (-1, 1))
+    expected = abs(t1 - t2 * np.exp(1j * np.radians(20e6) * thickness)) ** 2 / 8
+    found = path.trace(thickness=thickness).intensity
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
+
+
+def test_the_cases_of_a_dichroic_sheet_are_what_their_notes_say():
+    found = {
+        case: float(op.load_preset("dichroic-sheet", case=case).trace().intensity)
+        for case in ("clear", "aligned")
+    }
+    assert found["clear"] == pytest.approx(np.sin(np.radians(250.0)) ** 2 / 2, rel=1e-14)
+    assert found["aligned"] == pytest.approx(np.exp(-0.25) / 2, rel=1e-15)
+
+
+def test_a_skewed_dichroic_sheet_is_many_thin_filters_and_plates_in_turn():
+    sheet = op.load_preset("dichroic-sheet", case="skewed")
+    count = 4096
+    plate = np.radians(500.0) / count
+    plate = op.Retarder(plate / 2, "45 deg").mueller().matrix
+    passed = np.exp(-0.01 * 25 / count), np.exp(-0.19 * 25 / count)
+    dye = op.Diattenuator(*passed, "25 deg").mueller().matrix
+    whole = np.linalg.matrix_power(plate @ dye @ plate, count)
+    first, last = (op.Polarizer(angle).mueller().matrix for angle in (0.0, "90 deg"))
+    # Halves before and behind are right to the square of the step.
+    assert float(sheet.trace().intensity) == pytest.approx((last @ whole @ first)[0, 0], rel=1e-5)

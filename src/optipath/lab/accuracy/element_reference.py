@@ -7,13 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.attenuator import Attenuator
 from optipath.elements.beam_splitter import BeamSplitter
+from optipath.elements.circular_diattenuator import CircularDiattenuator
 from optipath.elements.circular_polarizer import CircularPolarizer
 from optipath.elements.combiner import Combiner
 from optipath.elements.coupling import Coupling
 from optipath.elements.depolarizer import Depolarizer
 from optipath.elements.diattenuator import Diattenuator
+from optipath.elements.elliptical_retarder import EllipticalRetarder
 from optipath.elements.faraday_rotator import FaradayRotator
 from optipath.elements.interface import Interface
+from optipath.elements.known_sizes import vanishes
 from optipath.elements.layer_stack import LayerStack
 from optipath.elements.medium import Medium
 from optipath.elements.mirror import Mirror
@@ -30,6 +33,7 @@ from optipath.kernels.catalogue import INCIDENCE
 from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
 from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, mpmath
+from optipath.lab.accuracy.medium_reference import elliptical_retarder, medium
 
 if TYPE_CHECKING:
     from optipath.elements.element import Element
@@ -159,7 +163,17 @@ def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
-def _(element: Medium, _: Coupling, read: Reader) -> Jones:
+def _(element: CircularDiattenuator, _: Coupling, read: Reader) -> Jones:
+    right, left = (mpmath.sqrt(read.real(share)) for share in (element.right, element.left))
+    # The field of S3 > 0 is (1, i).
+    even, odd = (right + left) / 2, 1j * (left - right) / 2
+    return (even, odd), (-odd, even)
+
+
+@jones.register
+def _(element: Medium, _: Coupling, read: Reader) -> Jones | None:
+    if _is_general(element):
+        return None
     depth = read.real(element.absorption) * read.real(element.length)
     left = mpmath.exp(-depth / 2)
     rotation = read.angle_along(element.rotation, element.length, 2)
@@ -232,6 +246,16 @@ def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
 
 
 @mueller.register
+def _(element: Medium, _: Coupling, read: Reader) -> list[list[Any]]:
+    return medium(element, read)
+
+
+@mueller.register
+def _(element: EllipticalRetarder, _: Coupling, read: Reader) -> list[list[Any]]:
+    return elliptical_retarder(element, read)
+
+
+@mueller.register
 def _(element: Depolarizer, _: Coupling, read: Reader) -> list[list[Any]]:
     kept = 1 - read.real(element.depolarization)
     return mpmath.diag([1, kept, kept, kept]).tolist()  # type: ignore[no-any-return]
@@ -241,6 +265,13 @@ def _(element: Depolarizer, _: Coupling, read: Reader) -> list[list[Any]]:
 def _(_: MuellerElement, way: Coupling, read: Reader) -> list[list[Any]]:
     numbers = [read.real(number) for number in way.operations[0].arguments]
     return [numbers[row : row + 4] for row in range(0, 16, 4)]
+
+
+def _is_general(element: Medium) -> bool:
+    """Tell whether a medium does more than absorb, and one more thing."""
+    rotates = not (vanishes(element.rotation) and vanishes(element.dextrorotation))
+    others = element.dichroism, element.circular_dichroism, element.depolarization
+    return not all(map(vanishes, others)) or (rotates and not vanishes(element.retardance))
 
 
 def _filter(read: Reader, along: Any, across: Any, angle: Any) -> Jones:

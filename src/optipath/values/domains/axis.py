@@ -75,3 +75,16 @@ class AxisDomain(Domain):
         if word[:1].isalpha():
             raise ValueFault(f"axis '{word}' is unknown{word_meant(word, AXES, self.dimension)}")
         return super().parse(text)
+
+
+class OptionalAxisDomain(AxisDomain):
+    """The same, or none.
+
+    Examples
+    --------
+    >>> OptionalAxisDomain("angle", "angle").parts("dichroic_angle", None)
+    []
+    """
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        return [] if value is None else super().parts(name, value)

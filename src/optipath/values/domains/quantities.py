@@ -9,7 +9,7 @@ from typing import Annotated, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from optipath.values.domains.axis import AxisDomain
+from optipath.values.domains.axis import AxisDomain, OptionalAxisDomain
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.extinction import ExtinctionDomain
@@ -40,6 +40,7 @@ REAL = Domain("number")
 ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
 Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
+OptionalAxis: TypeAlias = Annotated[Quantity, OptionalAxisDomain("angle", "angle")]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
 Incidence: TypeAlias = Annotated[Quantity, INCIDENCE]
 FollowedIncidence: TypeAlias = Annotated[
@@ -64,6 +65,10 @@ Amplitude: TypeAlias = Annotated[Quantity, AMPLITUDE]
 Length: TypeAlias = Annotated[Quantity, Domain("length", "length", minimum=0.0, own_unit="mm")]
 Absorption: TypeAlias = Annotated[
     Quantity, Domain("absorption coefficient", "inverse length", minimum=0.0)
+]
+Dichroism: TypeAlias = Annotated[Quantity, Domain("dichroism", "inverse length")]
+Depolarization: TypeAlias = Annotated[
+    Quantity, Domain("depolarization per length", "inverse length", minimum=0.0)
 ]
 AnglePerLength: TypeAlias = Annotated[Quantity, Domain("angle per length", "angle per length")]
 RotatoryPower: TypeAlias = Annotated[

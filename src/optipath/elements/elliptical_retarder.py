@@ -1,0 +1,58 @@
+"""EllipticalRetarder: a rotation of the sphere of polarisation about any axis."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from optipath.elements.coupling import Coupling, Operation
+from optipath.elements.element import Element
+from optipath.elements.known_sizes import vanishes
+from optipath.kernels.catalogue import ELLIPTICAL_RETARDER, RETARDER, ROTATION_ALONG
+from optipath.values.domains.quantities import Angle
+
+
+class EllipticalRetarder(Element, kind="elliptical-retarder"):
+    """A retarder whose fast state may be of any ellipticity, by its rotation vector.
+
+    The vector (s1, s2, s3) has the length of the retardance, and the direction of the Stokes
+    parameters of the state that is fast; it turns the sphere of polarisation about itself, by the
+    right-hand rule (Chipman, Lam & Young, Polarized Light and Optical Systems (2018), ch. 6).
+    ``Retarder(d, a)`` has (d cos 2a, d sin 2a, 0), ``Rotator(a)`` has (0, 0, 2a).
+
+    Where s2 and s3 are known to be 0, or s1 and s2, it is computed as those are; else it has no
+    Jones matrix here, and is refused where Jones columns are composed.
+
+    Parameters
+    ----------
+    s1, s2, s3 : float, array_like or Parameter, optional
+        By how many radians light along y falls behind that along x, light at -45 degrees behind
+        that at 45, and light of S3 < 0 behind that of S3 > 0.
+    azimuth : float, array_like or Parameter, optional
+        The turn of its frame against the frame of the port before it, in radians.
+
+    Examples
+    --------
+    >>> from optipath.light.light import Light
+    >>> print(EllipticalRetarder(s2=0.6, s3=0.8) @ Light([1.0, 0.0, 0.6, 0.8]))
+    Light([1. , 0. , 0.6, 0.8])
+    """
+
+    mirrored: ClassVar[tuple[str, ...]] = ("s2",)
+
+    s1: Angle = 0.0
+    s2: Angle = 0.0
+    s3: Angle = 0.0
+    azimuth: Angle = 0.0
+
+    def couplings(self) -> tuple[Coupling, ...]:
+        """Return the rotation, by the cheapest kernel that is right."""
+        return (Coupling("in", "out", (self._operation,)),)
+
+    @property
+    def _operation(self) -> Operation:
+        if vanishes(self.s2):
+            if vanishes(self.s3):
+                return Operation(RETARDER, (self.s1,))
+            if vanishes(self.s1):
+                return Operation(ROTATION_ALONG, (self.s3, 0.5))
+        return Operation(ELLIPTICAL_RETARDER, (self.s1, self.s2, self.s3))

@@ -1,0 +1,85 @@
+"""What is known of values before a path runs: whether they are 0, and how large they may be."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from optipath.values.domains.domain import Domain
+
+
+def vanishes(value: Any) -> bool:
+    """Tell whether a value is known to be 0.
+
+    Examples
+    --------
+    >>> vanishes(0.0), vanishes([0.0, 0.1]), vanishes(Parameter("a"))
+    (True, False, False)
+    """
+    if isinstance(value, Parameter):
+        return value.bound and vanishes(value.placed(value.resolve(value.default).value))
+    return isinstance(value, (int, float, np.ndarray)) and not np.any(value)
+
+
+def largest(value: Any) -> float:
+    """Return the size of a known value, or the most of an open one; infinite without a range.
+
+    Examples
+    --------
+    >>> largest(-2.0), largest(Parameter("a", maximum=3.0, minimum=0.0)), largest(Parameter("a"))
+    (2.0, 3.0, inf)
+    """
+    if isinstance(value, Parameter):
+        if not value.bound:
+            return value.span_of(value.minimum, value.maximum)[1]
+        value = value.placed(value.resolve(value.default).value)
+    if type(value) is float:
+        return abs(value)
+    known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)
+    return float(np.max(np.abs(known), initial=0.0)) if known.dtype.kind in "iuf" else math.inf
+
+
+def overflow(per_metre: Any, length: Any) -> bool:
+    """Tell whether two values are known, and their product is too large for a float.
+
+    Parameters
+    ----------
+    per_metre, length : Any
+        The values.
+
+    Returns
+    -------
+    bool
+
+    Examples
+    --------
+    >>> overflow(1e200, 1e200), overflow(1e200, 1e-3)
+    (True, False)
+    """
+    sizes = largest(per_metre), largest(length)
+    return max(sizes) < math.inf and math.prod(sizes) == math.inf
+
+
+def over_a_length(domain: Domain, length: float) -> Domain:
+    """Return the domain of what floats hold times a length.
+
+    Parameters
+    ----------
+    domain : Domain
+        That of what is given per metre.
+    length : float
+        In metres.
+
+    Returns
+    -------
+    Domain
+    """
+    most = np.finfo(np.float64).max / length
+    name = f"{domain.name}, over a length of {length:g} m,"
+    return replace(domain, name=name, minimum=max(domain.minimum, -most), maximum=most)

@@ -1,0 +1,295 @@
+"""Media that do everything at once, against exponentials of 4 x 4 matrices in many digits."""
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import optipath as op
+from chains import ENGINES
+from paths import chain
+
+pytestmark = pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+
+STATE = [1.0, 0.5, 0.6, 0.4]
+RATES = ("dichroism", "circular_dichroism", "retardance", "rotation", "depolarization")
+
+
+def exact(length=1.0, absorption=0.0, *, angle=0.0, dichroic_angle=None, **rates):
+    """The exponential of what a medium does per length, written for nothing else."""
+    linear, circular, retardance, rotation, depolarization = (
+        mpmath.mpf(rates.get(name, 0.0)) for name in RATES
+    )
+    axis = angle if dichroic_angle is None else dichroic_angle
+    fast, dichroic = (
+        (mpmath.cos(2 * mpmath.mpf(a)), mpmath.sin(2 * mpmath.mpf(a))) for a in (angle, axis)
+    )
+    p1, p2, p3 = linear * dichroic[0], linear * dichroic[1], circular
+    q1, q2, q3 = retardance * fast[0], retardance * fast[1], 2 * rotation
+    a = mpmath.mpf(absorption)
+    d = a + depolarization
+    per_length = mpmath.matrix(
+        [[-a, p1, p2, p3], [p1, -d, -q3, q2], [p2, q3, -d, -q1], [p3, -q2, q1, -d]]
+    )
+    return mpmath.expm(mpmath.mpf(length) * per_length, method="taylor")
+
+
+def error(found, wanted):
+    """The largest error of an entry, as a share of that of unpolarised light."""
+    return max(
+        float(abs(mpmath.mpf(float(found[i, j])) - wanted[i, j]) / wanted[0, 0])
+        for i in range(4)
+        for j in range(4)
+    )
+
+
+@pytest.fixture(autouse=True)
+def many_digits():
+    with mpmath.workdps(60):
+        yield
+
+
+def passive(rates):
+    return float(np.hypot(rates.get("dichroism", 0.0), rates.get("circular_dichroism", 0.0)))
+
+
+@pytest.mark.parametrize("names", [RATES[:4], RATES, RATES[:3], ("dichroism", "depolarization")])
+@pytest.mark.parametrize("seed", range(3))
+def test_any_medium_is_the_exponential_to_13_digits(names, seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(4):
+        sizes = 10.0 ** rng.uniform(-12.0, np.log10(50.0), len(names))
+        rates = dict(zip(names, (sizes * rng.choice([-1, 1], len(names))).tolist(), strict=True))
+        if "depolarization" in rates:
+            rates["depolarization"] = abs(rates["depolarization"])
+        angles = dict(zip(("angle", "dichroic_angle"), rng.uniform(-3, 3, 2).tolist(), strict=True))
+        least = passive(rates)
+        found = op.Medium(1.0, least, **rates, **angles).mueller().matrix
+        assert error(found, exact(absorption=least, **rates, **angles)) < 1e-13
+
+
+SPECIAL = {
+    "parallel": {"dichroism": 3.0, "retardance": 7.0, "circular_dichroism": 1.5, "rotation": 1.75},
+    "across": {"dichroism": 3.0, "retardance": 7.0, "dichroic_angle": np.pi / 4},
+    "nilpotent": {"dichroism": 5.0, "retardance": 5.0, "dichroic_angle": np.pi / 4},
+    "nearly nilpotent": {"dichroism": 50.0, "rotation": 25.0 * (1 + 1e-9)},
+    "of circular axes": {"circular_dichroism": 20.0, "rotation": 8.0},
+    "of one axis": {"dichroism": 20.0, "retardance": 8.0, "angle": 0.3},
+    "nothing but depolarising": {"depolarization": 5.0},
+    "retarding and depolarising": {"retardance": 30.0, "rotation": 20.0, "depolarization": 5.0},
+    "all at their most": dict.fromkeys(RATES, 50.0) | {"rotation": 25.0, "angle": 0.2},
+}
+
+
+@pytest.mark.parametrize("name", SPECIAL)
+def test_special_directions_are_the_exponential_too(name):
+    rates = SPECIAL[name]
+    least = passive(rates)
+    found = op.Medium(1.0, least, **rates).mueller().matrix
+    assert error(found, exact(absorption=least, **rates)) < 1e-13
+
+
+@pytest.mark.parametrize("size", [1e-12, 1e-8, 1e-4, 1e-2])
+def test_small_products_keep_the_digits_of_every_entry(size):
+    rates = dict(zip(RATES, (size * np.array([3.0, 2.0, 5.0, 4.0, 1.0])).tolist(), strict=True))
+    for names in (RATES, RATES[:4]):
+        some = {name: rates[name] for name in names}
+        found = op.Medium(1.0, passive(rates), **some, angle=0.2, dichroic_angle=1.0).mueller()
+        wanted = exact(absorption=passive(rates), **some, angle=0.2, dichroic_angle=1.0)
+        for (i, j), entry in np.ndenumerate(found.matrix):
+            assert entry == pytest.approx(float(wanted[i, j]), rel=2e-13)
+
+
+@pytest.mark.parametrize("retardance", [1e3, 1e4])
+def test_large_retardances_are_right_to_the_rounding_of_their_phase(retardance):
+    rates = {"retardance": retardance, "rotation": 2.0, "dichroism": 1.0}
+    found = op.Medium(1.0, 1.0, **rates, dichroic_angle=0.4).mueller().matrix
+    wanted = exact(absorption=1.0, **rates, dichroic_angle=0.4)
+    assert error(found, wanted) < 4e-16 * retardance
+
+
+@pytest.mark.parametrize("size", [1e100, 1e200])
+def test_whatever_is_finite_gives_no_nan(size):
+    for rates in ({"retardance": size}, {"dichroism": size}, {"circular_dichroism": size}):
+        medium = op.Medium(1.0, size, rotation=1.0, **rates)
+        assert np.all(np.isfinite(medium.mueller().matrix))
+
+
+def parameters(names):
+    return {name: op.Parameter(name) for name in names}
+
+
+ALONE = [
+    {},
+    {"rotation": 2.0},
+    {"retardance": 2.0, "angle": 0.3},
+    {"dichroism": 2.0, "angle": 0.3},
+    {"dichroism": 2.0, "retardance": -3.0, "angle": 0.3},
+    {"circular_dichroism": 1.0, "rotation": 2.0},
+    {"retardance": np.pi / 2},
+]
+
+
+@pytest.mark.parametrize("rates", ALONE)
+@pytest.mark.parametrize("depolarizes", [False, True])
+def test_zeros_given_as_parameters_change_nothing(rates, depolarizes):
+    names = (*RATES[:4], *RATES[4:][:depolarizes], "angle")
+    given_rates = {name: rates.get(name, 0.0) for name in names}
+    path = chain([op.Medium(1.0, 2.0, **parameters(names))], STATE)
+    found = path.trace(**given_rates).stokes
+    wanted = chain([op.Medium(1.0, 2.0, **rates)], STATE).trace().stokes
+    # Where nothing depolarises, an ulp or two.
+    atol = (4e-15 if depolarizes else 5e-16) * wanted[0]
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=atol)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+@pytest.mark.parametrize("names", [RATES[:4], RATES])
+def test_every_engine_and_precision_agrees(engine, dtype, names):
+    rng = np.random.default_rng(3)
+    names = (*names, "angle", "dichroic_angle")
+    values = dict(zip(names, rng.uniform(0.0, 4.0, (len(names), 3000)), strict=True))
+    path = chain([op.Medium(1.0, 6.0, **parameters(names))], STATE)
+    found = op.Composer(engine=engine, dtype=dtype).compose(path).run(**values).stokes
+    wanted = chain([op.Medium(1.0, 6.0, **values)], STATE).trace().stokes
+    atol = 3e-6 if "float32" in (dtype, np.asarray(found).dtype.name) else 1e-14
+    np.testing.assert_allclose(
+        np.asarray(found) / wanted[..., :1], wanted / wanted[..., :1], rtol=0, atol=atol
+    )
+
+
+rate = st.floats(-50.0, 50.0) | st.sampled_from([0.0, 1e-12, 1e-200, 30.0])
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.tuples(rate, rate, rate, rate), rate.map(abs), st.floats(0, 3), st.floats(0, 3))
+def test_no_light_leaves_brighter_or_polarised_by_more_than_all(rates, depolarization, one, other):
+    rates = dict(zip(RATES, (*rates, depolarization), strict=True))
+    medium = op.Medium(1.0, passive(rates) * (1 + 1e-15), **rates, angle=one, dichroic_angle=other)
+    matrix = medium.mueller()
+    assert matrix.is_physical()
+    for state in ([1, 0, 0, 0], [1, 1, 0, 0], [1, -1, 0, 0], [1, 0, 0.6, -0.8]):
+        light = chain([medium], [float(part) for part in state]).trace()
+        assert light.S0 <= 1.0 + 1e-14
+        # What nearly cancels has the rounding of what it cancelled from.
+        rounding = 1e-14 * max(1.0, matrix.matrix[0, 0] / max(light.S0, 1e-300))
+        assert not light.dop > 1.0 + rounding
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.tuples(rate, rate, rate, rate), st.floats(0, 3), st.floats(0, 3))
+def test_two_halves_are_the_whole(rates, one, other):
+    rates = dict(zip(RATES[:4], rates, strict=True))
+    angles = {"angle": one, "dichroic_angle": other}
+    half, whole = (
+        op.Medium(l, passive(rates) + 0.1, **rates, **angles).mueller() for l in (0.5, 1.0)
+    )
+    scale = whole.matrix[0, 0] + half.matrix[0, 0] ** 2
+    np.testing.assert_allclose((half @ half).matrix, whole.matrix, rtol=0, atol=2e-13 * scale)
+
+
+@pytest.mark.parametrize("turn", [0.3, -1.2])
+def test_a_turned_medium_is_the_same_in_its_own_frame(turn):
+    rates = dict(zip(RATES, (3.0, 2.0, 5.0, 4.0, 1.0), strict=True))
+    turned = chain(
+        [op.Medium(1.0, 4.0, **rates, angle=0.2, dichroic_angle=1.0, azimuth=turn)], STATE
+    )
+    axes = {"angle": 0.2 + turn, "dichroic_angle": 1.0 + turn}
+    whole = chain([op.Medium(1.0, 4.0, **rates, **axes), op.Rotator(-turn)], STATE)
+    np.testing.assert_allclose(turned.trace().stokes, whole.trace().stokes, rtol=0, atol=1e-15)
+
+
+def test_light_along_the_dichroic_axis_and_across_it_is_absorbed_as_the_docstring_says():
+    for stokes, absorption in ([1, -1, 0, 0], 1.0), ([1, 1, 0, 0], 5.0):
+        light = chain([op.Medium(0.5, 3.0, dichroism=2.0, dichroic_angle="90 deg")], stokes).trace()
+        assert light.intensity == pytest.approx(np.exp(-0.5 * absorption), rel=1e-15)
+
+
+def test_light_of_positive_s3_is_absorbed_less_by_a_positive_circular_dichroism():
+    for s3, absorption in (1.0, 1.0), (-1.0, 5.0):
+        light = chain([op.Medium(0.5, 3.0, circular_dichroism=2.0)], [1.0, 0.0, 0.0, s3]).trace()
+        assert light.intensity == pytest.approx(np.exp(-0.5 * absorption), rel=1e-15)
+        assert s3 * light.S0 == light.S3
+
+
+def test_a_sheet_that_dims_one_axis_to_nothing_keeps_the_digits_of_what_is_left():
+    path = chain([op.Medium(1.0, 100.0, dichroism=100.0), op.Polarizer("vertical")], [1, -1, 0, 0])
+    assert path.trace().intensity == pytest.approx(np.exp(-200.0), rel=1e-13)
+    circular = chain([op.Medium(1.0, 100.0, circular_dichroism=100.0)], [1, 0, 0, -1])
+    assert circular.trace().intensity == pytest.approx(np.exp(-200.0), rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "rates",
+    [
+        {"dichroism": 2.0, "retardance": 3.0, "angle": 0.4},
+        {"circular_dichroism": 2.0, "rotation": 3.0},
+        {"dichroism": 2.0, "dichroic_angle": 0.4},
+    ],
+)
+def test_what_commutes_is_composed_with_jones_columns_too(rates):
+    path = chain([op.Medium(0.4, 5.0, **rates)], STATE)
+    jones = op.Composer(composing="jones").compose(path).run().stokes
+    np.testing.assert_allclose(jones, path.trace().stokes, rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("rates", "kernels"),
+    [
+        ({"absorption": 1.0}, ["absorption along the way"]),
+        ({"rotation": 1.0}, ["rotation along the way"]),
+        ({"retardance": 1.0}, ["retardance along the way"]),
+        (
+            {"absorption": 2.0, "dichroism": 1.0, "retardance": 3.0},
+            ["absorption beside dichroism", "dichroism along the way"],
+        ),
+        (
+            {"depolarization": 1.0, "rotation": 2.0},
+            ["depolarisation along the way", "rotation along the way"],
+        ),
+    ],
+)
+def test_what_is_not_there_costs_nothing(rates, kernels):
+    (coupling,) = op.Medium(1.0, **rates).couplings()
+    assert [operation.kernel.name for operation in coupling.operations] == kernels
+
+
+@pytest.mark.parametrize("absorption", [0.5, np.array([2.0, 0.5])])
+def test_a_dichroism_beyond_the_absorption_is_refused_and_the_cure_works(absorption):
+    with pytest.raises(op.ValueFault, match=r"would amplify .* give an absorption of 0\.01 1/cm"):
+        op.Medium(1.0, absorption, dichroism=0.6, circular_dichroism=0.8)
+    op.Medium(1.0, "0.01 1/cm", dichroism=0.6, circular_dichroism=0.8)
+
+
+def test_a_dichroism_beyond_the_absorption_is_refused_when_it_is_given():
+    path = chain([op.Medium(1.0, op.Parameter("a"), dichroism=op.Parameter("d"))], STATE)
+    path.trace(a=1.0, d=[0.5, 1.0])
+    with pytest.raises(op.ParameterError, match=r"parameter 'd'.*\(at 1, of 2 paths\)"):
+        path.trace(a=1.0, d=[0.5, 1.5])
+
+
+def test_too_much_beside_a_depolarization_is_refused_and_the_cure_works():
+    rates = {"dichroism": 100.0, "retardance": 120.0, "depolarization": 10.0}
+    with pytest.raises(op.ValueFault, match="put several Media of a part of the length"):
+        op.Medium(1.0, 100.0, **rates)
+    several = chain([op.Medium(0.25, 100.0, **rates)] * 4, STATE).trace()
+    assert several.dop <= 1.0
+
+
+@pytest.mark.parametrize("rate", ["dichroism", "circular_dichroism", "depolarization"])
+def test_what_is_no_float_over_the_whole_length_is_refused(rate):
+    with pytest.raises(op.ValueFault, match=rf"{rate} is .*, over a length of 1e\+200 m, within"):
+        op.Medium(1e200, **{rate: 1e200})
+
+
+def test_a_general_medium_is_written_to_a_file_and_read_back(tmp_path):
+    parts = {"retardance": 3.0, "rotation": 2.0, "depolarization": 1.0, "angle": 0.1}
+    dichroism = {"dichroism": op.Parameter("d", 40.0), "circular_dichroism": -5.0}
+    path = chain([op.Medium(0.01, 50.0, **parts, **dichroism, dichroic_angle=0.3)], STATE)
+    file = tmp_path / "sheet.toml"
+    file.write_text(path.to_toml())
+    again = op.load_preset(file)
+    assert again == path
+    np.testing.assert_array_equal(again.trace().stokes, path.trace().stokes)
