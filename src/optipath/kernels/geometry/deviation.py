@@ -54,7 +54,7 @@ def refracted(xp: Primitives) -> Callable[[Any, Any, Leg, Leg], tuple[Any, Any, 
     nothing cancels near the critical angle. Not a number, where no surface refracts light so.
 
     By the vector form of Snell's law the normal is along N = n2 k_out - n1 k_in (Glassner, ed.,
-    An Introduction to Ray Tracing, Academic Press 1989, sec. 4.2). With d = k_out - k_in,
+    An Introduction to Ray Tracing, Academic Press 1989, ch. 4). With d = k_out - k_in,
     over the denser index, cos |N| = 1 - rarer / denser - d^2 / 2 and sin |N| = |k_in x k_out|.
     """
     sqrt, where, maximum, minimum = xp.sqrt, xp.where, xp.maximum, xp.minimum
