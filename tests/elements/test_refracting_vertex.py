@@ -59,9 +59,7 @@ def test_a_medium_that_does_not_follow_is_told():
         ("bottom", op.SpecularVertex(0.2 + 3.4j, MIXED, 2)),
         ("eye", op.Detector()),
     )
-    with pytest.raises(
-        op.PathError, match=r"lit from n = 1.5 behind 'top'.*outside is 1; give out"
-    ):
+    with pytest.raises(op.PathError, match=r"lit from n = 1.5 behind 'top'.*outside is 1; give"):
         path.check()
 
 
