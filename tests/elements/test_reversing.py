@@ -88,7 +88,7 @@ def test_every_port_goes_back_to_the_other_side(element):
 
 @pytest.mark.parametrize("port", ["inn", 3, None, "transmitted"])
 def test_a_port_that_is_not_there_is_refused(port):
-    with pytest.raises(op.PathError, match="port of Mirror .* is unknown"):
+    with pytest.raises(op.PathError, match=r"port of Mirror .* is unknown"):
         op.Mirror().port_back(port)
 
 
