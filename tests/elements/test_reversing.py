@@ -90,6 +90,12 @@ def test_every_port_goes_back_to_the_other_side(element):
         assert element.port_back(back) == port
 
 
+@pytest.mark.parametrize("port", ["inn", 3, None, "transmitted"])
+def test_a_port_that_is_not_there_is_refused(port):
+    with pytest.raises(op.PathError, match=r"port of Mirror .* is unknown"):
+        op.Mirror().port_back(port)
+
+
 AXES = [
     op.Polarizer(0.3, 0.5, 0.9, 0.1),
     op.Diattenuator(0.9, 0.2, 0.3, 0.5),

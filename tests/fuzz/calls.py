@@ -65,14 +65,15 @@ def _called(function, places, values):
 def _made():
     """Return what can be called, on objects of its own, since some calls alter them."""
     path, matrix = op.load_preset("npgr026"), op.Polarizer(0.3).mueller()
-    light, plan = path.trace(), path.compose()
+    light, plan, plate = path.trace(), path.compose(), op.Retarder(1.0, op.Parameter("angle"))
     functions = [getattr(op, name) for name in op.__all__]
     found = {
         f"op.{function.__name__}": function
         for function in functions
         if inspect.isfunction(function) or function in _CLASSES
     }
-    for label, thing in {"path": path, "plan": plan, "light": light, "matrix": matrix}.items():
+    things = {"path": path, "plan": plan, "light": light, "matrix": matrix, "plate": plate}
+    for label, thing in things.items():
         for name in dir(type(thing)):
             if name[0] != "_" and name != "of" and callable(getattr(type(thing), name)):
                 found[f"{label}.{name}"] = getattr(thing, name)

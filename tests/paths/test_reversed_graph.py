@@ -365,6 +365,16 @@ def test_several_detectors_are_given_their_light_by_name():
         path.reversed(op.Source())
 
 
+@pytest.mark.parametrize("source", [3, "lamp", op.Mirror(), {3: op.Source()}, {"eye": 2.0}, {}])
+def test_light_that_is_no_source_is_refused_or_nothing(source):
+    path = op.Source() >> op.Detector().named("eye")
+    if source == {}:
+        assert path.reversed(source) == path.reversed()
+        return
+    with pytest.raises(op.PathError, match="must be a Source|no light ends there"):
+        path.reversed(source)
+
+
 def test_the_cures_work_as_they_are_written():
     path = op.Source() >> op.Polarizer() >> op.Detector()
     path.connect("polarizer.out", path.add("tap", op.Detector()).name, tap=True)

@@ -10,8 +10,6 @@ from optipath.elements.element import Element
 if TYPE_CHECKING:
     from optipath.elements.coupling import Operation
 
-_BACK = {"in": "reflected", "reflected": "in", "back": "transmitted", "transmitted": "back"}
-
 
 class FourPort(Element):
     """An element with two sides.
@@ -26,11 +24,12 @@ class FourPort(Element):
     natural: ClassVar[str] = "reflected"
     entry: ClassVar[str] = "in"
     straight: ClassVar[bool] = False
-
-    @classmethod
-    def port_back(cls, port: str) -> str:
-        """Return the port on the same side by which light goes the other way."""
-        return _BACK[port]
+    _ports_back: ClassVar[dict[str, str]] = {
+        "in": "reflected",
+        "reflected": "in",
+        "back": "transmitted",
+        "transmitted": "back",
+    }
 
     def _ways(
         self, front: tuple[Operation, Operation], behind: tuple[Operation, Operation]

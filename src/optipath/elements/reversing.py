@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 import numpy as np
 
 from optipath.elements.own_couplings import is_own
-from optipath.errors import OptipathError, PathError, listed
+from optipath.errors import OptipathError, PathError, listed, unknown
 from optipath.values.arrays.read_only import changed, read_only
 from optipath.values.domains.axis import AxisDomain
 from optipath.values.made import not_known_sound
@@ -37,6 +37,7 @@ class Reversible:
     """
 
     mirrored: ClassVar[tuple[str, ...] | None] = None
+    _ports_back: ClassVar[dict[str, str]] = {}
 
     if TYPE_CHECKING:
         kind: ClassVar[str]
@@ -103,9 +104,24 @@ class Reversible:
         -------
         str
             The other one; empty where the class has several and does not say.
+
+        Raises
+        ------
+        PathError
+            If there is no such port.
+
+        Examples
+        --------
+        >>> from optipath import Interface, Retarder
+        >>> Retarder.port_back("in"), Interface.port_back("in"), Interface.port_back("back")
+        ('out', 'reflected', 'transmitted')
         """
         ports = (*cls.inputs, *cls.outputs)
-        return ports[1 - ports.index(port)] if len(cls.inputs) == len(cls.outputs) == 1 else ""
+        if faults := unknown(f"port of {cls.__name__}", port, ports):
+            raise PathError(*faults)
+        if len(cls.inputs) == len(cls.outputs) == 1:
+            return ports[1 - ports.index(port)]
+        return cls._ports_back.get(port, "")
 
     @property
     def _called(self) -> str:

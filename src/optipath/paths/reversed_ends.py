@@ -78,12 +78,15 @@ def sources_by_name(
             return {}, [fault]
     strange = [name for name in given if name not in ends]
     faults = [f"source['{name}']: no light ends there{_near(name, ends)}" for name in strange]
+    wrong = {name: one for name, one in given.items() if not _emits(one)}
     faults += [
-        f"source['{name}'] must be a Source, not {shown(one)}"
-        for name, one in given.items()
-        if not isinstance(one, Element) or one.inputs or len(one.outputs) != 1
+        f"source['{name}'] must be a Source, not {shown(one)}" for name, one in wrong.items()
     ]
-    return dict(given), faults
+    return {name: one for name, one in given.items() if name not in wrong}, faults
+
+
+def _emits(one: Any) -> bool:
+    return isinstance(one, Element) and not one.inputs and len(one.outputs) == 1
 
 
 def _near(name: Any, ends: Collection[str]) -> str:

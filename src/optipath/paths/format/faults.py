@@ -56,6 +56,18 @@ class Faults(list[str]):
 def unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
     """Return a sentence for each key of a table that is none of those that there are.
 
+    Parameters
+    ----------
+    raw : mapping
+        The table.
+    names : sequence of str
+        The keys that there are.
+
+    Returns
+    -------
+    Faults
+        Empty where nothing is wrong.
+
     Examples
     --------
     >>> unknown_keys({"scal": 2}, ["scale", "offset"])
