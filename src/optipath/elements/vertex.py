@@ -12,10 +12,11 @@ from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.vertices.event_domain import Events, EventsDomain
 from optipath.elements.vertices.event_fits import EventFits
 from optipath.elements.vertices.place import PlaceInChain
-from optipath.elements.vertices.vertex_domain import Bad, VerticesDomain
+from optipath.elements.vertices.vertex_domain import Bad, Vertices, VerticesDomain
 from optipath.errors import PathError
 from optipath.kernels.catalogue import AT_EVENT, EVENT_AT_VERTEX, TURN_BESIDE_REFRACTION
 from optipath.kernels.geometry.events import Event
+from optipath.values.domains.quantities import Index, OutsideIndex, Whole
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import is_checked_later, refuse
 from optipath.values.operands import Operand, operand_of
@@ -62,6 +63,10 @@ class Vertex(ChainVertex, kind="vertex"):
 
     refracts: ClassVar[bool] = True
 
+    index: Index
+    vertices: Vertices
+    place: Whole
+    outside: OutsideIndex = 1.0
     events: Events = field(kw_only=True)
     bad: Bad = "refuse"
 
@@ -86,9 +91,10 @@ class Vertex(ChainVertex, kind="vertex"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the way from ``in`` to ``out``, by reflection or refraction."""
-        points = self.in_chain.points_around()
         event, n1, n2, k = self._given
-        n1, n2, *cos_sin = points.given_to(EVENT_AT_VERTEX, event, n1, n2, k).results(4)
+        points = self.in_chain.points_from_start()
+        met = points.given_to(EVENT_AT_VERTEX, n1, n2, k, *self._events)
+        n1, n2, *cos_sin = met.results(4)
         operation = Operation(AT_EVENT, (event, n1, n2, k, *cos_sin))
         return (Coupling("in", "out", (operation,)),)
 

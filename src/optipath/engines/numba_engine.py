@@ -22,11 +22,13 @@ if TYPE_CHECKING:
     from optipath.engines.formulas.formula import Formula
 
 _BLOCK = 512
+_MOST_BRANCHES = 300
+"""How many choices Numba follows as branches, each of them deeper in its own stack."""
 _HEAD = """\
 from math import atan2, cos, exp, inf, nan, sin, sqrt
 
 import numpy as np
-from optipath.engines.numba_helpers import exponent, fused as multiply_add
+from optipath.engines.numba_helpers import {chosen}exponent, fused as multiply_add
 from optipath.engines.numba_helpers import {ldexp} as ldexp, product_rest
 
 T = np.{dtype}
@@ -103,8 +105,10 @@ def source(formula: Formula) -> str:
         return constants.setdefault(repr(float(operand)), f"c{len(constants)}")
 
     before, in_row, cuts, inside = _loads(formula)
-    before += _assignments(formula.prologue, written)
-    inside += _assignments(formula.body, written)
+    choices = sum(step.operation == "where" for step in formula.steps)
+    branchless = choices > _MOST_BRANCHES
+    before += _assignments(formula.prologue, written, branchless=branchless)
+    inside += _assignments(formula.body, written, branchless=branchless)
     for row, result in enumerate(formula.computed):
         cuts.append(f"o{row} = {row} * paths + at + first + begin")
         inside.append(f"out[o{row} + i] = {written(result)}")
@@ -129,7 +133,10 @@ def source(formula: Formula) -> str:
     given = [f"a{s.index}: '{_kind(formula, s)}'" for s in formula.inputs]
     places = ", ".join(f"{name}: 'int64'" for name in ("top", "bottom", "start", "stop"))
     ends = f"own: '*{kind}', out: '*{kind}', paths: 'int64', at: 'int64'"
-    head = _HEAD.format(dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp")
+    chosen = "chosen, " * branchless
+    head = _HEAD.format(
+        chosen=chosen, dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp"
+    )
     text = f"def path({', '.join([places, *given, ends])}):"
     return "\n".join([head + text, *_indented(*lines), ""])
 
@@ -211,9 +218,14 @@ def _indented(*lines: str) -> list[str]:
     return ["    " + line for line in lines]
 
 
-def _assignments(steps: Iterable[Symbol], written: Callable[[Any], str]) -> list[str]:
+def _assignments(
+    steps: Iterable[Symbol], written: Callable[[Any], str], *, branchless: bool = False
+) -> list[str]:
     """Return a line for each operation, its operands written as a function says."""
-    return [
-        f"{written(step)} = {OPERATIONS[step.operation].text.format(*map(written, step.operands))}"
-        for step in steps
-    ]
+    found = []
+    for step in steps:
+        text = OPERATIONS[step.operation].text
+        if branchless and step.operation == "where":
+            text = "chosen({0}, {1}, {2})"
+        found.append(f"{written(step)} = {text.format(*map(written, step.operands))}")
+    return found

@@ -48,6 +48,30 @@ def fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numb
     return a(a, a, a), generate
 
 
+@intrinsic
+def chosen(typing: Any, condition: Any, yes: Any, no: Any) -> Any:  # noqa: ARG001 - as numba calls it
+    """Return one of two numbers, without a branch for Numba to follow.
+
+    Parameters
+    ----------
+    typing
+        What Numba gives.
+    condition
+        A bool.
+    yes, no
+        Of one type.
+
+    Returns
+    -------
+    float, int or bool
+    """
+
+    def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
+        return builder.select(*given)
+
+    return yes(condition, yes, yes), generate
+
+
 @nb.njit(error_model="numpy")
 def product_rest(a: Any, b: Any) -> Any:
     """Return what the rounding of a b has lost.

@@ -89,13 +89,14 @@ METHODS = tuple(REFLECTION.methods)
 
 def _at_event(method: str) -> Kernel:
     """Return the kernel of a method for what is reflected on some paths, let through on others."""
-    reflection, transmission = REFLECTION.methods[method], TRANSMISSION.methods[method]
+    both = REFLECTION.methods[method], TRANSMISSION.methods[method]
     name, cheaper = f"Fresnel reflection or transmission ({method}", None
-    if reflection.without:
-        lossless = AtEvent(reflection.without[1], transmission)
+    without = [kernel.without[1] for kernel in both if kernel.without]
+    if len(without) == len(both):
+        lossless = AtEvent(*without)
         # Of (event, n1, n, k, cos, sin), k is the fourth.
         cheaper = 3, Kernel(f"{name}, lossless)", BLOCK, lossless)
-    return Kernel(f"{name})", BLOCK, AtEvent(reflection, transmission), cheaper)
+    return Kernel(f"{name})", BLOCK, AtEvent(*both), cheaper)
 
 
 AT_EVENT = KernelFamily(

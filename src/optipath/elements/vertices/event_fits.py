@@ -39,8 +39,8 @@ class EventFits(Agreement):
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
         event, n1, n2, k, *points = numbers
-        *_, cos, _ = EVENT_AT_VERTEX.made_for(of_module(xp))(event, n1, n2, k, *points)
-        return ~xp.isnan(cos)
+        *_, cos, _ = EVENT_AT_VERTEX.made_for(of_module(xp))(n1, n2, k, event, *points)
+        return ~xp.isnan(cos) | (event == Event.BEHIND)
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.

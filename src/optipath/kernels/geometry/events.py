@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 
 class Event:
@@ -24,3 +27,14 @@ class Event:
     REFRACTS: ClassVar[float] = 1.0
     BEHIND: ClassVar[float] = 2.0
     CANNOT: ClassVar[float] = 3.0
+
+
+def ended(events: Sequence[Any]) -> list[Any]:
+    """Return the condition of each vertex that its chain has ended before.
+
+    Examples
+    --------
+    >>> ended([Event.REFLECTS, Event.BEHIND])
+    [False, True]
+    """
+    return [event == Event.BEHIND for event in events]

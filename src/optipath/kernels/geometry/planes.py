@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.filters.rotation import align
-from optipath.kernels.geometry.events import Event
+from optipath.kernels.geometry.events import ended
 from optipath.kernels.geometry.vectors import Vector, choice, cross, dot, minus, times
 from optipath.kernels.geometry.vertex_chain import legs, points_of
 
@@ -54,8 +54,7 @@ class OfPlanes:
             vectors = points_of(numbers[self.events :])
             # Of n vertices there are n + 2 points.
             count = len(vectors) // 2 + 1 if self.known else len(vectors)
-            ended = [event == Event.BEHIND for event in numbers[: self.events]]
-            several = along(vectors[:count], ended)
+            several = along(vectors[:count], ended(numbers[: self.events]))
             return several, planes(several, vectors[count:])
 
         return of

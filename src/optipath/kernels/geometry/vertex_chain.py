@@ -53,10 +53,19 @@ def incidence(xp: Primitives) -> Callable[..., tuple[Any, Any]]:
     >>> incidence(FLOAT)(0.0, 0.0, 0.0, 0.0, 0.0, 3.0, 0.0, 2.0, 3.0)
     (0.7071067811865476, 0.7071067811865476)
     """
-    sqrt, along = xp.sqrt, legs(xp)
+    along, between = legs(xp), incidence_between(xp)
 
     def met(*coordinates: Any) -> tuple[Any, Any]:
-        before, behind = along(points_of(coordinates))
+        return between(*along(points_of(coordinates)))
+
+    return met
+
+
+def incidence_between(xp: Primitives) -> Callable[[Leg, Leg], tuple[Any, Any]]:
+    """Make ``(leg before, leg behind) -> (cos, sin)`` of the incidence, as `incidence` has it."""
+    sqrt = xp.sqrt
+
+    def met(before: Leg, behind: Leg) -> tuple[Any, Any]:
         across, together = minus(behind.unit, before.unit), plus(behind.unit, before.unit)
         return 0.5 * sqrt(dot(across, across)), 0.5 * sqrt(dot(together, together))
 
@@ -85,26 +94,16 @@ def legs(xp: Primitives) -> Callable[..., list[Leg]]:
 
     def between(points: Sequence[Vector], ended: Sequence[Any] = ()) -> list[Leg]:
         found: list[Leg] = []
-        points = list(points)
-        for place, has_ended in enumerate(ended):
-            # A point that is there, at the length of the leg before, so that all is finite.
-            points[place + 2] = chosen(has_ended, points[place], points[place + 2])
         for start, end in pairwise(points):
             along = minus(end, start)
+            if found and ended:
+                along = chosen(ended[len(found) - 1], found[-1].along, along)
             squared = dot(along, along)
             inverse = 1.0 / sqrt(squared)
             # Both limits are 0 in single precision, which has none of the other numbers.
             kept = (squared > _LEAST) & (inverse > _INVERSE)
             inverse = where(kept, inverse, nan)
-            leg = Leg(along, inverse, times(inverse, along))
-            if found and ended:
-                has_ended, before = ended[len(found) - 1], found[-1]
-                along, unit = (
-                    chosen(has_ended, *two)
-                    for two in ((before.along, along), (before.unit, leg.unit))
-                )
-                leg = Leg(along, inverse, unit)
-            found.append(leg)
+            found.append(Leg(along, inverse, times(inverse, along)))
         return found
 
     return between

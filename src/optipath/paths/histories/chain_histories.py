@@ -11,7 +11,7 @@ from optipath.errors import OptipathError, ValueFault
 from optipath.kernels.geometry.events import Event
 from optipath.paths.histories.chain_lengths import lengths_given
 from optipath.paths.histories.event_letters import events_of, letters_given
-from optipath.paths.histories.palette import ids_within, index_numbers, media_by_ids, rows_of_ids
+from optipath.paths.histories.palette import ids_within, index_parts, media_by_ids, rows_of_ids
 from optipath.paths.vertex_events import REFLECTS, REFRACTS, event_faults
 from optipath.values.arrays.shapes import broadcast_fault
 
@@ -165,9 +165,9 @@ def apart_where_absorbed(chains: Histories) -> Histories:
         return chains
     for event, material in zip(events, chains.materials, strict=True):
         try:
-            index = index_numbers("", material, "")
+            _, k = index_parts("", material, "")
         except ValueFault:
             continue  # A fault of its own, or not known.
-        if event == REFRACTS and np.any(index.imag):
+        if event == REFRACTS and np.any(k):
             return replace(chains, events=numbers_of_events(chains))
     return chains

@@ -78,6 +78,15 @@ def whole_numbers(what: str, given: Any) -> npt.NDArray[Any]:
 def number_of(numbers: npt.NDArray[Any], bad: npt.NDArray[np.bool_]) -> str:
     """Return the first number that is bad, as sentences have it.
 
+    Parameters
+    ----------
+    numbers, bad : ndarray
+        Of one shape.
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> number_of(np.array([1.0, 2.5]), np.array([False, True]))
@@ -87,6 +96,23 @@ def number_of(numbers: npt.NDArray[Any], bad: npt.NDArray[np.bool_]) -> str:
 
 
 def has_ended(lengths: Whole, count: int) -> npt.NDArray[np.bool_]:
-    """Return which vertices are behind the end of their chain, shape (..., count)."""
+    """Return which vertices are behind the end of their chain.
+
+    Parameters
+    ----------
+    lengths : ndarray of int, shape (...)
+        How many vertices each chain has.
+    count : int
+        The most that there are.
+
+    Returns
+    -------
+    ndarray of bool, shape (..., count)
+
+    Examples
+    --------
+    >>> has_ended(np.array([1, 2]), 2).tolist()
+    [[False, True], [False, False]]
+    """
     found: npt.NDArray[np.bool_] = np.arange(count) >= lengths[..., np.newaxis]
     return found

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from optipath.kernels.geometry.events import Event
-from optipath.paths.histories.palette import index_numbers
+from optipath.paths.histories.palette import index_parts
+from optipath.values.arrays.read_only import locked
 from optipath.values.materials import Material
 
 if TYPE_CHECKING:
@@ -64,11 +65,16 @@ def media_along(events: Floats, materials: Sequence[Any], outside: Any) -> list[
     >>> media_along(events, (1.5, 1.2), 1.0)[1].front
     array([1.5, 1.5])
     """
-    front = index_numbers("outside", outside, _WHY).real
+    front, _ = index_parts("outside", outside, _WHY)
     found = []
     for place, material in enumerate(materials):
-        m = index_numbers(f"materials[{place}]", material, _WHY)
-        n, k = m.real.copy(), m.imag.copy()
-        found.append(Sides(front[()], Material(n[()], k[()]) if np.any(k) else n[()]))
-        front = np.where(events[..., place] == Event.REFRACTS, n, front)
+        n, k = index_parts(f"materials[{place}]", material, _WHY)
+        behind = Material(_plain(n), _plain(k)) if np.any(k) else _plain(n)
+        found.append(Sides(_plain(front), behind))
+        front = locked(np.where(events[..., place] == Event.REFRACTS, n, front))
     return found
+
+
+def _plain(numbers: Floats) -> Any:
+    """Return an array, or one number as it is."""
+    return numbers if numbers.ndim else float(numbers)

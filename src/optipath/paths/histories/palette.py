@@ -9,6 +9,7 @@ import numpy as np
 from optipath.errors import ValueFault
 from optipath.paths.histories.chain_lengths import number_of, whole_numbers
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.read_only import locked
 from optipath.values.arrays.shapes import first_place
 from optipath.values.domains.indices import INDEX
 from optipath.values.materials import Material
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    Complex = npt.NDArray[np.complex128]
+    Floats = npt.NDArray[np.float64]
 
 
 def rows_of_ids(ids: Any) -> npt.NDArray[Any]:
@@ -104,31 +105,31 @@ def media_by_ids(
     (array([1.5, 1. ]), array([1., 1.]))
     """
     faults: list[str] = []
-    palette = np.ones(len(materials), complex)
+    n, k = np.ones(len(materials)), np.zeros(len(materials))
     for place, material in enumerate(materials):
         name = f"materials[{place}]"
         try:
-            index = index_numbers(name, material, "ids choose from numbers")
+            one_n, one_k = index_parts(name, material, "ids choose from numbers")
         except ValueFault as fault:
             faults += fault.faults
             continue
-        if index.ndim:
+        if one_n.ndim or one_k.ndim:
             faults.append(f"{name} is an array, and ids choose from numbers; give one number")
         else:
-            palette[place] = index
+            n[place], k[place] = one_n, one_k
     if faults:
         raise ValueFault(*faults)
     if ids is None:
         return None
-    n, k = palette.real.copy(), palette.imag.copy()
     each = [ids[..., place] for place in range(ids.shape[-1])]
     return tuple(
-        Material(n[one], k[one]) if np.any(k) and np.any(k[one]) else n[one] for one in each
+        Material(locked(n[one]), locked(k[one])) if np.any(k) and np.any(k[one]) else locked(n[one])
+        for one in each
     )
 
 
-def index_numbers(name: str, medium: Any, why: str) -> Complex:
-    """Return the index of a medium as numbers.
+def index_parts(name: str, medium: Any, why: str) -> tuple[Floats, Floats]:
+    """Return n and k of a medium as numbers.
 
     Parameters
     ----------
@@ -141,12 +142,17 @@ def index_numbers(name: str, medium: Any, why: str) -> Complex:
 
     Returns
     -------
-    ndarray of complex
+    n, k : ndarray
 
     Raises
     ------
     ValueFault
         If it is a parameter, or traced by JAX, or no index.
+
+    Examples
+    --------
+    >>> index_parts("gold", 0.2 + 3j, "")
+    (array(0.2), array(3.))
     """
     parts = (medium.n, medium.k) if isinstance(medium, Material) else (medium,)
     if any(isinstance(part, Parameter) or is_traced(part) for part in parts):
@@ -154,5 +160,9 @@ def index_numbers(name: str, medium: Any, why: str) -> Complex:
             f"{name} is given when the path runs, but {why}; give a number here, and make a path "
             f"for each value"
         )
-    given = medium.refractive_index if isinstance(medium, Material) else medium
-    return np.asarray(INDEX.check(name, given)).astype(complex)
+    if isinstance(medium, Material):
+        n, k = (domain.check(part, value) for part, value, domain in INDEX.parts(name, medium))
+    else:
+        index = INDEX.check(name, medium)
+        n, k = index.real, index.imag if index.dtype.kind == "c" else np.zeros(())
+    return locked(np.asarray(n)), locked(np.asarray(k))
