@@ -18,7 +18,7 @@ from optipath.paths.format.schema import FORMAT
 from optipath.paths.place_choice import choice_faults
 from optipath.values.cases import name_faults
 from optipath.values.domains.choice import Choice
-from optipath.values.domains.indices import INDEX, IndicesDomain
+from optipath.values.domains.indices import INDEX
 from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.parameters import Parameter
@@ -154,8 +154,9 @@ def _frame(frame: Frame) -> dict[str, Any]:
 
 def _field(value: Any, domain: Domain) -> Any:
     """Write a value of an element's field so that decoding gives it back."""
-    if isinstance(domain, IndicesDomain) and isinstance(value, tuple):
-        return [_field(one, INDEX) for one in value]
+    each = entry_domain(domain)
+    if each is not None and isinstance(value, tuple):
+        return [_field(one, each) for one in value]
     return _number(value, domain.unit, domain.complex_parts)
 
 

@@ -14,6 +14,7 @@ from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.fraction import FractionDomain
 from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, INDICES, OPTIONAL_OUTSIDE
+from optipath.values.domains.layers import LENGTHS, WAVELENGTH
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
@@ -44,6 +45,8 @@ Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
 OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTSIDE]
 Indices: TypeAlias = Annotated[Sequence[Quantity | Material | Follows], INDICES]
+Lengths: TypeAlias = Annotated[Sequence[Quantity], LENGTHS]
+Wavelength: TypeAlias = Annotated[Quantity, WAVELENGTH]
 OptionalIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_OUTSIDE]
 AMPLITUDE = AmplitudeDomain("amplitude")
 Amplitude: TypeAlias = Annotated[Quantity, AMPLITUDE]
