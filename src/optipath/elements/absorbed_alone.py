@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.alone import checked_alone, turned_alone
+from optipath.errors import PathError, shown
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.frames import Frame
 from optipath.light.light import Light
@@ -44,18 +45,26 @@ def absorbed_alone(
     Raises
     ------
     PathError
-        With all faults of the stack at once.
+        With all faults of the stack at once, or if there is no such port.
     LightError
         If what is given is no light.
     """
+    if enters not in stack.inputs:
+        raise PathError(
+            f"{stack.kind} has no in-port {shown(enters)}; light arrives at 'in' or at 'back'"
+        )
     batch = checked_alone(stack, enters)
     with np.errstate(all="ignore"):
         numbers = operation.numbers(NUMPY, lambda value: operand_of(value).numbers({}), method)
         shares = [np.broadcast_to(number, batch) for number in numbers]
-        s, p = (np.stack(part, axis=-1) if part else np.empty((*batch, 0)) for part in (shares[::2], shares[1::2]))
-        if light is None:
-            return 0.5 * (s + p)
-        arriving = light if isinstance(light, Light) else Light(light)
-        inside = Mueller.of(np.eye(4), turned_alone(stack, enters, arriving.frame), Frame()) @ arriving
-        along = (inside.stokes[..., 1] / inside.stokes[..., 0])[..., np.newaxis]
-        return 0.5 * ((1.0 + along) * s + (1.0 - along) * p)
+        s, p = (
+            np.stack(part, axis=-1) if part else np.empty((*batch, 0))
+            for part in (shares[::2], shares[1::2])
+        )
+        along: Any = 0.0
+        if light is not None:
+            arriving = light if isinstance(light, Light) else Light(light)
+            frame = turned_alone(stack, enters, arriving.frame)
+            stokes = (Mueller.of(np.eye(4), frame, Frame()) @ arriving).stokes
+            along = (stokes[..., 1] / stokes[..., 0])[..., np.newaxis]
+        return np.asarray(0.5 * ((1.0 + along) * s + (1.0 - along) * p))

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from optipath.light.light import Light
     from optipath.values.domains.domain import Domain
 
-_NEEDED = {"lengths": "lengths=[...], one for each layer,", "wavelength": "wavelength=..."}
+_NEEDED = {"lengths": "the lengths (one for each layer)", "wavelength": "the wavelength"}
 
 
 class LayerStack(BoundaryElement, kind="layer-stack"):
@@ -74,9 +74,10 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
 
     A pane of tinted glass, 4 mm thick, and how much stays in it:
 
-    >>> tinted = LayerStack([1.0, 1.5 + 1e-5j, 1.0], "60 deg", lengths=["4 mm"], wavelength="550 nm")
+    >>> of_pane = {"lengths": ["4 mm"], "wavelength": "550 nm"}
+    >>> tinted = LayerStack([1.0, 1.5 + 1e-6j, 1.0], "60 deg", **of_pane)
     >>> print(tinted.mueller("in", "transmitted").matrix[0, 0].round(6), tinted.absorbed().round(6))
-    0.269377 [0.641461]
+    0.756309 [0.104709]
     """
 
     media_fields: ClassVar[tuple[str, str]] = ("indices[0]", "indices[-1]")
@@ -133,7 +134,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         Returns
         -------
         ndarray, shape (..., layers)
-            For each layer between the first medium and the last; NaN of dark light.
+            For each layer, from the first medium to the last; NaN of dark light.
 
         Raises
         ------
@@ -146,9 +147,10 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         --------
         >>> stack = LayerStack([1, 1.5 + 1e-6j, 1.4, 1], 0.0, lengths=[0.01, 0.1], wavelength=5e-7)
         >>> print(stack.absorbed().round(6))
-        [0.220848 0.      ]
+        [0.218291 0.      ]
         """
-        return absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
+        found = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
+        return found[..., ::-1] if enters == "back" else found
 
     def _operation(self, wanted: str, enters: str) -> Operation:
         """Return what the stack does to light from one side."""

@@ -14,13 +14,22 @@ from optipath.kernels.carriers.structures import (
     SCALE,
 )
 from optipath.kernels.filters import emission, filters, rotation, stretch
-from optipath.kernels.fresnel import amplitude, powers, stable, textbook
+from optipath.kernels.fresnel import (
+    amplitude,
+    amplitude_from_absorbing,
+    from_absorbing,
+    inhomogeneous,
+    powers,
+    stable,
+    textbook,
+)
 from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
 from optipath.kernels.fresnel.refraction import Refracting
 from optipath.kernels.geometry import vertex_chain
 from optipath.kernels.geometry.planes import AxesAtVertex, TurnBetweenPlanes
 from optipath.kernels.numbers.primitives import Factory
+from optipath.kernels.numbers.with_zero import WithZero
 
 Factories: TypeAlias = tuple[Factory, ...]
 """One for any media, and cheaper ones for k = 0, and for n >= n1 besides."""
@@ -78,6 +87,62 @@ METHODS = tuple(REFLECTION.methods)
 _OF_STACK = {"reflected": "reflection", "transmitted": "transmission", "absorbed": "absorption"}
 
 
+def _from_absorbing(stable: Factory, amplitude: Factory) -> dict[str, Factory]:
+    """Return the kernels ``(n1, k1, n, k, [n0,] cos, sin)`` of all methods.
+
+    Textbooks print no form by angles: by that method, too, it is the amplitudes.
+    """
+    by_amplitudes = Sloped(amplitude, stable)
+    return {
+        "stable": stable,
+        "compensated": Sloped(Compensated(stable), stable),
+        "amplitude": by_amplitudes,
+        "textbook": by_amplitudes,
+    }
+
+
+def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for a medium in front that absorbs, and where it does not, the other."""
+    what, methods = f"{family.name} out of an absorbing medium", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, family.methods[method]))
+    return KernelFamily(what, methods)
+
+
+def _from_behind(family: KernelFamily, stable: Factory, amplitude: Factory) -> KernelFamily:
+    """Return a family for light from behind; where nothing absorbs, it is the other."""
+    what, methods = f"{family.name} from behind", {}
+    for method, factory in _from_absorbing(stable, amplitude).items():
+        usual = family.methods[method]
+        name = f"{what} ({method}, lossless)"
+        lossless = (
+            usual.without[1] if usual.without else Kernel(name, BLOCK, WithZero(usual.factory, 2))
+        )
+        name = f"{what} ({method}, lossless in front)"
+        rarer = Kernel(name, BLOCK, WithZero(factory, 1), (2, lossless))
+        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, rarer))
+    return KernelFamily(what, methods)
+
+
+REFLECTION_FROM_ABSORBING = _from_front(
+    REFLECTION,
+    from_absorbing.inhomogeneous_reflection,
+    amplitude_from_absorbing.amplitude_inhomogeneous_reflection,
+)
+TRANSMISSION_FROM_ABSORBING = _from_front(
+    TRANSMISSION,
+    from_absorbing.inhomogeneous_transmission,
+    amplitude_from_absorbing.amplitude_inhomogeneous_transmission,
+)
+TRANSMISSION_FROM_BEHIND = _from_behind(
+    TRANSMISSION,
+    from_absorbing.transmission_from_behind,
+    amplitude_from_absorbing.amplitude_transmission_from_behind,
+)
+PHASE_INDEX = Kernel("index of planes of constant phase", None, inhomogeneous.phase_index)
+"""The index by which Snell's law holds for the real angle in an absorbing medium."""
+
+
 @lru_cache(256)
 def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> KernelFamily:
     """Return the kernels of what a stack of layers lets through, sends back, or absorbs.
@@ -96,8 +161,14 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
     structure = None if wanted == "absorbed" else DEPOLARIZING_BLOCK
     methods = {}
     for method in METHODS:
-        pair = REFLECTION.methods[method], TRANSMISSION.methods[method]
-        made_by = Stack(*pair, wanted, measured, absorbing)
+        made_by = Stack(
+            REFLECTION_FROM_ABSORBING.methods[method],
+            TRANSMISSION_FROM_ABSORBING.methods[method],
+            TRANSMISSION_FROM_BEHIND.methods[method],
+            wanted,
+            measured,
+            absorbing,
+        )
         methods[method] = Kernel(f"{what} ({method}{lossy})", structure, made_by)
     return KernelFamily(what, methods)
 

@@ -84,7 +84,8 @@ class Kernel:
         if self.without is None or not vanishes(arguments[self.without[0]]):
             return self, tuple(arguments)
         position, cheaper = self.without
-        return cheaper, (*arguments[:position], *arguments[position + 1 :])
+        left = (*arguments[:position], *arguments[position + 1 :])
+        return cheaper.specialised(left, vanishes)
 
     def never_less(
         self, arguments: Sequence[Any], ranges: Callable[[Any], tuple[float, float]]

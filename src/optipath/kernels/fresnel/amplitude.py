@@ -28,10 +28,10 @@ def amplitude_reflection(xp: Primitives) -> KernelFunction:
     def reflect(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         _, m2, g = waves(n1, n, k, s)
         second = (m2[0] * c, m2[1] * c)
-        rs = _ratio(xp, (c - g[0], -g[1]), (c + g[0], g[1]))
-        rp = _ratio(xp, (second[0] - g[0], second[1] - g[1]), (second[0] + g[0], second[1] + g[1]))
-        Fs, Fp = _power(rs), _power(rp)
-        return Fs, Fp, 0.5 * (Fs - Fp), *_times_conjugate(rs, rp)
+        rs = ratio(xp, (c - g[0], -g[1]), (c + g[0], g[1]))
+        rp = ratio(xp, (second[0] - g[0], second[1] - g[1]), (second[0] + g[0], second[1] + g[1]))
+        Fs, Fp = power(rs), power(rp)
+        return Fs, Fp, 0.5 * (Fs - Fp), *times_conjugate(rs, rp)
 
     return reflect
 
@@ -46,8 +46,8 @@ def given_amplitudes(xp: Primitives) -> KernelFunction:
 
     def reflect(a: Any, b: Any, c: Any, d: Any) -> tuple[Any, ...]:
         rs, rp = (a, b), (c, d)
-        B = 0.5 * _times_conjugate((a - c, b - d), (a + c, b + d))[0]
-        return _power(rs), _power(rp), B, *_times_conjugate(rs, rp)
+        B = 0.5 * times_conjugate((a - c, b - d), (a + c, b + d))[0]
+        return power(rs), power(rp), B, *times_conjugate(rs, rp)
 
     return reflect
 
@@ -62,13 +62,13 @@ def amplitude_transmission(xp: Primitives) -> KernelFunction:
 
     def transmit(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         m, m2, g = waves(n1, n, k, s)
-        ts = _ratio(xp, (2.0, 0.0), (c + g[0], g[1]))
-        tp = _ratio(xp, (2.0 * m[0], 2.0 * m[1]), (m2[0] * c + g[0], m2[1] * c + g[1]))
-        size = _power(m)
-        Ts = _power(ts) * c * g[0]
-        through = _times_conjugate(g, m2)[0] / where(size > 0.0, size, 1.0)
-        Tp = _power(tp) * c * through
-        re, im = _times_conjugate(ts, tp)
+        ts = ratio(xp, (2.0, 0.0), (c + g[0], g[1]))
+        tp = ratio(xp, (2.0 * m[0], 2.0 * m[1]), (m2[0] * c + g[0], m2[1] * c + g[1]))
+        size = power(m)
+        Ts = power(ts) * c * g[0]
+        through = times_conjugate(g, m2)[0] / where(size > 0.0, size, 1.0)
+        Tp = power(tp) * c * through
+        re, im = times_conjugate(ts, tp)
         length = sqrt(re * re + im * im)
         share = sqrt(Ts) * sqrt(xp.maximum(Tp, 0.0)) / where(length > 0.0, length, 1.0)
         return Ts, Tp, 0.5 * (Ts - Tp), share * re, share * im
@@ -89,18 +89,43 @@ def _waves(xp: Primitives) -> Callable[..., tuple[Complex, Complex, Complex]]:
     return waves
 
 
-def _ratio(xp: Primitives, top: Complex, bottom: Complex) -> Complex:
-    size = _power(bottom)
+def ratio(xp: Primitives, top: Complex, bottom: Complex) -> Complex:
+    """Return a quotient of two complex numbers; where the second is 0, the first.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    top, bottom : Complex
+        The two.
+
+    Returns
+    -------
+    Complex
+    """
+    size = power(bottom)
     size = xp.where(size > 0.0, size, 1.0)
-    re, im = _times_conjugate(top, bottom)
+    re, im = times_conjugate(top, bottom)
     return re / size, im / size
 
 
-def _times_conjugate(first: Complex, second: Complex) -> Complex:
+def times_conjugate(first: Complex, second: Complex) -> Complex:
+    """Return a complex number times the conjugate of another.
+
+    Parameters
+    ----------
+    first, second : Complex
+        The two.
+
+    Returns
+    -------
+    Complex
+    """
     (a, b), (c, d) = first, second
     return a * c + b * d, b * c - a * d
 
 
-def _power(value: Complex) -> Any:
+def power(value: Complex) -> Any:
+    """Return the square of the length of a complex number."""
     re, im = value
     return re * re + im * im

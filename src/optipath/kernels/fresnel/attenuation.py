@@ -1,4 +1,4 @@
-"""The slanted way through a layer that absorbs: how much light is left behind it, and how much not."""
+"""The slanted way through a layer that absorbs: how much light is left, and how much is not."""
 
 from __future__ import annotations
 

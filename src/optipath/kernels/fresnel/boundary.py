@@ -155,19 +155,40 @@ def refracted_wave(xp: Primitives) -> KernelFunction:
     Parallel boundaries have refracted the light from n0 into n1; n0 sin0 is what Snell's law
     keeps.
     """
-    where, sqrt, maximum, minimum = xp.where, xp.sqrt, xp.maximum, xp.minimum
+    sqrt, maximum, minimum = xp.sqrt, xp.maximum, xp.minimum
     inside = from_within(xp)
 
     def refracted(n1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
-        c0 = inside(c0)
-        p0, y = n0 * c0, n0 * s0
-
-        def along(m: Any) -> Any:
-            """Return the square of the wave along the normal in a medium m."""
-            return where(c0 < s0, (m - n0) * (m + n0) + p0 * p0, (m - y) * (m + y))
-
+        along, y = squared_along_normal(xp, n0, inside(c0), s0)
         # Where all has been reflected before, there is no light, and any angle will do.
         p = sqrt(maximum(along(n1), 0.0))
         return p / n1, minimum(y / n1, 1.0), p, along(n)
 
     return refracted
+
+
+def squared_along_normal(
+    xp: Primitives, n0: Any, c0: Any, s0: Any
+) -> tuple[Callable[[Any], Any], Any]:
+    """Return ``n -> n^2 - y^2`` and the wave y = n0 sin0 along the face.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What it is computed with.
+    n0, c0, s0 : float or array_like
+        The index of a medium that does not absorb, and the angle in it.
+
+    Returns
+    -------
+    along : callable
+        Of the index of any medium.
+    y : float or array_like
+        What Snell's law keeps.
+    """
+    p0, y = n0 * c0, n0 * s0
+
+    def along(m: Any) -> Any:
+        return xp.where(c0 < s0, (m - n0) * (m + n0) + p0 * p0, (m - y) * (m + y))
+
+    return along, y

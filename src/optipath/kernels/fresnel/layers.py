@@ -19,17 +19,19 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Stack:
-    """Makes the kernel of a stack: ``(n, ..., k, [k, ..., length, ..., wavelength,] [n0,] cos, sin)``.
+    """Makes the kernel of a stack, ``(n, ..., k, [of layers that absorb,] [n0,] cos, sin)``.
 
-    The indices, front medium first and substrate last, are followed by the k of the substrate; then
-    by the k and the length of each layer that absorbs, and the wavelength in vacuum where one does.
-    Layers are added one after the other; the intensities along s and along p go their own ways, and
-    (S2, S3) together, the complex C + iS of a boundary being what multiplies S2 - iS3.
+    The indices, front medium first and substrate last, are followed by the k of the substrate.
+    Where layers absorb, there follow the k of each of these, then the length of each, and the
+    wavelength in vacuum. Layers are added one after the other; the intensities along s and
+    along p go their own ways, and (S2, S3) together, the complex C + iS of a boundary being what
+    multiplies S2 - iS3.
 
     Attributes
     ----------
-    reflection, transmission : Kernel
-        Of one boundary.
+    reflection, transmission, from_behind : Kernel
+        Of one boundary, ``(n1, k1, n, k, [n0,] cos, sin)``; the last is what is let through from
+        behind.
     wanted : {"reflected", "transmitted", "absorbed"}
         The light that comes back, ``(Fs, Fp, B, C, S)``, that which passes the stack, or what of
         s and of p stays in each layer, ``(s, p, s, p, ...)``.
@@ -42,6 +44,7 @@ class Stack:
 
     reflection: Kernel
     transmission: Kernel
+    from_behind: Kernel
     wanted: str
     measured: str
     absorbing: tuple[int, ...] = ()
@@ -87,17 +90,25 @@ class Stack:
     def _face(self, xp: Primitives, pile: _Pile, place: int) -> Face:
         """Return what the boundary behind a medium does to light from either side."""
         front, behind = pile.media[place : place + 2]
-        angle = pile.angle_in(place)
-        reflected = _made(xp, self.reflection, front, behind, angle)
-        passed = back = _made(xp, self.transmission, front, behind, angle)
-        inner = place + 1 < len(pile.media) - 1
-        if inner and not (is_zero(front[1]) and is_zero(behind[1])):
-            back = _made(xp, self.transmission, behind, front, pile.angle_in(place + 1))
-        beside = [
-            None if is_zero(one[1]) else xp.apart(interference(xp))(*one, *other, *pile.angle)
-            for one, other in ((front, behind), (behind, front))
-        ]
-        return Face(reflected, passed, back, *beside)
+        given = (*front, *behind, *pile.angle_in(place))
+        reflected = _made(xp, self.reflection, given)
+        passed = back = _made(xp, self.transmission, given)
+        of_front, of_behind = (not is_zero(k) for _, k in (front, behind))
+        # No light comes from behind the last.
+        if place + 2 == len(pile.media) or not (of_front or of_behind):
+            of_behind = False
+        else:
+            back = _made(xp, self.from_behind, given)
+        beside: tuple[Any, ...] = (None, None, None, None)
+        if of_front or of_behind:
+            beside = xp.apart(interference(xp))(*front, *behind, *pile.angle)
+        return Face(
+            reflected,
+            passed,
+            back,
+            beside[:2] if of_front and place else None,
+            beside[2:] if of_behind else None,
+        )
 
     def _way(self, xp: Primitives, pile: _Pile, place: int) -> tuple[Any, Any] | None:
         """Return what is left behind a layer and what is not; nothing where it is lossless."""
@@ -136,18 +147,8 @@ class _Pile(NamedTuple):
         return self.angle[1:] if place == self.measured_at else self.angle
 
 
-def _made(
-    xp: Primitives,
-    kernel: Kernel,
-    front: tuple[Any, Any],
-    behind: tuple[Any, Any],
-    angle: tuple[Any, ...],
-) -> tuple[Any, ...]:
+def _made(xp: Primitives, kernel: Kernel, given: tuple[Any, ...]) -> tuple[Any, ...]:
     """Return the five numbers of a boundary, by the cheapest kernel."""
-    if not is_zero(front[1]):
-        from optipath.kernels.fresnel import seam
-
-        made_by = seam.REFLECTION if "reflection" in kernel.name else seam.TRANSMISSION
-        return xp.apart(made_by(xp))(*front, *behind, *angle)
-    cheapest, left = kernel.specialised((front[0], *behind, *angle), is_zero)
-    return xp.apart(cheapest.made_for(xp))(*left)
+    cheapest, left = kernel.specialised(given, is_zero)
+    numbers: tuple[Any, ...] = xp.apart(cheapest.made_for(xp))(*left)
+    return numbers

@@ -103,7 +103,9 @@ def across(xp: Primitives, face: Face, sign: Any) -> Parts:
         size = 0.5 * (abs(beside[0]) + abs(beside[1])) + abs(S)
         sizes = 2 * (out + size,), 2 * (on + size + abs(s),)
         out, on = out + stays, on + stays
-        return Side(_rows(c, s), (stays, stays), ((out + S, out - S), (on + S + s, on - S - s)), sizes)
+        return Side(
+            _rows(c, s), (stays, stays), ((out + S, out - S), (on + S + s, on - S - s)), sizes
+        )
 
     return Parts(_rows(C, S), _both_sides(face, side))
 

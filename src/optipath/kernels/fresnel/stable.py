@@ -160,12 +160,30 @@ def _second(xp: Primitives) -> Callable[[Boundary], tuple[Slant, Any, Any]]:
     def second(at: Boundary) -> tuple[Slant, Any, Any]:
         """Return the slant, whether q is there, and q where it is."""
         found = slant(at)
-        # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
-        # where the limits are known; at 90 degrees they are exact.
-        there = (_LOST * found.q > 0.0) & (found.q > _LEAST)
-        return found, there, where(there, found.q, 1.0)
+        return found, *is_there(where, found.q)
 
     return second
+
+
+def is_there(where: Callable[..., Any], q: Any) -> tuple[Any, Any]:
+    """Return whether the q of a `Slant` is there, and q where it is.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    q : float or array_like
+        |z + c g|^2.
+
+    Returns
+    -------
+    there, q : bool and float, or array_like
+        What is not there is 1.
+    """
+    # It vanishes, or underflows, next to exactly normal and exactly grazing incidence only,
+    # where the limits are known; at 90 degrees they are exact.
+    there = (_LOST * q > 0.0) & (q > _LEAST)
+    return there, where(there, q, 1.0)
 
 
 def _reflected(xp: Primitives) -> Callable[[Boundary], tuple[Any, ...]]:

@@ -58,9 +58,7 @@ def decode_list(raw: Any, domain: Domain, decode: Callable[[Any, Domain], Any]) 
         # The medium in front may be misspelt as well.
         of_entry = FOLLOWED_OUTSIDE if of_indices and not place else each
         follows = of_indices and entry == FOLLOWS.word
-        found.append(
-            FOLLOWS if follows else faults.attempt(f"[{place}]", decode, entry, of_entry)
-        )
+        found.append(FOLLOWS if follows else faults.attempt(f"[{place}]", decode, entry, of_entry))
     if faults:
         raise PresetError(*faults)
     return found

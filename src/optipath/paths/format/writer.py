@@ -14,6 +14,7 @@ from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults
+from optipath.paths.format.lists import entry_domain
 from optipath.paths.format.schema import FORMAT
 from optipath.paths.place_choice import choice_faults
 from optipath.values.cases import name_faults

@@ -149,7 +149,7 @@ class InnerDomain(OutsideDomain):
         What the stack is not given, which says how much light a layer absorbs.
     """
 
-    missing: str = "lengths=[...], one for each layer, and wavelength=..."
+    missing: str = "the lengths (one for each layer) and the wavelength"
 
     @classmethod
     def without(cls, missing: str) -> InnerDomain:
@@ -163,8 +163,8 @@ class InnerDomain(OutsideDomain):
 
     def described(self) -> str:
         return (
-            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}, or, for a "
-            f"layer that absorbs, {self.missing} of the stack, too"
+            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; or, for a "
+            f"layer that absorbs, give the stack {self.missing}, too"
         )
 
 
@@ -173,7 +173,7 @@ class _NoKInside(Domain):
     missing: str = ""
 
     def described(self) -> str:
-        return f"0, or {self.missing} of the stack, too"
+        return f"0; or, for a layer that absorbs, give the stack {self.missing}, too"
 
 
 @dataclass(frozen=True)

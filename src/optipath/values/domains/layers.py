@@ -1,4 +1,4 @@
-"""Domains of what a stack of layers that absorb is given: their indices, lengths, the wavelength."""
+"""Domains of what a stack is given whose layers absorb: indices, lengths, the wavelength."""
 
 from __future__ import annotations
 
@@ -66,8 +66,8 @@ class LengthsDomain(Domain):
     def check(self, owner: str, value: Any) -> Any:
         if isinstance(value, tuple):
             raise ValueFault(
-                f"{owner} has {len(value)} entries, but the stack has {self.layers} layers between "
-                f"its first medium and its last; give {self.described()}"
+                f"{owner} has {len(value)} entries, where the stack has {self.layers} between its "
+                f"first medium and its last; give {self.described()}"
             )
         if value is not None and not isinstance(value, (float, int, complex)):
             # Good lists are checked by their parts.

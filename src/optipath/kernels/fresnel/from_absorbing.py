@@ -1,0 +1,168 @@
+"""Fresnel's equations for light that comes out of an absorbing medium, with their digits kept.
+
+Of an arriving and a reflected wave in an absorbing medium each carries power, and the two
+together carry more or less by their interference: what is reflected and what is let through do
+not add up to 1 there (Born & Wolf, Principles of Optics, sec. 14; S. J. Byrnes, "Multilayer
+optical calculations", arXiv:1603.02720).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.kernels.fresnel.inhomogeneous import InhomogeneousBoundary, inhomogeneous_boundary
+from optipath.kernels.fresnel.stable import Slant, is_there
+from optipath.kernels.numbers.complex_pairs import hypotenuse
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.kernels.numbers.primitives import KernelFunction, Primitives
+
+
+def inhomogeneous_reflection(xp: Primitives) -> KernelFunction:
+    """Make the kernel ``(n1, k1, n, k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+
+    With g1 and g2 along the normal, y along the face and D = m2^2 - m1^2: r_s = -D /
+    (g1 + g2)^2 and r_p / r_s = (y^2 - g1 g2) / (y^2 + g1 g2), as in `stable_reflection`, where
+    g1 is real. From behind, all five numbers are the same.
+    """
+    boundary, where = inhomogeneous_boundary(xp), xp.where
+
+    def reflect(*given: Any) -> tuple[Any, ...]:
+        at = boundary(*given)
+        P, entering = _powers(where, at)
+        small = _small(at, P)
+        Fs = where(entering < 0.6, 1.0 - entering, small)
+        along = slant_of(where, at)
+        there, q = is_there(where, along.q)
+        f = Fs / q
+        parted = 2.0 * f * (at.s * at.s)
+        B = (parted * at.c * at.a - parted * at.e * at.b) * at.n1
+        S = (parted * at.c * at.b + parted * at.e * at.a) * at.n1
+        Fp = where(Fs > 4.0 * B, Fs - 2.0 * B, f * along.less)
+        C = where(there & (at.c > 0.0), f * (along.z2 - along.g2), where(at.c < along.z, Fs, -Fs))
+        return Fs, Fp, B, C, S
+
+    return reflect
+
+
+def inhomogeneous_transmission(xp: Primitives) -> KernelFunction:
+    """Make the kernel ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)``.
+
+    It is the power that is carried behind over that which arrives, of the arriving wave alone:
+    Ts = 4 |g1|^2 Re g2 / (Re g1 |g1 + g2|^2), Tp / Ts = (|g2|^2 + y^2) |m1|^4 /
+    ((|g1|^2 + y^2) |y^2 + g1 g2|^2), and t_s / t_p = (y^2 + g1 g2) / (m1 m2) (S. J. Byrnes,
+    arXiv:1603.02720, where Tp = |t_p|^2 Re(m2 conj(cos2)) / Re(m1 conj(cos1))).
+    """
+    boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
+    return lambda *given: transmitted(boundary(*given))
+
+
+def transmission_from_behind(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Ts, Tp, B, C, S)`` for light from behind.
+
+    The angle is that in front, or in the medium n0.
+    """
+    boundary, transmitted = inhomogeneous_boundary(xp), _transmitted(xp)
+    return lambda *given: transmitted(boundary(*given).from_behind(xp.where))
+
+
+def _powers(where: Callable[..., Any], at: InhomogeneousBoundary) -> tuple[Any, Any]:
+    """Return P = |g1 + g2|^2, 1 in place of 0, and 1 - Fs = 4 Re(g1 conj g2) / P."""
+    p, fades, P = at.p, at.fades, sum_squared(at)
+    # It vanishes only at grazing incidence on an equal medium, which is no interface.
+    there = P > 0.0
+    P = where(there, P, 1.0)
+    return P, where(there, 4.0 * p / P * at.a + 4.0 * fades / P * at.b, 1.0)
+
+
+def sum_squared(at: InhomogeneousBoundary) -> Any:
+    """Return P = |g1 + g2|^2."""
+    P = at.p * at.p + (2.0 * at.p * at.a + at.squared)
+    return P + at.fades * (at.fades + 2.0 * at.b)
+
+
+def _small(at: InhomogeneousBoundary, P: Any) -> Any:
+    """Return Fs, which has its digits where it is small."""
+    re, im = at.D / P, at.v / P
+    return re * re + im * im
+
+
+def slant_of(where: Callable[..., Any], at: InhomogeneousBoundary) -> Slant:
+    """Return how the polarisations differ, with g1 g2 / n1 in place of c g.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    at : InhomogeneousBoundary
+        The boundary.
+
+    Returns
+    -------
+    Slant
+    """
+    z = at.n1 * (at.s * at.s)
+    re, im = at.c * at.a - at.e * at.b, at.c * at.b + at.e * at.a
+    z2, g2 = z * z, (at.c * at.c + at.e * at.e) * at.squared
+    # Where it cancels, next to a surface plasmon, it is a sum of squares.
+    q = where(re < 0.0, (z + re) * (z + re) + im * im, z2 + (2.0 * z * re + g2))
+    return Slant(z, re, im, z2, g2, q)
+
+
+def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any, ...]]:
+    where, sqrt, length = xp.where, xp.sqrt, hypotenuse(xp)
+
+    def transmitted(at: InhomogeneousBoundary) -> tuple[Any, ...]:
+        P, entering = _powers(where, at)
+        small = _small(at, P)
+        Fs = where(entering < 0.6, 1.0 - entering, small)
+        # Where no wave arrives, none is let through.
+        arrives = at.c > 0.0
+        more = where(arrives, at.e * (at.e / where(arrives, at.c, 1.0)), 0.0)
+        direct = (entering < 0.6) | (at.fades > 0.0)
+        Ts = where(direct, 4.0 * (at.p + at.n1 * more) / P * at.a, 1.0 - small)
+        along = slant_of(where, at)
+        _, q = is_there(where, along.q)
+        behind = at.squared + at.n1 * along.z
+        kappa2 = at.kappa * at.kappa
+        # (|g1|^2 + y^2) / n1^2 = 1 - kappa^2 + 2 e^2, and e is at least kappa.
+        before = 1.0 + (at.e * at.e + (at.e - at.kappa) * (at.e + at.kappa))
+        Tp = Ts * (behind / q) * ((1.0 + kappa2) * (1.0 + kappa2) / before)
+        apart = 4.0 * at.fades / P * (at.b - at.fades * (behind / (at.n1 * at.n1) / before))
+        B = 0.0 - 2.0 * (Fs + apart) / q * (at.s * at.s) * (at.c + more) * at.a * at.n1
+        share = Ts * sqrt(behind / q) / sqrt(q) * sqrt((1.0 + kappa2) / before)
+        size = length(at.n, at.k)
+        n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
+        re, im = along.z + along.ca, along.cb
+        C = share * (re * n + im * k + at.kappa * (im * n - re * k))
+        of_second, of_first = _phases(where, at, n, k)
+        S = share * at.n1 * (at.s * at.s) * of_second + share * (at.s * at.s) * size * of_first
+        absorbs = (at.k > 0.0) | (at.kappa > 0.0)
+        C = where(absorbs, C, Ts * at.n / where(re > 0.0, re, 1.0))
+        # Adding 0 turns -0 into 0.
+        return Ts, Tp, B, C, where(absorbs, S, 0.0) + 0.0
+
+    return transmitted
+
+
+def _phases(
+    where: Callable[..., Any], at: InhomogeneousBoundary, n: Any, k: Any
+) -> tuple[Any, Any]:
+    """Return the two parts of Im((y^2 + g1 g2) conj(m1 m2)) / y^2, without its difference.
+
+    From g - m = -y^2 / (g + m) on both sides, (y^2 + g1 g2 - m1 m2) / y^2 is
+    1 - g1 / (g2 + m2) - m2 / (g1 + m1); the first part, over n1 |m2|, is that of the first two
+    terms, the second, over |m2|^2, that of the last.
+    """
+    kappa = at.kappa
+    re, im = at.a + at.n, at.b + at.k
+    sum2 = re * re + im * im
+    sum2 = where(sum2 > 0.0, sum2, 1.0)
+    alpha, beta = n * re - k * im, n * im + k * re
+    real = n - (at.c * at.n1 * alpha + at.e * at.n1 * beta) / sum2
+    imaginary = (at.c * at.n1 * beta - at.e * at.n1 * alpha) / sum2 - k
+    re, im = 1.0 + at.c, at.e + kappa
+    last = (im + kappa * re) / (re * re + im * im)
+    return imaginary - kappa * real, last
