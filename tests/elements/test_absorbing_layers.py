@@ -1,15 +1,18 @@
 """Layers that absorb: against 50 digits, Beer and Lambert, tmm's algorithm, and energy."""
 
+from itertools import pairwise
+
 import mpmath
 import numpy as np
 import pytest
-from chains import ENGINES
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from incoherent_stacks import exact_stack, mueller_of
 
 import optipath as op
+from chains import ENGINES
+from incoherent_stacks import exact_stack, mueller_of
 
+WAVE = {"wavelength": 500e-9}
 OF_PANE = {"lengths": [4e-3], "wavelength": 550e-9}
 
 
@@ -118,13 +121,13 @@ def tmm_incoherent(polarization, media, lengths, incidence, wavelength):
     for i in range(1, last + 1):
         before = forward_backward[i - 1][0] * passes[i - 2] if i > 1 else 1
         entering.append(before * power(i - 1, i)[1] - forward_backward[i][1] * power(i, i - 1)[1])
-    return R, T, [a - b for a, b in zip(entering, entering[1:], strict=False)]
+    return R, T, [a - b for a, b in pairwise(entering)]
 
 
 @pytest.mark.parametrize("k", [1e-9, 1e-4, 1e-2, 0.2])
 @pytest.mark.parametrize("incidence", [0.0, 0.7, 1.4])
 def test_a_stack_is_what_tmm_means_by_incoherent_layers(k, incidence):
-    media, lengths, wavelength = [1.0, 1.5 + 1j * k, 1.4, 2.1 + 2j * k, 1.3 + 0.5j], None, 5e-7
+    media, wavelength = [1.0, 1.5 + 1j * k, 1.4, 2.1 + 2j * k, 1.3 + 0.5j], 5e-7
     lengths = [2e-8 / k, 1e-4, 1e-8 / k]
     stack = op.LayerStack(media, incidence, lengths=lengths, wavelength=wavelength)
     for sign, polarization in ((1, "s"), (-1, "p")):
@@ -184,84 +187,56 @@ def test_opaque_layers_let_nothing_through_and_absorb_all_that_enters():
     np.testing.assert_allclose(stack.absorbed(), [1.0 - face[0, 0], 0.0], rtol=1e-15)
 
 
-WAVE = {"wavelength": 500e-9}
+def path_of():
+    m, theta, d, wavelength = map(op.Parameter, ("m", "theta", "d", "wavelength"))
+    stack = op.LayerStack([1.0, m, 0.6 + 2j], theta, lengths=[d], wavelength=wavelength)
+    return op.Source(1.0, (1.0, 0.3, 0.4, 0.5)) >> stack >> op.Detector()
 
 
-def path_of(**values):
-    values = {name: op.Parameter(name) for name in ("m", "theta", "d", "wavelength")} | values
-    stack = op.LayerStack(
-        [1.0, values["m"], 1.3, 0.6 + 2j],
-        values["theta"],
-        lengths=[values["d"], 1e-3],
-        wavelength=values["wavelength"],
-    )
-    path = op.PathGraph()
-    path.add("lamp", op.Source(1.0, (1.0, 0.3, 0.4, 0.5)))
-    path.add("stack", stack)
-    path.connect("lamp.out", "stack.in")
-    for port in ("reflected", "transmitted"):
-        path.add(port[0], op.Detector())
-        path.connect(f"stack.{port}", f"{port[0]}.in")
-    return path
+def exact_stokes(m, theta, d, wavelength):
+    """What comes back of the light of the path, in as many digits as are worked with."""
+    exact = exact_stack([1.0, m, 0.6 + 2j], [d], wavelength, theta, digits=mpmath.mp.dps)
+    s, p, both = exact.reflected
+    sums = (s + p) / 2 + 0.3 * (s - p) / 2, (s - p) / 2 + 0.3 * (s + p) / 2
+    across = 0.4 * both.real + 0.5 * both.imag, 0.5 * both.real - 0.4 * both.imag
+    return np.array([*sums, *across])
 
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_engines_agree(engine):
     theta, d = np.linspace(0.0, 1.5, 7), np.logspace(-6, 0, 7)
-    given = {"m": 1.5 + 1e-5j, "theta": theta, "d": d, "wavelength": 500e-9}
     plan = op.Composer(engine=engine).compose(path_of())
-    for name, light in plan.run_all(**given).items():
-        for number, angle in enumerate(theta):
-            exact = exact_stack([1.0, 1.5 + 1e-5j, 1.3, 0.6 + 2j], [d[number], 1e-3], 5e-7, angle)
-            parts = exact.reflected if name == "r" else exact.transmitted
-            expected = mueller_of(parts) @ [1.0, 0.3, 0.4, 0.5]
-            found = light.stokes[number]
-            np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * expected[0] + 1e-300)
+    light = plan.run(m=1.5 + 1e-5j, theta=theta, d=d, wavelength=500e-9)
+    with mpmath.workdps(50):
+        expected = [exact_stokes(1.5 + 1e-5j, *pair, 500e-9) for pair in zip(theta, d, strict=True)]
+    np.testing.assert_allclose(light.stokes, np.array(expected, float), rtol=0, atol=1e-14)
 
 
-@pytest.mark.parametrize("name", ["theta", "d", "wavelength"])
-@pytest.mark.parametrize("k", [1e-7, 1e-2])
-def test_slopes_are_those_of_50_digits(name, k):
+def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque():
     jax = pytest.importorskip("jax")
-    at = {"theta": 0.6, "d": 0.02 * 1e-7 / k * 50, "wavelength": 500e-9}
-    plan = op.Composer(engine="jax").compose(path_of(m=1.5 + 1j * k))
+    plan = op.Composer(engine="jax").compose(path_of())
 
-    def reflected(value):
-        return plan.run_all(**(at | {name: value}))["r"].stokes
+    @jax.jit
+    def stokes(values, k):
+        theta, d, wavelength = values
+        return plan.run(m=1.5 + 1j * k, theta=theta, d=d, wavelength=wavelength).stokes
 
-    with jax.enable_x64(True):
-        found = jax.jacfwd(reflected)(at[name])
-    with mpmath.workdps(60):
-
-        def exact(value, row):
-            given = at | {name: value}
-            media = [1.0, 1.5 + 1j * k, 1.3, 0.6 + 2j]
-            s, p, both = exact_stack(
-                media, [given["d"], 1e-3], given["wavelength"], given["theta"]
-            ).reflected
-            sums = (s + p) / 2 + 0.3 * (s - p) / 2, (s - p) / 2 + 0.3 * (s + p) / 2
-            across = 0.4 * both.real + 0.5 * both.imag, 0.5 * both.real - 0.4 * both.imag
-            return (*sums, *across)[row]
-
-        step = mpmath.mpf(at[name]) * mpmath.mpf(10) ** -20
-        slopes = [
-            (exact(at[name] + step, row) - exact(at[name] - step, row)) / (2 * step)
-            for row in range(4)
-        ]
-    np.testing.assert_allclose(found, [float(slope) for slope in slopes], rtol=1e-9, atol=1e-12)
-
-
-def test_slopes_of_an_opaque_layer_are_finite():
-    jax = pytest.importorskip("jax")
-    plan = op.Composer(engine="jax").compose(path_of(m=1.5 + 0.1j))
-
-    def stokes(d, wavelength):
-        lights = plan.run_all(theta=0.6, d=d, wavelength=wavelength)
-        return lights["r"].stokes, lights["t"].stokes
-
-    with jax.enable_x64(True):
-        for slopes in jax.jacfwd(stokes, argnums=(0, 1))(1.0, 500e-9):
-            assert np.isfinite(slopes).all()
+    with jax.enable_x64(True):  # noqa: FBT003 - as JAX has it
+        slopes = jax.jit(jax.jacfwd(stokes))
+        assert np.isfinite(slopes(np.array([0.6, 1.0, 500e-9]), 0.1)).all()
+        for k in (1e-7, 1e-2):
+            at = [0.6, 1e-8 / k, 500e-9]
+            found = slopes(np.array(at), k)
+            with mpmath.workdps(60):
+                for place in range(3):
+                    step = mpmath.mpf(at[place]) * mpmath.mpf(10) ** -20
+                    ends = [[*at[:place], at[place] + d, *at[place + 1 :]] for d in (-step, step)]
+                    less, more = (exact_stokes(1.5 + 1j * k, *end) for end in ends)
+                    expected = np.array((more - less) / (2 * step), float)
+                    scale = np.abs(expected).max()
+                    np.testing.assert_allclose(
+                        found[:, place], expected, rtol=0, atol=1e-12 * scale
+                    )
 
 
 def test_a_thick_pile_of_30_layers_composes():
@@ -274,10 +249,9 @@ def test_a_thick_pile_of_30_layers_composes():
 
 def test_a_stack_with_lengths_goes_into_a_file_and_back():
     path = path_of()
-    assert 'lengths = ["$d", "1 mm"]' in path.to_toml()
+    assert 'lengths = ["$d"]' in path.to_toml()
     given = {"m": 1.5 + 1e-5j, "theta": 0.3, "d": "2 mm", "wavelength": "550 nm"}
-    bound = path.bind(**given)
-    assert bound.trace_all()["r"] == path.trace_all(**given)["r"]
+    assert path.bind(**given).trace() == path.trace(**given)
     again = op.LayerStack([1, 1.5, 1], 0.3, lengths=["1 mm"], wavelength="5 um")
     assert again == op.LayerStack([1, 1.5, 1], 0.3, lengths=[1e-3], wavelength=5e-6)
     assert again != op.LayerStack([1, 1.5, 1], 0.3, lengths=[2e-3], wavelength=5e-6)
@@ -289,12 +263,12 @@ def test_a_stack_with_lengths_goes_into_a_file_and_back():
         ({}, r"indices\[1\] is complex.* give the stack the lengths .* and the wavelength, too"),
         ({"lengths": [1e-3]}, r"absorbs, give the stack the wavelength, too"),
         ({"wavelength": 5e-7}, r"absorbs, give the stack the lengths \(one for each layer\), too"),
-        ({"lengths": [1.0, 2.0], "wavelength": 5e-7}, "lengths has 2 entries, where the stack has 1"),
+        ({"lengths": [1.0, 2.0], **WAVE}, "lengths has 2 entries, where the stack has 1"),
         ({"lengths": 1e-3, "wavelength": 5e-7}, r"lengths is 0\.001; give a list of lengths"),
         ({"lengths": op.Parameter("d"), **WAVE}, "cannot be the parameter 'd'; give a list"),
         ({"lengths": [-1.0], **WAVE}, r"lengths\[0\] is -1000 mm"),
         ({"lengths": ["1 deg"], **WAVE}, r"lengths\[0\]: '1 deg' is no length"),
-        ({"lengths": [1.0], "wavelength": 500.0}, "wavelength is 5e.11 nm"),
+        ({"lengths": [1.0], "wavelength": 500.0}, r"wavelength is 5e\+11 nm"),
     ],
 )
 def test_what_is_missing_or_does_not_fit_is_told(given, message):
@@ -304,7 +278,7 @@ def test_what_is_missing_or_does_not_fit_is_told(given, message):
 
 def test_a_parameter_that_turns_out_to_absorb_needs_lengths_too():
     path = op.Source() >> op.LayerStack([1.0, op.Parameter("n"), 1.0], 0.5) >> op.Detector()
-    with pytest.raises(op.OptipathError, match="give the stack the lengths .* and the wavelength"):
+    with pytest.raises(op.OptipathError, match=r"give the stack the lengths .* and the wavelength"):
         path.trace(n=1.5 + 1e-6j)
 
 
@@ -313,7 +287,7 @@ def test_what_is_absorbed_is_asked_with_words():
     with pytest.raises(op.PathError, match="parameter 'm' of layer-stack has no value yet"):
         stack.absorbed()
     known = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 0.5, **OF_PANE)
-    with pytest.raises(op.PathError, match="no in-port 'reflected'; light arrives at 'in'"):
+    with pytest.raises(op.PathError, match=r"no in-port .reflected.; light arrives at .in."):
         known.absorbed(enters="reflected")
     with pytest.raises(op.OptipathError, match="polarised by 200 %"):
         known.absorbed([1, 2, 0, 0])

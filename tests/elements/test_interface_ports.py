@@ -78,7 +78,7 @@ def test_the_last_face_of_a_slab_keeps_its_digits_next_to_grazing_incidence():
     assert matrix[0, 0] + matrix[0, 1] == pytest.approx(float(along), rel=1e-9)
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, 1.5 + 1j, "air", op.Material(1.0, 0.1)])
+@pytest.mark.parametrize("value", [0.0, -1.0, 1.5 - 1j, "air", op.Material(0.0, 0.1)])
 def test_the_incidence_is_measured_in_a_medium_that_light_comes_from(value):
     with pytest.raises(op.ValueFault, match=r"^Interface incidence_in"):
         op.Interface(1.5, 0.5, incidence_in=value)
@@ -99,8 +99,8 @@ def test_the_azimuth_of_an_element_is_that_of_its_front():
 
 
 @pytest.mark.parametrize(
-    "element", [op.Interface(1.5 + 0.1j, 0.3), op.LayerStack([1.0, 1.5, 1.5 + 0.1j], 0.3)]
+    "element", [op.Interface(0.1j, 0.3), op.LayerStack([1.0, 1.5, 1.5 + 0.1j], 0.3)]
 )
 def test_an_element_alone_refuses_light_from_behind_as_well(element):
-    with pytest.raises(op.PathError, match="by port 'back'"):
+    with pytest.raises(op.PathError, match="since light comes from there"):
         element.mueller("back", "reflected")

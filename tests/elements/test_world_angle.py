@@ -92,5 +92,5 @@ def test_jax_compares_as_numpy_does():
     found, *_ = (operand.numbers() for operand in law.operands[:1])
     n = np.array([1.5, 1.9, np.nan])
     for xp in (np, jnp):
-        numbers = [xp.asarray(x, dtype=np.float32) for x in (found, np.pi / 4, 1.0, n, 0.0)]
+        numbers = [xp.asarray(x, dtype=np.float32) for x in (found, np.pi / 4, 1.0, 0.0, n, 0.0)]
         assert law.fits(xp, *numbers).tolist() == [True, False, True]

@@ -109,7 +109,10 @@ def test_a_stack_and_a_vertex_take_over_too():
             [op.Interface(1.5, 0.3), op.Interface(1.0, op.FOLLOWS, 1.5, incidence_in=1.0)],
             ["has an incidence_in of its own, which comes with it; leave that out"],
         ),
-        ([op.Interface(1.5 + 1j, 0.3), SECOND], ["the medium before 'b1.in' absorbs"]),
+        (
+            [op.Interface(1.5 + 1j, 0.3), op.LayerStack([op.FOLLOWS, 1.2, 1.0], op.FOLLOWS)],
+            ["the medium before 'b1.in' absorbs"],
+        ),
         ([op.Interface(1.5, 0.3, outside=op.FOLLOWS), SECOND], ["'b0' takes its outside over"]),
     ],
 )

@@ -219,8 +219,8 @@ def test_faces_that_stand_in_space_have_their_directions_by_their_frames():
     assert path.trace().intensity == pytest.approx(0.96, rel=1e-14)
 
 
-def test_no_boundary_is_lit_from_a_medium_that_absorbs():
-    back = op.Interface(1.0, 0.1, outside=0.6, parallel=False)
+def test_no_stack_is_lit_from_a_medium_that_absorbs():
+    back = op.LayerStack([0.6, 1.0, 1.2], 0.1, parallel=False)
     for index in (0.6 + 2j, op.Material(0.6, 2.0)):
         (fault,) = faults_of(faces(op.Interface(index, THETA), back))
         assert "'back.in' is lit from a medium that absorbs, with k = 2 behind 'front'" in fault

@@ -320,7 +320,7 @@ def test_of_a_row_of_faults_only_the_first_is_told(late):
 
 def test_an_absorption_that_is_open_is_told_of_the_boundary_that_has_it():
     front = op.Interface(op.Material(op.Parameter("n"), op.Parameter("k")), 0.3)
-    path = slab(front, op.Interface(1.0, 0.1, outside=F, parallel=False), to=None)
+    path = slab(front, op.LayerStack([F, 1.2, 1.0], 0.1, parallel=False), to=None)
     path.trace(n=1.5, k=0.0)
     fault = fault_of(path, n=1.5, k=0.1)
     assert "with k = 0.1 (parameter 'k') behind 'front' (by 'front.transmitted')" in fault

@@ -46,7 +46,7 @@ def test_one_bad_path_of_many_is_told_with_its_place():
 def test_no_number_of_one_path_is_offered_to_many():
     path = two_faces(op.Interface(P("n"), 0.3), op.Interface(1.0, P("t"), outside=P("o")))
     given = {"n": 1.5, "o": 1.5, "t": np.arcsin(np.sin(0.3) / 1.5)}
-    assert "give o = 1.5, or op.FOLLOWS" in fault_of(path, **given | {"o": [1.5, 1.6]})
+    assert "give o = 1.5, or op.FOLLOWS" in fault_of(path, **given | {"o": np.array([1.5, 1.6])})
     several = fault_of(path, **given | {"n": np.array([1.4, 1.5]), "o": np.array([1.5, 1.5])})
     assert "give op.FOLLOWS for outside (at 0" in several
     late = fault_of(path, **given | {"t": [0.1, 0.2]})

@@ -108,8 +108,7 @@ def test_one_complex_index_beyond_its_domain_is_told_with_what_a_fit_needs():
     assert BOUNDS in fault(layered(op.Parameter("m")).trace, m=1.5 - 0.1j)
     # A fit has no part in numbers that are complex.
     outside = op.Source() >> op.Interface(2.0, 0.3, outside=op.Parameter("m")) >> op.Detector()
-    for index in (1.5 + 0.1j, 1.5 + 0j):
-        assert BOUNDS not in fault(outside.trace, m=index)
+    assert BOUNDS in fault(outside.trace, m=1.5 - 0.1j)
 
 
 @pytest.mark.parametrize("give", ["trace", "bind"])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.composer.media import FOLLOWING, absorption_of, are_same, index_of
+from optipath.composer.media import FOLLOWING, absorption_of, are_same, parts_of
 from optipath.composer.meetings import Meetings
 from optipath.composer.path_values import TAKEN_OVER
 from optipath.composer.same_medium import SameMedium
@@ -105,7 +105,10 @@ class _Taking:
         taken: dict[str, Any] = {}
         for field in element.followed():
             if field == "outside":
-                taken |= dict(zip(["outside"], self._media(name), strict=False))
+                media = self._media(name)
+                if not element.lit_from_absorbing:
+                    media = list(map(_real, media))
+                taken |= dict(zip(["outside"], media, strict=False))
             elif _may_measure(element) and (pairs := self._angles(name)):
                 taken |= dict(zip(["incidence", "incidence_in"], pairs[0], strict=True))
         if taken:
@@ -116,7 +119,7 @@ class _Taking:
         """Return the media in which light comes to the front of an element."""
         ports = [meeting.leaves for meeting in self.fronts.get(name, ())]
         media = [self.elements[node].medium_at(port) for node, port in ports]
-        return [_real(index) for index in media if index is not FOLLOWS]
+        return [_plain(index) for index in media if index is not FOLLOWS]
 
     def _angles(self, name: str) -> list[tuple[Any, Any]]:
         """Return the incidence at parallel boundaries before it, each with its medium."""
@@ -134,7 +137,8 @@ class _Taking:
                 f"to {port}; give the index of the medium in front"
             )
         took = "outside" in self.given[name].followed() and "outside" not in missing
-        if took and _absorbs(element.medium_at("in")):
+        absorbs = took and not element.lit_from_absorbing and _absorbs(element.medium_at("in"))
+        if absorbs:
             yield (
                 f"'{name}' takes its {field} over (FOLLOWS), but the medium before {port} absorbs; "
                 f"give that an index without k, and link a Medium between, which absorbs on the way"
@@ -177,6 +181,11 @@ def _real(index: Any) -> Any:
     k = absorption_of(index) if isinstance(index, Material) else None
     if k is not None and (not k.known or k.traced):
         return Material(index.n)
+    return index
+
+
+def _plain(index: Any) -> Any:
+    """Return an index of complex numbers without absorption as a real one; any other as it is."""
     if isinstance(index, complex) or (isinstance(index, np.ndarray) and index.dtype.kind == "c"):
         return index if np.any(index.imag) else read_only(index.real)
     return index
@@ -190,5 +199,6 @@ def _absorbs(index: Any) -> bool:
 
 def _differ(first: Any, second: Any) -> bool:
     """Tell whether two indices are known to be of different media."""
-    law = SameMedium((index_of(first), index_of(second)), "", "", "")
-    return not are_same(first, second) and not law.is_open and bool(law.fault())
+    (n1, k1), (n2, k2) = parts_of(first), parts_of(second)
+    laws = [SameMedium(operands, "", "", "") for operands in ((n1, n2), (n1, n2, k1, k2))]
+    return not are_same(first, second) and any(law.fault() for law in laws if not law.is_open)

@@ -12,6 +12,7 @@ from optipath.composer.one_plane import OnePlane
 from optipath.composer.same_medium import SameMedium
 from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
+from optipath.elements.arriving_wave import ArrivingWave, arriving_waves
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
@@ -61,7 +62,7 @@ class Media:
 
     @property
     def _all(self) -> tuple[Agreement, ...]:
-        return *self._media, *self._planes, *self._angles, *self._rounds
+        return *self._media, *self._planes, *self._angles, *self._rounds, *self._arriving
 
     @cached_property
     def _media(self) -> tuple[SameMedium, ...]:
@@ -69,12 +70,12 @@ class Media:
         for meeting in _once(self.meetings.all):
             leaves, enters = meeting.leaves, meeting.enters
             first, second = self._medium(leaves), self._medium(enters)
-            k = None if _are_one(first, second) else absorption_of(first)
-            if k is not None or not are_same(first, second):
-                element: Any = self.elements[enters[0]]
+            element: Any = self.elements[enters[0]]
+            absorbs = () if _are_one(first, second) else _absorptions(first, second, element)
+            if absorbs or not are_same(first, second):
                 front, behind = element.media_fields
                 field = behind if enters[1] == "back" else front
-                operands = index_of(first), index_of(second), *([] if k is None else [k])
+                operands = index_of(first), index_of(second), *absorbs
                 measures = enters[1] == "in" and self._measures_in_front(enters)
                 ports = ".".join(leaves), ".".join(enters)
                 follows = enters[1] == "in" and self._follows(enters[0], "outside")
@@ -90,7 +91,7 @@ class Media:
             faces: Any = self.elements[leaves[0]], self.elements[enters[0]]
             (angle, n), (own_angle, own_n) = (face.measured for face in faces)
             if not (are_same(angle, own_angle) and are_same(n, own_n)):
-                pairs = Operand(angle), index_of(n), Operand(own_angle), index_of(own_n)
+                pairs = Operand(angle), *parts_of(n), Operand(own_angle), *parts_of(own_n)
                 operands = (*pairs, *map(Operand, turns))
                 if not any(operand.value is FOLLOWS for operand in operands):
                     law = SnellsLaw(
@@ -140,6 +141,12 @@ class Media:
                 yield from world_angles(
                     name, element, self.meetings.wiring.graph.nodes[name]["frames"]
                 )
+
+    @property
+    def _arriving(self) -> Iterator[ArrivingWave]:
+        """What must hold of light that comes out of media that absorb."""
+        for name, port in sorted(self.meetings.wiring.lit):
+            yield from arriving_waves(name, self.elements[name], port)
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""
@@ -196,6 +203,21 @@ def absorption_of(value: Any) -> Operand | None:
     return Operand(value, "imag")
 
 
+def parts_of(index: Any) -> tuple[Operand, Operand]:
+    """Return n and k of a medium as operands."""
+    return index_of(index), absorption_of(index) or Operand(0.0)
+
+
+def _absorptions(first: Any, second: Any, element: Any) -> tuple[Operand, ...]:
+    """Return what is looked at of k: that before, or of both sides where light may come from it."""
+    before, behind = absorption_of(first), absorption_of(second)
+    if not element.lit_from_absorbing:
+        return () if before is None else (before,)
+    if before is None and behind is None:
+        return ()
+    return before or Operand(0.0), behind or Operand(0.0)
+
+
 def _are_one(first: Any, second: Any) -> bool:
     """Tell whether two media are one value, with all that is asked of either."""
     if first is second or first is FOLLOWS or second is FOLLOWS:
@@ -220,5 +242,5 @@ def are_same(first: Any, second: Any) -> bool:
         return True
     if type(first) is type(second) is float:
         return first == second
-    key = index_of(first).key()
-    return key is not None and key == index_of(second).key()
+    keys, others = ([part.key() for part in parts_of(index)] for index in (first, second))
+    return None not in keys and keys == others

@@ -116,7 +116,8 @@ class Values:
             shapes=self.known_shapes,
             known=tuple(use for use in self.uses if use.is_traced),
             choices=tuple(self.graph.graph.get("choices", ())),
-            agreements=agreements,
+            agreements=tuple(a for a in agreements if not a.waits_for_complex),
+            for_complex=tuple(a for a in agreements if a.waits_for_complex),
         )
 
     def faults(self) -> list[str]:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.composer.one_plane import TURNED, turn_text
+from optipath.kernels.fresnel.inhomogeneous import phase_index
+from optipath.kernels.numbers.primitives import of_module
 from optipath.values.agreement import Agreement, is_single, text_of
 from optipath.values.cures import cure
 from optipath.values.digits import digits_until
@@ -28,8 +30,8 @@ _LAST_DIGITS, _LAST_SINGLE_DIGITS = 2.0**-50, 2.0**-22
 class SnellsLaw(Agreement):
     """An incidence at one boundary, and the medium where it is measured; the same at another.
 
-    The operands are both pairs, and the turns between the two planes of incidence: boundaries
-    whose planes differ are not parallel.
+    The operands are angle, n and k of both, and the turns between the two planes of incidence:
+    boundaries whose planes differ are not parallel.
 
     Attributes
     ----------
@@ -61,7 +63,8 @@ class SnellsLaw(Agreement):
         return (self.enters.rpartition(".")[0],)
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
-        angle1, n1, angle2, n2, *turns = numbers
+        angle1, n1, k1, angle2, n2, k2, *turns = numbers
+        n1, n2 = _index(xp, angle1, n1, k1), _index(xp, angle2, n2, k2)
         single = is_single(xp, angle1) | is_single(xp, angle2)
         rounding = xp.where(single, _SINGLE_ROUNDING, _ROUNDING)
         single = single | is_single(xp, n1) | is_single(xp, n2)
@@ -81,18 +84,21 @@ class SnellsLaw(Agreement):
         return ~differs
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
-        angle1, n1, angle2, n2, *turns = numbers
+        angle1, n1, k1, angle2, n2, k2, *turns = numbers
         (name, _, _), (own, _, _) = self.leaves.rpartition("."), self.enters.rpartition(".")
-        here, there = n1 * math.sin(angle1), n2 * math.sin(angle2)
+        pairs = ((angle1, n1, k1), (angle2, n2, k2))
+        here, there = (float(_index(np, a, n, k)) * math.sin(a) for a, n, k in pairs)
         cures = [cure("op.FOLLOWS", FOLLOWS.in_file)]
-        if not {0, 1, 3}.intersection(varying):
+        if not {0, 1, 2, 4, 5}.intersection(varying) and not (k1 or k2):
             cures = [*self._angles(angle1, n1, n2), *cures]
         digits = digits_until(lambda d: f"{here:.{d}g}" != f"{there:.{d}g}")
         sines = f"{here:.{digits}g} at '{name}' and {there:.{digits}g} at '{own}'"
-        given = text_of(self.operands[2], math.degrees(angle2), " deg")
-        given += f" in n = {text_of(self.operands[3], n2)}"
+        given = text_of(self.operands[3], math.degrees(angle2), " deg")
+        given += f" in n = {text_of(self.operands[4], n2)}"
+        if k2:
+            given += f" and k = {text_of(self.operands[5], k2)}"
         if turns:
-            turned = turn_text(self.operands[4:], turns)
+            turned = turn_text(self.operands[6:], turns)
             given += f"; their planes of incidence are one where azimuths come to {turned}"
         if self.follows:
             return (
@@ -121,15 +127,30 @@ class SnellsLaw(Agreement):
         if (sine := n * math.sin(angle) / own_n) <= 1.0:
             exact = math.degrees(math.asin(sine))
             digits = digits_until(
-                lambda d: self.fits(np, angle, n, math.radians(float(f"{exact:.{d}g}")), own_n)
+                lambda d: self.fits(
+                    np, angle, n, 0.0, math.radians(float(f"{exact:.{d}g}")), own_n, 0.0
+                )
             )
             found.append(f"{exact:.{digits}g} deg in n = {own_n:.12g}")
         if n != own_n:
             elsewhere = replace(self, ends=(self.ends[0], False))
             digits = digits_until(
                 lambda d: elsewhere.fits(
-                    np, angle, n, math.radians(float(f"{there:.{d}g}")), float(f"{n:.{d + 2}g}")
+                    np,
+                    angle,
+                    n,
+                    0.0,
+                    math.radians(float(f"{there:.{d}g}")),
+                    float(f"{n:.{d + 2}g}"),
+                    0.0,
                 )
             )
             found.append(f"{there:.{digits}g} deg with incidence_in = {n:.{digits + 2}g}")
         return found
+
+
+def _index(xp: Any, angle: Any, n: Any, k: Any) -> Any:
+    """Return the index by which Snell's law holds for a real angle in a medium."""
+    with np.errstate(all="ignore"):
+        (index,) = phase_index(of_module(xp))(n, k, xp.cos(angle), xp.sin(angle))
+    return xp.where(k > 0.0, index, n)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.elements.arriving_wave import arriving_waves
 from optipath.elements.azimuths import azimuth_at
 from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.own_couplings import couplings_of
@@ -15,6 +16,7 @@ from optipath.errors import PathError, shown
 from optipath.kernels.catalogue import REFLECTION
 from optipath.light.frames import Frame
 from optipath.light.mueller.matrix import Mueller
+from optipath.values.agreement import first_faults
 from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.made import faults_of
@@ -132,6 +134,7 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
     shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
+    faults = faults or first_faults(arriving_waves(owner, element, enters))
     if not faults and element.frame_of(enters, frames) is not None:
         faults = _twice_turned(owner, element, enters)
     if faults:

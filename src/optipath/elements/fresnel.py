@@ -9,6 +9,7 @@ import numpy as np
 from optipath.errors import ValueFault
 from optipath.kernels.carriers.structures import BLOCK
 from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
+from optipath.kernels.fresnel.inhomogeneous import phase_index
 from optipath.kernels.fresnel.refraction import refraction
 from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY
@@ -17,7 +18,7 @@ from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.domains.domain import Domain
-from optipath.values.domains.indices import INDEX, OUTSIDE
+from optipath.values.domains.indices import INDEX, LIT_INDEX
 from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.precision import precision
 
@@ -160,7 +161,8 @@ def refraction_angle(
     incidence : array_like
         The angle of incidence in radians, 0 to pi/2.
     outside : array_like, optional
-        The index of the medium in front, real and above 0.
+        The index n + ik of the medium in front, n above 0. Where it absorbs, the incidence is the
+        real angle, too, between faces that are parallel.
 
     Returns
     -------
@@ -183,12 +185,13 @@ def refraction_angle(
     """
     m = INDEX.check("index", index)
     angle = INCIDENCE.check("incidence", incidence)
-    front = OUTSIDE.check("outside", outside)
+    front = LIT_INDEX.check("outside", outside)
     check_broadcast({"index": m.shape, "incidence": angle.shape, "outside": front.shape})
     for value in (m, angle, front):
         check_known("refraction_angle", value)
     cos, sin = (made(NUMPY)(angle) for made in (cosine, sine))
-    given = (front, np.real(m), np.imag(m) + 0.0, cos, sin)
+    media = [part for index in (front, m) for part in (np.real(index), np.imag(index) + 0.0)]
+    n1, k1, n, k, cos, sin = np.broadcast_arrays(*media, cos, sin)
     with np.errstate(all="ignore"):
-        c, s = refraction(NUMPY)(*np.broadcast_arrays(*given))
+        c, s = refraction(NUMPY)(*phase_index(NUMPY)(n1, k1, cos, sin), n, k, cos, sin)
     return np.asarray(np.arctan2(s, c))

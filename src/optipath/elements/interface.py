@@ -2,24 +2,37 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
-from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
+from optipath.kernels.catalogue import (
+    PHASE_INDEX,
+    REFLECTION,
+    REFLECTION_FROM_ABSORBING,
+    TRANSMISSION,
+    TRANSMISSION_FROM_ABSORBING,
+    TRANSMISSION_FROM_BEHIND,
+)
+from optipath.values.domains.indices import INDEX, LIT_INDEX
 from optipath.values.domains.quantities import (
     Angle,
     FollowedIncidence,
     Index,
-    OptionalIndex,
-    OutsideIndex,
+    LitIndex,
+    OptionalLitIndex,
     YesOrNo,
 )
-from optipath.values.materials import Material
-from optipath.values.operands import Operand
+from optipath.values.operands import Operand, operand_of
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from optipath.elements.coupling import Coupling
+    from optipath.kernels.carriers.kernel import KernelFamily
+    from optipath.values.domains.domain import Domain
 
 
 class Interface(BoundaryElement, kind="interface"):
@@ -29,7 +42,12 @@ class Interface(BoundaryElement, kind="interface"):
     is refracted at ``transmitted``, as the power carried into the medium behind: a radiance is
     multiplied by (n2 / n1)^2 besides (Nicodemus, Am. J. Phys. 31, 368 (1963)). Light from
     behind enters at ``back``: what is reflected leaves at ``transmitted``, and what is
-    refracted at ``reflected``. It needs a medium behind that does not absorb.
+    refracted at ``reflected``.
+
+    Either medium may absorb. Light in an absorbing medium has come in by a smooth face that is
+    parallel to this one: its planes of constant amplitude are parallel to the face. What is
+    reflected and let through, each over what arrives, need not add up to 1 there
+    (docs/absorbing.md). A wave that fades along the normal faster than it goes on is refused.
 
     Parameters
     ----------
@@ -37,15 +55,16 @@ class Interface(BoundaryElement, kind="interface"):
         The index of refraction n + ik of the medium behind the boundary.
     incidence : float, array_like, Parameter or FOLLOWS
         The angle of incidence in radians, 0 to pi/2, of light from the front; with `FOLLOWS`, that
-        of the boundary before, whose light has been refracted by Snell's law.
-    outside : float, array_like, Material, Parameter or FOLLOWS, optional
-        The index of the medium in front, without absorption; with `FOLLOWS`, the medium that the
-        light of the boundary before comes in.
+        of the boundary before, whose light has been refracted by Snell's law. In a medium that
+        absorbs, the real angle: that of the normal to the planes of constant phase.
+    outside : float, complex, array_like, Material, Parameter or FOLLOWS, optional
+        The index of the medium in front; with `FOLLOWS`, the medium that the light of the
+        boundary before comes in.
     azimuth : float, array_like or Parameter, optional
         The angle by which the frame of ``in`` is turned about the direction of travel
         against the frame of the port before it. For ``back``, which light from the next
         boundary of a stack enters without a turn, a link may say it.
-    incidence_in : float, array_like, Material or Parameter, optional
+    incidence_in : float, complex, array_like, Material or Parameter, optional
         The index of the medium in which the incidence is measured; ``outside`` by default.
         With it, one angle serves all parallel interfaces of a stack, refracted from the medium
         in front of the stack by Snell's law. Where that gets no light into ``outside``, since
@@ -65,12 +84,18 @@ class Interface(BoundaryElement, kind="interface"):
     0.96
     """
 
+    lit_from_absorbing: ClassVar[bool] = True
+
     index: Index
     incidence: FollowedIncidence
-    outside: OutsideIndex = 1.0
+    outside: LitIndex = 1.0
     azimuth: Angle = 0.0
-    incidence_in: OptionalIndex | None = None
+    incidence_in: OptionalLitIndex | None = None
     parallel: YesOrNo = True
+
+    def domains_entered(self, port: str) -> Mapping[str, Domain]:
+        """Return that light cannot come from a medium behind of index 0."""
+        return {"index": LIT_INDEX} if port == "back" else {}
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side.
@@ -78,19 +103,51 @@ class Interface(BoundaryElement, kind="interface"):
         Between media that do not absorb, both are the same from the two sides (Stokes'
         relations): r' = -r for s and for p, and power carried either way is 1 - |r|^2. Where
         the medium in front may be one that light does not get into, since it has been
-        refracted before, what is reflected from behind is another matter.
+        refracted before, what is reflected from behind is another matter. With absorption,
+        r' = -r as well, but what is let through differs.
         """
-        n, k = numbers_of(self.index, self.domains()["index"])
-        media = (_real(self.outside), n, k)
+        first, second = (numbers_of(index, INDEX) for index in (self.outside, self.index))
         angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
-        before = () if self.incidence_in is None else (_real(self.incidence_in),)
-        reflect = Operation(REFLECTION, (*media, *before, *angle))
-        transmit = Operation(TRANSMISSION, (*media, *before, *angle))
-        behind = (n, media[0], 0.0) if before else media
-        reflect_back = Operation(REFLECTION, (*behind, *before, *angle))
-        return self._ways((reflect, transmit), (reflect_back, transmit))
+        before = self._index_of_angle(angle)
+        behind = (second, first) if before else (first, second)
+        reflect, transmit = (
+            _between(family, first, second, *before, *angle) for family in _FROM_FRONT
+        )
+        reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
+        through_back = transmit
+        if not (_is_zero(first[1]) and _is_zero(second[1])):
+            given = (*first, *second, *before, *angle)
+            through_back = Operation(TRANSMISSION_FROM_BEHIND, given)
+        return self._ways((reflect, transmit), (reflect_back, through_back))
+
+    def _index_of_angle(self, angle: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return n0 of the medium in which the incidence is measured, unless that is in front."""
+        if self.incidence_in is None:
+            return ()
+        n, k = numbers_of(self.incidence_in, INDEX)
+        return (n,) if _is_zero(k) else Operation(PHASE_INDEX, (n, k, *angle)).results(1)
 
 
-def _real(index: Any) -> Any:
-    """Return n of a medium that does not absorb."""
-    return index.n if isinstance(index, Material) else index
+_FROM_FRONT = (
+    (REFLECTION, REFLECTION_FROM_ABSORBING),
+    (TRANSMISSION, TRANSMISSION_FROM_ABSORBING),
+)
+
+
+def _between(
+    families: tuple[KernelFamily, KernelFamily],
+    first: tuple[Any, ...],
+    second: tuple[Any, ...],
+    *angle: Any,
+) -> Operation:
+    """Return the operation for light from the first of two media, of (n, k) each."""
+    usual, from_absorbing = families
+    if _is_zero(first[1]):
+        return Operation(usual, (first[0], *second, *angle))
+    return Operation(from_absorbing, (*first, *second, *angle))
+
+
+def _is_zero(k: Any) -> bool:
+    """Tell whether an extinction coefficient is known to be 0."""
+    operand = operand_of(k)
+    return operand.known and not operand.traced and not np.any(operand.numbers())

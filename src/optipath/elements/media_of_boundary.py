@@ -16,11 +16,14 @@ class MediaOfBoundary:
     ----------
     may_follow : tuple of str
         The fields that may be `FOLLOWS`: taken over from the boundary before.
+    lit_from_absorbing : bool
+        Whether light may come to it from a medium that absorbs.
     media_fields : tuple of str
         What sentences call the media in front and behind.
     """
 
     may_follow: ClassVar[tuple[str, ...]] = ("outside",)
+    lit_from_absorbing: ClassVar[bool] = False
     media_fields: ClassVar[tuple[str, str]] = ("outside", "index")
 
     def medium_at(self, port: str) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 
 from optipath.elements.coupling import numbers_of
 from optipath.elements.frame_checks import angle_between, incidence_between
+from optipath.kernels.fresnel.inhomogeneous import phase_index
 from optipath.kernels.fresnel.refraction import refraction
 from optipath.kernels.numbers.primitives import of_module
 from optipath.values.agreement import Agreement, is_single, text_of
@@ -137,9 +138,9 @@ def world_angles(owner: str, element: Any, frames: Mapping[str, Frame]) -> Itera
             needed = given
             if (enters, leaves) == ("in", "reflected"):
                 # What is behind is of no account in front.
-                needed = (*given[:2], *map(operand_of, (1.0, 0.0)), *given[4:])
-                if len(given) == 4:
-                    needed = (given[0], *map(operand_of, (1.0, 1.0, 0.0)))
+                needed = (*given[:3], *map(operand_of, (1.0, 0.0)), *given[5:])
+                if len(given) == 5:
+                    needed = (given[0], *map(operand_of, (1.0, 0.0, 1.0, 0.0)))
             yield WorldAngle(
                 (operand_of(angle), *needed), owner, enters, leaves, first.rounding_to(second)
             )
@@ -149,14 +150,13 @@ def operands_of(element: Any) -> tuple[Operand, ...]:
     """Return what `angles_of` takes of a boundary."""
     before = getattr(element, "incidence_in", None)
     indices = numbers_of(element.index, INDEX)
-    front = [
-        numbers_of(index, INDEX)[0] for index in (element.outside, before) if index is not None
-    ]
-    return tuple(map(operand_of, (element.incidence, front[0], *indices, *front[1:])))
+    front = numbers_of(element.outside, INDEX)
+    measured = () if before is None else numbers_of(before, INDEX)
+    return tuple(map(operand_of, (element.incidence, *front, *indices, *measured)))
 
 
 def angles_of(
-    xp: Any, incidence: Any, outside: Any, n: Any, k: Any, *before: Any
+    xp: Any, incidence: Any, n1: Any, k1: Any, n: Any, k: Any, *before: Any
 ) -> tuple[Any, Any]:
     """Return the angles of light in front of a boundary and behind it.
 
@@ -164,10 +164,10 @@ def angles_of(
     ----------
     xp : module
         ``numpy`` or ``jax.numpy``.
-    incidence, outside, n, k : array_like
-        The incidence, the index in front, and both parts of that behind.
+    incidence, n1, k1, n, k : array_like
+        The incidence, and both parts of the indices in front and behind.
     *before : array_like
-        The index where the incidence is measured, if that is not in front.
+        Both parts of the index where the incidence is measured, if that is not in front.
 
     Returns
     -------
@@ -176,16 +176,16 @@ def angles_of(
 
     Examples
     --------
-    >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 1.5, 0.0)
+    >>> front, behind = angles_of(np, np.radians(40.0), 1.0, 0.0, 1.5, 0.0)
     >>> print(np.degrees(behind).round(6))
     25.373994
     """
-    refract = refraction(of_module(xp))
+    refract, phase = refraction(of_module(xp)), phase_index(of_module(xp))
     c, s = xp.cos(incidence), xp.sin(incidence)
     with np.errstate(all="ignore"):
         if before:
-            c, s = refract(before[0], outside, 0.0 * outside, c, s)
-        behind, across = refract(outside, n, k, c, s)
+            c, s = refract(*phase(*before, c, s), n1, k1, c, s)
+        behind, across = refract(*phase(n1, k1, c, s), n, k, c, s)
     return xp.arctan2(s, c), xp.arctan2(across, behind)
 
 

@@ -105,7 +105,12 @@ def _from_front(family: KernelFamily, stable: Factory, amplitude: Factory) -> Ke
     """Return a family for a medium in front that absorbs, and where it does not, the other."""
     what, methods = f"{family.name} out of an absorbing medium", {}
     for method, factory in _from_absorbing(stable, amplitude).items():
-        methods[method] = Kernel(f"{what} ({method})", BLOCK, factory, (1, family.methods[method]))
+        usual, name = family.methods[method], f"{what} ({method})"
+        alone = None
+        if usual.powers:
+            intensities = powers.inhomogeneous_powers
+            alone = Kernel(f"{name}, powers", POWERS, intensities, (1, usual.powers))
+        methods[method] = Kernel(name, BLOCK, factory, (1, usual), powers=alone)
     return KernelFamily(what, methods)
 
 

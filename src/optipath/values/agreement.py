@@ -81,6 +81,11 @@ class Agreement:
         return ()
 
     @property
+    def waits_for_complex(self) -> bool:
+        """Whether there is nothing to look at before a complex number is given."""
+        return False
+
+    @property
     def is_open(self) -> bool:
         """Whether a number is only known when the path runs."""
         return any(not operand.known or operand.traced for operand in self.operands)

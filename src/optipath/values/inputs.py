@@ -47,6 +47,8 @@ class Inputs:
         What is chosen before a path is composed, and not given when it runs.
     agreements : tuple of Agreement
         What must fit together, and is not known to.
+    for_complex : tuple of Agreement
+        What must fit together besides, once a complex number is given.
     """
 
     open: Mapping[str, Parameter]
@@ -56,6 +58,7 @@ class Inputs:
     known: tuple[Use, ...] = ()
     choices: tuple[str, ...] = ()
     agreements: tuple[Agreement, ...] = ()
+    for_complex: tuple[Agreement, ...] = ()
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
@@ -122,7 +125,7 @@ class Inputs:
         lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
         media = [name for name, value in given.items() if isinstance(value, Material)]
         faults += broadcast_fault(shapes, [*self.shapes, *media], lists)
-        faults = faults or first_faults(self.agreements, resolved)
+        faults = faults or first_faults(self._agreements_of(resolved), resolved)
         if faults and unchecked:
             return self.resolve(given)  # Tells of ranges, too.
         if faults:
@@ -139,8 +142,18 @@ class Inputs:
 
     def inside(self, resolved: Mapping[str, Resolved]) -> Any:
         """Return for which paths all values that JAX traces are allowed; True where it has none."""
-        asked: tuple[Use | Agreement, ...] = (*self.uses, *self.known, *self.agreements)
+        asked: tuple[Use | Agreement, ...] = (
+            *self.uses,
+            *self.known,
+            *self._agreements_of(resolved),
+        )
         return reduce(and_, (each.inside(resolved) for each in asked), True)  # noqa: FBT003
+
+    def _agreements_of(self, resolved: Mapping[str, Resolved]) -> tuple[Agreement, ...]:
+        """Return what must fit together of these values."""
+        if not self.for_complex or not any(map(_is_complex, resolved.values())):
+            return self.agreements
+        return *self.agreements, *self.for_complex
 
     @cached_property
     def limits(self) -> Ranges:
@@ -207,3 +220,8 @@ class Inputs:
                 f"path.bind({name}=...) or load_preset(..., {name}=...)"
             )
         return unknown_parameter(name, self.open)
+
+
+def _is_complex(given: Resolved) -> bool:
+    kind = getattr(given.value, "dtype", None)
+    return isinstance(given.value, complex) if kind is None else kind.kind == "c"

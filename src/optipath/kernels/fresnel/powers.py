@@ -14,6 +14,8 @@ from optipath.kernels.fresnel.boundary import (
     denser_boundary,
     lossless_boundary,
 )
+from optipath.kernels.fresnel.from_absorbing import slant_of, sum_squared
+from optipath.kernels.fresnel.inhomogeneous import inhomogeneous_boundary
 from optipath.kernels.fresnel.stable import front, slant
 
 if TYPE_CHECKING:
@@ -60,6 +62,19 @@ def denser_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: cheaper again, for n >= n1."""
     boundary = denser_boundary(xp)
     return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))
+
+
+def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, n, k, [n0,] cos, sin) -> (Fs d, Fp d, d)``, as `inhomogeneous_reflection`."""
+    boundary, where = inhomogeneous_boundary(xp), xp.where
+
+    def powers(*given: Any) -> tuple[Any, ...]:
+        at = boundary(*given)
+        P, along = sum_squared(at), slant_of(where, at)
+        parted = at.D * at.D + at.v * at.v
+        return parted * along.q, parted * along.less, P * P * along.q
+
+    return powers
 
 
 def _powers(at: Boundary) -> tuple[Any, ...]:

@@ -76,7 +76,7 @@ def _key(program: Program, inputs: Inputs) -> Hashable:
     """Return what equal programs share, names included; None for what is not kept."""
     operands = [operand.key() for operand in program.operands]
     size = sum([getattr(operand.value, "nbytes", 0) for operand in program.operands])
-    agreements = [agreement.key() for agreement in inputs.agreements]
+    agreements = [agreement.key() for agreement in (*inputs.agreements, *inputs.for_complex)]
     if None in (*operands, *agreements) or size > _LARGEST or inputs.known:
         return None
     parameters = (*inputs.open.values(), *inputs.bound.values())

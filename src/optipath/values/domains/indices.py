@@ -108,6 +108,38 @@ class OutsideDomain(Domain):
         return [(f"{name}.n", value.n, self), (f"{name}.k", value.k, self.of_k)]
 
 
+class LitIndexDomain(IndexDomain):
+    """Complex numbers n + ik with n above 0: a medium that light comes from may absorb."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        if not isinstance(value, Material):
+            return [(name, value, self)]
+        return [(f"{name}.n", value.n, OUTSIDE), (f"{name}.k", value.k, K)]
+
+    def quickly_allows(self, value: Any) -> bool:
+        return super().quickly_allows(value) and value.real >= _LEAST
+
+    def described(self) -> str:
+        return (
+            "an index of refraction n + ik with n above 0 and k not negative, since light comes "
+            "from there"
+        )
+
+    def allows(self, numbers: Any) -> Any:
+        return super().allows(numbers) & (numbers.real >= _LEAST)
+
+
+class FollowedLitIndex(Followed, LitIndexDomain):
+    """The same, or that of the boundary before."""
+
+
+class OptionalLitIndex(LitIndexDomain):
+    """The same, or none."""
+
+    def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
+        return [] if value is None else super().parts(name, value)
+
+
 class FollowedOutside(Followed, OutsideDomain):
     """The same, or that of the boundary before."""
 
@@ -258,6 +290,9 @@ def _plain_index(index: Any) -> Any:
 
 INDEX = IndexDomain("index of refraction")
 OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
+LIT_INDEX = LitIndexDomain("index of refraction")
+FOLLOWED_LIT_INDEX = FollowedLitIndex("index of refraction")
+OPTIONAL_LIT_INDEX = OptionalLitIndex("index of refraction")
 FOLLOWED_OUTSIDE = FollowedOutside("index of refraction", minimum=_LEAST)
 OPTIONAL_OUTSIDE = OptionalOutside("index of refraction", minimum=_LEAST)
 LIT_BEHIND = LitBehind("index of refraction", minimum=_LEAST)

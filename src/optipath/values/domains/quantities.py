@@ -13,7 +13,14 @@ from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
 from optipath.values.domains.fraction import FractionDomain
-from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, INDICES, OPTIONAL_OUTSIDE
+from optipath.values.domains.indices import (
+    FOLLOWED_LIT_INDEX,
+    FOLLOWED_OUTSIDE,
+    INDEX,
+    INDICES,
+    OPTIONAL_LIT_INDEX,
+    OPTIONAL_OUTSIDE,
+)
 from optipath.values.domains.layers import LENGTHS, WAVELENGTH
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
@@ -44,6 +51,8 @@ Intensity: TypeAlias = Annotated[Quantity, INTENSITY]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
 OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTSIDE]
+LitIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_LIT_INDEX]
+OptionalLitIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_LIT_INDEX]
 Indices: TypeAlias = Annotated[Sequence[Quantity | Material | Follows], INDICES]
 Lengths: TypeAlias = Annotated[Sequence[Quantity], LENGTHS]
 Wavelength: TypeAlias = Annotated[Quantity, WAVELENGTH]

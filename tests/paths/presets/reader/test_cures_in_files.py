@@ -65,7 +65,7 @@ def boundary(index="1.5", outside="1.0"):
         ),
         (boundary(outside='"folows"'), "'folows' is no number; did you mean \"follows\"?"),
         (boundary(outside='"FOLLOWS"'), "'FOLLOWS' is no number; did you mean \"follows\"?"),
-        (boundary(outside='"air"'), "'air' is no number; give its index as a number, such as 1.33"),
+        (boundary(outside='"air"'), "'air' is no number; give n and k as numbers, such as { n ="),
         (boundary() + 'tap = "yes"\n', "'tap' must be true or false"),
         (
             through(

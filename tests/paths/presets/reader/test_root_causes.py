@@ -177,7 +177,7 @@ to = "eye.in"
 @pytest.mark.parametrize(
     ("old", "new", "cause"),
     [
-        ("outside = 1.0", 'outside = "1.2+0.1j"', "front.outside is complex"),
+        ("outside = 1.0", 'outside = "1.2-0.1j"', "front.outside is (1.2-0.1j)"),
         ("scale = 1", "scale = 3", "parameter 'theta' (at front.incidence, as 3 * theta) is 120"),
         ('unit = "deg"', 'unit = "deg"\noptional = true', "front.incidence cannot be left out"),
     ],
