@@ -132,7 +132,7 @@ def inhomogeneous_wave(xp: Primitives) -> KernelFunction:
 
     def wave(n1: Any, k1: Any, c: Any, s: Any) -> tuple[Any, Any, Any]:
         kappa, c = k1 / n1, inside(c)
-        c = where((c > 0.0) | (kappa == 0.0), c, _LEAST)
+        c = where((c > _LEAST) | (kappa == 0.0), c, _LEAST)
         across, far = kappa * s, (1.0 + kappa * kappa) * c
         size = sqrt(far * far + 4.0 * (across * across)) + far
         safe = where(c > 0.0, c, 1.0)

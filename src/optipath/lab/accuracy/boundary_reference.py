@@ -44,9 +44,7 @@ def boundary(m: Any, c: Any, s: Any) -> ExactBoundary:
     ExactBoundary
     """
     # 1 - s^2 is c^2: an equal medium reflects nothing, at grazing incidence too.
-    g = mpmath.sqrt(m * m - s * s if s < c else (m * m - 1) + c * c)
-    if g.imag < 0 or (g.imag == 0 and g.real < 0):
-        g = -g
+    g = _root(m * m - s * s if s < c else (m * m - 1) + c * c)
     rs = (c - g) / (c + g) if c + g else mpmath.mpf(0)
     second = m * m * c
     # At normal incidence on an index of 0 nothing tells s from p but the turn of y.
@@ -59,6 +57,63 @@ def boundary(m: Any, c: Any, s: Any) -> ExactBoundary:
         along, across = (mpmath.sqrt(abs(1 - abs(r) ** 2)) for r in (rs, rp))
         across *= mpmath.conj(cross) / abs(cross)
     return ExactBoundary(((rs, 0), (0, rp)), ((along, 0), (0, across)))
+
+
+def along_face(m: Any, angle: Any) -> Any:
+    """Return the wave along a face, for the real angle in a medium that absorbs or does not.
+
+    Parameters
+    ----------
+    m : mpc
+        The index of the medium.
+    angle : mpf
+        Between the normals of the face and of the planes of constant phase.
+
+    Returns
+    -------
+    mpf
+    """
+    # By g^2 = m^2 - y^2 with y = q sin, Re g = q cos: a quadratic equation for q^2.
+    square = m * m
+    q2 = (square.real + mpmath.sqrt(square.real**2 + (square.imag / mpmath.cos(angle)) ** 2)) / 2
+    return mpmath.sqrt(q2) * mpmath.sin(angle)
+
+
+def between(m1: Any, m2: Any, y: Any) -> ExactBoundary:
+    """Return what a boundary does to light that comes out of a medium that absorbs.
+
+    What is let through is the power carried behind over that of the arriving wave alone (S. J.
+    Byrnes, arXiv:1603.02720).
+
+    Parameters
+    ----------
+    m1, m2 : mpc
+        The indices in front and behind.
+    y : mpf
+        The wave along the face.
+
+    Returns
+    -------
+    ExactBoundary
+    """
+    g1, g2 = (_root(m * m - y * y) for m in (m1, m2))
+    # Cosines, which are complex in either medium.
+    c1, c2 = g1 / m1, g2 / m2
+    rs = (m1 * c1 - m2 * c2) / (m1 * c1 + m2 * c2)
+    rp = (m2 * c1 - m1 * c2) / (m2 * c1 + m1 * c2)
+    ts, tp = 2 * m1 * c1 / (m1 * c1 + m2 * c2), 2 * m1 * c1 / (m2 * c1 + m1 * c2)
+    along = abs(ts) * mpmath.sqrt((m2 * c2).real / (m1 * c1).real)
+    carried = (m2 * mpmath.conj(c2)).real / (m1 * mpmath.conj(c1)).real
+    across = abs(tp) * mpmath.sqrt(carried) if g2.real else mpmath.mpf(0)
+    phase = tp * mpmath.conj(ts)
+    across *= phase / abs(phase)
+    return ExactBoundary(((rs, 0), (0, rp)), ((along, 0), (0, across)))
+
+
+def _root(square: Any) -> Any:
+    """Return the root of the wave that goes on, and fades."""
+    g = mpmath.sqrt(square)
+    return -g if g.imag < 0 or (g.imag == 0 and g.real < 0) else g
 
 
 def refracted(ratio: Any, s: Any) -> tuple[Any, Any]:

@@ -22,7 +22,14 @@ from optipath.elements.rotator import Rotator
 from optipath.elements.specular_vertex import SpecularVertex
 from optipath.errors import PathError
 from optipath.kernels.catalogue import INCIDENCE
-from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
+from optipath.lab.accuracy.boundary_reference import (
+    Jones,
+    along_face,
+    between,
+    boundary,
+    refracted,
+    stack,
+)
 from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, mpmath
 
@@ -60,13 +67,23 @@ def jones(element: Element, way: Coupling, read: Reader) -> Jones | None:
 
 @jones.register
 def _(element: Interface, way: Coupling, read: Reader) -> Jones:
-    before, behind = read.index(element.outside).real, read.index(element.index)
-    c, s = cos_sin(read.angle(element.incidence))
-    if element.incidence_in is not None:
-        if way.enters == "back":
-            before, behind = behind.real, before
-        c, s = refracted(read.index(element.incidence_in).real / before, s)
-    found = boundary(behind / before, c, s)
+    before, behind = read.index(element.outside), read.index(element.index)
+    angle = read.angle(element.incidence)
+    c, s = cos_sin(angle)
+    elsewhere = element.incidence_in is not None
+    measured = read.index(element.incidence_in) if elsewhere else before
+    if measured.imag:
+        # The index by which Snell's law holds for real angles.
+        measured = along_face(measured, angle) / s if s else measured
+    # What is reflected is the same from either side, r' = -r.
+    turned = way.enters == "back" and (elsewhere or not way.reflects)
+    first, second = (behind, before) if turned else (before, behind)
+    if first.imag:
+        found = between(first, second, measured.real * s)
+    elif elsewhere or measured is not before:
+        found = boundary(second / first.real, *refracted(measured.real / first.real, s))
+    else:
+        found = boundary(behind / before.real, c, s)
     return found.reflected if way.reflects else found.transmitted
 
 
