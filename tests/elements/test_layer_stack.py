@@ -104,7 +104,10 @@ def test_a_stack_goes_into_a_file_and_back():
         ([1.5], "give a list of two indices or more"),
         (None, " is None; give a list of two indices or more"),
         (op.Parameter("n"), "cannot be the parameter 'n'; give a list"),
-        ([1.0, 1.5 + 1j, 1.0], r"\[1\] is complex.*Interfaces with a Medium"),
+        (
+            [1.0, 1.5 + 1j, 1.0],
+            r"\[1\] is complex.*give the stack the lengths \(one.*and the wavelength",
+        ),
         ([1.0, op.Material(1.5, 0.1), 1.0], r"\[1\]\.k is 0\.1"),
         ([0.0, 1.5], r"\[0\] is 0"),
     ],

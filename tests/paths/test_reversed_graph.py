@@ -371,7 +371,7 @@ def test_light_that_is_no_source_is_refused_or_nothing(source):
     if source == {}:
         assert path.reversed(source) == path.reversed()
         return
-    with pytest.raises(op.PathError, match="must be a Source|no light ends there"):
+    with pytest.raises(op.PathError, match=r"must be a Source|no light ends there"):
         path.reversed(source)
 
 

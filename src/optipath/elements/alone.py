@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,8 +24,13 @@ from optipath.values.operands import Operand
 from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from optipath.elements.coupling import Coupling
     from optipath.elements.own_ways import OwnWays
+
+NO_FRAMES: Mapping[str, Frame] = MappingProxyType({})
+"""Of an element that does not stand in the world."""
 
 _TWO_MATRICES = 256
 """How many bytes a matrix and what it is made of have."""
@@ -72,6 +78,49 @@ def mueller_alone(
         if not isinstance(port, str):
             raise PathError(f"a port of {owner} must be a text, not {shown(port)}")
     leaves = leaves or element.natural
+    for given in placed:
+        if given is not None and not isinstance(given, Frame):
+            raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
+    pairs = ((enters, frame_in), (leaves, frame_out))
+    frames = {port: frame for port, frame in pairs if frame is not None}
+    batch = checked_alone(element, enters, frames)
+    couplings = couplings_of(element)
+    entering = [coupling for coupling in couplings if coupling.enters == enters]
+    for coupling in entering:
+        if coupling.leaves == leaves:
+            with enough_for(batch, _TWO_MATRICES, error=PathError):
+                _refuse_unphysical(own_ways(owner, element, entering, method))
+                matrix = coupling.matrix(method)
+            found_in = _frame_at(element, enters, frames) or turned_alone(element, enters, before)
+            found_out = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
+            # An azimuth is in the frames alone.
+            matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
+            return Mueller.of(matrix, found_in, found_out)
+    raise PathError(_no_way(owner, enters, leaves, couplings))
+
+
+def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FRAMES) -> Any:
+    """Return the shape of the batch of an element, all of whose values are known and allowed.
+
+    Parameters
+    ----------
+    element : Element
+        The element.
+    enters : str
+        Where light enters.
+    frames : mapping of str to Frame, optional
+        The world frames of ports.
+
+    Returns
+    -------
+    tuple of int
+
+    Raises
+    ------
+    PathError
+        With all faults at once.
+    """
+    owner = element.kind or type(element).__name__
     followed = element.followed() if isinstance(element, MediaOfBoundary) else ()
     if followed:
         raise PathError(
@@ -83,11 +132,6 @@ def mueller_alone(
         f"parameter '{use.value.name}' of {owner} has no value yet" for use in uses if use.is_open
     ]
     shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
-    for given in placed:
-        if given is not None and not isinstance(given, Frame):
-            raise PathError(f"a frame of {owner} must be a Frame, not {shown(given)}")
-    pairs = ((enters, frame_in), (leaves, frame_out))
-    frames = {port: frame for port, frame in pairs if frame is not None}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
     faults = faults or first_faults(arriving_waves(owner, element, enters))
@@ -95,20 +139,7 @@ def mueller_alone(
         faults = _twice_turned(owner, element, enters)
     if faults:
         raise PathError(*faults)
-    batch = joint_shape(*shapes.values())
-    couplings = couplings_of(element)
-    entering = [coupling for coupling in couplings if coupling.enters == enters]
-    for coupling in entering:
-        if coupling.leaves == leaves:
-            with enough_for(batch, _TWO_MATRICES, error=PathError):
-                _refuse_unphysical(own_ways(owner, element, entering, method))
-                matrix = coupling.matrix(method)
-            found_in = _frame_at(element, enters, frames) or _turned(before, element, enters)
-            found_out = _frame_at(element, leaves, frames or {enters: found_in}) or Frame()
-            # An azimuth is in the frames alone.
-            matrix = np.broadcast_to(matrix, (*batch, 4, 4)) if batch else matrix
-            return Mueller.of(matrix, found_in, found_out)
-    raise PathError(_no_way(owner, enters, leaves, couplings))
+    return joint_shape(*shapes.values())
 
 
 def _no_way(owner: str, enters: str, leaves: str, couplings: tuple[Coupling, ...]) -> str:
@@ -145,8 +176,22 @@ def _frame_at(element: Any, port: str, frames: dict[str, Frame]) -> Frame | None
     return element.frame_of(port, frames) if own is None else own.frame({})  # type: ignore[no-any-return]
 
 
-def _turned(before: Frame | None, element: Any, enters: str) -> Frame:
-    """Return the frame that light arrives in, turned by the azimuth of an element."""
+def turned_alone(element: Any, enters: str, before: Frame | None = None) -> Frame:
+    """Return the frame that light arrives in, turned by the azimuth of an element.
+
+    Parameters
+    ----------
+    element : Element
+        The element.
+    enters : str
+        Where light enters.
+    before : Frame, optional
+        The frame that light arrives in; the unit frame by default.
+
+    Returns
+    -------
+    Frame
+    """
     frame, azimuth = before or Frame(), Operand(azimuth_at(element, enters)).numbers()
     with units_are_written():  # The angle was looked at when the element was made.
         return frame.turned(azimuth) if np.any(azimuth) else frame

@@ -11,6 +11,7 @@ from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import INDEX, INDICES
+from optipath.values.domains.layers import LENGTH_OF_LAYER, LENGTHS
 from optipath.values.domains.quantities import REAL, YES_OR_NO
 
 if TYPE_CHECKING:
@@ -64,9 +65,10 @@ def same_value(first: Any, second: Any, domain: Domain) -> bool:
     bool
         Also true of a complex number and the `Material` with the same two parts, in a list, too.
     """
-    if domain is INDICES and isinstance(first, tuple) and isinstance(second, tuple):
+    listed = {INDICES: INDEX, LENGTHS: LENGTH_OF_LAYER}.get(domain)
+    if listed is not None and isinstance(first, tuple) and isinstance(second, tuple):
         return len(first) == len(second) and all(
-            same_value(one, other, INDEX) for one, other in zip(first, second, strict=True)
+            same_value(one, other, listed) for one, other in zip(first, second, strict=True)
         )
     if same(first, second) or not domain.complex_parts:
         return same(first, second)

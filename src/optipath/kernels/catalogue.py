@@ -1,5 +1,6 @@
 """Every kernel by name: a factory over `Primitives`, bound to the structure of what it returns."""
 
+from functools import lru_cache
 from typing import TypeAlias
 
 from optipath.kernels.carriers.kernel import Kernel, KernelFamily
@@ -86,6 +87,8 @@ TRANSMISSION = _fresnel(
 )
 METHODS = tuple(REFLECTION.methods)
 
+_OF_STACK = {"reflected": "reflection", "transmitted": "transmission", "absorbed": "absorption"}
+
 
 def _at_event(method: str) -> Kernel:
     """Return the kernel of a method for what is reflected on some paths, let through on others."""
@@ -165,23 +168,35 @@ PHASE_INDEX = Kernel("index of planes of constant phase", None, inhomogeneous.ph
 """The index by which Snell's law holds for the real angle in an absorbing medium."""
 
 
-def _stack_family(*, through: bool, measured: str) -> KernelFamily:
-    """Return the kernels of what a stack of layers lets through, or sends back."""
-    what = "stack transmission" if through else "stack reflection"
+@lru_cache(256)
+def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> KernelFamily:
+    """Return the kernels of what a stack of layers lets through, sends back, or absorbs.
+
+    Parameters
+    ----------
+    wanted, measured, absorbing
+        As `Stack` has them.
+
+    Returns
+    -------
+    KernelFamily
+    """
+    what = f"stack {_OF_STACK[wanted]}"
+    lossy = ", absorbing" if absorbing else ""
+    structure = None if wanted == "absorbed" else DEPOLARIZING_BLOCK
     methods = {}
     for method in METHODS:
-        pair = REFLECTION.methods[method], TRANSMISSION.methods[method]
-        stack = Stack(*pair, through, measured)
-        methods[method] = Kernel(f"{what} ({method})", DEPOLARIZING_BLOCK, stack)
+        made_by = Stack(
+            REFLECTION_FROM_ABSORBING.methods[method],
+            TRANSMISSION_FROM_ABSORBING.methods[method],
+            TRANSMISSION_FROM_BEHIND.methods[method],
+            wanted,
+            measured,
+            absorbing,
+        )
+        methods[method] = Kernel(f"{what} ({method}{lossy})", structure, made_by)
     return KernelFamily(what, methods)
 
-
-STACK_REFLECTION = _stack_family(through=False, measured="in front")
-STACK_TRANSMISSION = _stack_family(through=True, measured="in front")
-STACK_REFLECTION_BACK = _stack_family(through=False, measured="behind")
-STACK_TRANSMISSION_BACK = _stack_family(through=True, measured="behind")
-STACK_REFLECTION_BELOW = _stack_family(through=False, measured="before")
-STACK_TRANSMISSION_BELOW = _stack_family(through=True, measured="before")
 
 TURN = Kernel("turn", ROTATION, rotation.turn)
 TURN_BACK = Kernel("turn back", ROTATION, rotation.turn_back)

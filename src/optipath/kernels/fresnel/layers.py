@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import reduce
-from operator import add
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.numbers.elimination import Elimination, is_zero
+from optipath.kernels.fresnel.attenuation import attenuation
+from optipath.kernels.fresnel.interference import interference
+from optipath.kernels.fresnel.rounds import Face, Rounds, across, along
+from optipath.kernels.numbers.elimination import is_zero
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -15,169 +16,139 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.kernel import Kernel
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
-Rows: TypeAlias = tuple[tuple[Any, ...], ...]
-"""What becomes of some parts of light: rows of a small matrix."""
-
-
-class Boundaries(NamedTuple):
-    """What the boundaries of a stack do to some parts of light, from the front to the back.
-
-    Attributes
-    ----------
-    reflected, transmitted : list of Rows
-        The same from either side.
-    leaves : list of (tuple, tuple)
-        What of each part is neither reflected nor let through into another layer: at a boundary
-        behind which the light is out of the stack, and at one behind which it is not.
-    """
-
-    reflected: list[Rows]
-    transmitted: list[Rows]
-    leaves: list[tuple[tuple[Any, ...], tuple[Any, ...]]]
-
 
 @dataclass(frozen=True)
 class Stack:
-    """Makes the kernel of a stack, ``(n, ..., k, [n0,] cos, sin) -> (Fs, Fp, B, C, S)``.
+    """Makes the kernel of a stack, ``(n, ..., k, [of layers that absorb,] [n0,] cos, sin)``.
 
-    Of the indices, front medium first and substrate last, only the last has a k. Layers are
-    added one after the other; the intensities along s and along p go their own ways, and
-    (S2, S3) together, the complex C + iS of a boundary being what multiplies S2 - iS3.
+    The indices, front medium first and substrate last, are followed by the k of the substrate.
+    Where layers absorb, there follow the k of each of these, then the length of each, and the
+    wavelength in vacuum. Layers are added one after the other; the intensities along s and
+    along p go their own ways, and (S2, S3) together, the complex C + iS of a boundary being what
+    multiplies S2 - iS3.
 
     Attributes
     ----------
-    reflection, transmission : Kernel
-        Of one boundary.
-    through : bool
-        Whether light that passes the stack is wanted, or that which comes back.
+    reflection, transmission, from_behind : Kernel
+        Of one boundary, ``(n1, k1, n, k, [n0,] cos, sin)``; the last is what is let through from
+        behind.
+    wanted : {"reflected", "transmitted", "absorbed"}
+        The light that comes back, ``(Fs, Fp, B, C, S)``, that which passes the stack, or what of
+        s and of p stays in each layer, ``(s, p, s, p, ...)``.
     measured : {"in front", "behind", "before"}
         Whether the incidence is that in the first medium, in the last, light coming from the
         other side, or in a medium n0 from which parallel boundaries have refracted the light.
+    absorbing : tuple of int
+        The places of the layers that absorb, the medium in front being at 0.
     """
 
     reflection: Kernel
     transmission: Kernel
-    through: bool
+    from_behind: Kernel
+    wanted: str
     measured: str
+    absorbing: tuple[int, ...] = ()
 
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the kernel in terms of these primitives."""
 
         def stacked(*given: Any) -> tuple[Any, ...]:
-            *indices, c, s = given
-            n0 = indices.pop() if self.measured == "before" else None
-            k = indices.pop()
-            measured_at = len(indices) - 1 if self.measured == "behind" else 0
-            numbers = []
-            for place in range(len(indices) - 1):
-                before = () if place == measured_at else (indices[measured_at],)
-                before = before if n0 is None else (n0,)
-                absorbs = k if place == len(indices) - 2 else 0.0
-                media = (*indices[place : place + 2], absorbs)
-                numbers.append(self._boundary(xp, *media, *before, c, s))
-            (Fs,), (Fp,) = (self._came_out(xp, _intensity(numbers, part)) for part in (0, 1))
+            pile = self._pile(given)
+            faces = [self._face(xp, pile, place) for place in range(len(pile.media) - 1)]
+            ways = [self._way(xp, pile, place) for place in range(1, len(pile.media) - 1)]
+            s, p = (Rounds(xp, [along(face, part) for face in faces], ways) for part in (0, 1))
+            if self.wanted == "absorbed":
+                pairs = zip(s.absorbed(), p.absorbed(), strict=True)
+                return tuple(share for pair in pairs for share in pair)
+            (Fs,), (Fp,) = s.came_out(self.wanted), p.came_out(self.wanted)
             # Where light is turned over at each reflection, S2 and S3 are those of -(S2, S3).
-            sign = xp.where(numbers[0][0][3] < 0.0, -1.0, 1.0)
-            C, minus_s = self._came_out(xp, _across(xp, numbers, sign))
-            if not self.through:
+            sign = xp.where(faces[0].reflected[3] < 0.0, -1.0, 1.0)
+            both = Rounds(xp, [across(xp, face, sign) for face in faces], ways)
+            C, minus_s = both.came_out(self.wanted)
+            if self.wanted == "reflected":
                 C, minus_s = sign * C, sign * minus_s
             return Fs, Fp, 0.5 * (Fs - Fp), C, -minus_s
 
         return stacked
 
-    def _boundary(self, xp: Primitives, *given: Any) -> tuple[Any, Any]:
-        """Return the five numbers of the reflection, and those of the transmission."""
-        cheapest = (k.specialised(given, is_zero) for k in (self.reflection, self.transmission))
-        reflected, transmitted = (xp.apart(kernel.made_for(xp))(*left) for kernel, left in cheapest)
-        return reflected, transmitted
+    def _pile(self, given: Sequence[Any]) -> _Pile:
+        """Return what is given, each where it belongs."""
+        *numbers, c, s = given
+        before = (numbers.pop(),) if self.measured == "before" else ()
+        count = len(self.absorbing)
+        wavelength = numbers.pop() if count else None
+        *numbers, last = numbers[: len(numbers) - 2 * count], numbers[len(numbers) - 2 * count :]
+        *indices, k = numbers[0]
+        extinction = dict.fromkeys(range(len(indices)), 0.0)
+        extinction |= {len(indices) - 1: k} | dict(zip(self.absorbing, last, strict=False))
+        lengths = dict(zip(self.absorbing, last[count:], strict=True))
+        media = [*zip(indices, extinction.values(), strict=True)]
+        measured_at = None if before else len(media) - 1 if self.measured == "behind" else 0
+        n0 = before[0] if before else indices[measured_at or 0]
+        return _Pile(media, lengths, wavelength, measured_at, (n0, c, s))
 
-    def _came_out(self, xp: Primitives, at: Boundaries) -> list[Any]:
-        """Return what comes out of a unit of the first part of light from the front."""
-        width = len(at.reflected[0])
-        first = [row[0] for row in at.transmitted[0]]
-        if len(at.reflected) == 1:
-            return first if self.through else [row[0] for row in at.reflected[0]]
-        columns = _columns(at)
-        system = Elimination(
-            xp,
-            [back for back, _ in columns],
-            [leaves for _, leaves in columns],
-            [True] * len(columns),
+    def _face(self, xp: Primitives, pile: _Pile, place: int) -> Face:
+        """Return what the boundary behind a medium does to light from either side."""
+        front, behind = pile.media[place : place + 2]
+        given = (*front, *behind, *pile.angle_in(place))
+        reflected = _made(xp, self.reflection, given)
+        passed = back = _made(xp, self.transmission, given)
+        of_front, of_behind = (not is_zero(k) for _, k in (front, behind))
+        # No light comes from behind the last.
+        if place + 2 == len(pile.media) or not (of_front or of_behind):
+            of_behind = False
+        else:
+            back = _made(xp, self.from_behind, given)
+        beside: tuple[Any, ...] = (None, None, None, None)
+        if of_front or of_behind:
+            beside = xp.apart(interference(xp))(*front, *behind, *pile.angle)
+        return Face(
+            reflected,
+            passed,
+            back,
+            beside[:2] if of_front and place else None,
+            beside[2:] if of_behind else None,
         )
-        lights = system.solved([*first, *[0.0] * (len(columns) - width)])
-        down, up = lights[-2 * width : -width], lights[width : 2 * width]
-        if self.through:
-            return _times(at.transmitted[-1], down)
-        direct = [row[0] for row in at.reflected[0]]
-        return [
-            one + other for one, other in zip(direct, _times(at.transmitted[0], up), strict=True)
-        ]
+
+    def _way(self, xp: Primitives, pile: _Pile, place: int) -> tuple[Any, Any] | None:
+        """Return what is left behind a layer and what is not; nothing where it is lossless."""
+        if place not in pile.lengths:
+            return None
+        given = *pile.media[place], pile.lengths[place], pile.wavelength, *pile.angle
+        left, absorbed = xp.apart(attenuation(xp))(*given)
+        return left, absorbed
 
 
-_LITTLE = 1e-3
+class _Pile(NamedTuple):
+    """What a stack is made of, and the angle of its light.
 
-
-def _intensity(numbers: Sequence[Any], part: int) -> Boundaries:
-    """Return what boundaries do to the intensity along s, or along p."""
-    reflected: list[Rows] = [((pair[0][part],),) for pair in numbers]
-    transmitted: list[Rows] = [((pair[1][part],),) for pair in numbers]
-    leaves: list[Any] = [((pair[1][part],), (0.0,)) for pair in numbers]
-    return Boundaries(reflected, transmitted, leaves)
-
-
-def _across(xp: Primitives, numbers: Sequence[Any], sign: Any) -> Boundaries:
-    """Return what boundaries do to (S2, S3), of which a sign is taken at each reflection.
-
-    What is left of 1 when C and that of the other side are taken away is the sum of what each
-    leaves of (Fs + Fp) / 2, which is not computed as a difference where C is near to that.
+    Attributes
+    ----------
+    media : list of tuple
+        The n and k of each medium.
+    lengths : dict of int to number
+        The length of each layer that absorbs, by its place.
+    wavelength : number
+        In vacuum; None where no layer absorbs.
+    measured_at : int or None
+        The place of the medium in which the angle is measured, where it is one of them.
+    angle : tuple
+        The index of the medium in which the angle is measured, its cosine, and its sine.
     """
-    reflected, transmitted, leaves = [], [], []
-    for (Fs, Fp, B, *turned), (Ts, Tp, D, c, s) in numbers:
-        C, S = (sign * number for number in turned)
-        reflected.append(_rows(C, S))
-        transmitted.append(_rows(c, s))
-        lost = _beside(xp, Fs, Fp, B, C, S)
-        out, on = lost + 0.5 * (Ts + Tp), lost + _beside(xp, Ts, Tp, D, c, s)
-        leaves.append(((out + S, out - S), (on + S + s, on - S - s)))
-    return Boundaries(reflected, transmitted, leaves)
+
+    media: list[tuple[Any, Any]]
+    lengths: dict[int, Any]
+    wavelength: Any
+    measured_at: int | None
+    angle: tuple[Any, Any, Any]
+
+    def angle_in(self, place: int) -> tuple[Any, ...]:
+        """Return the angle as a boundary lit from a medium is given it."""
+        return self.angle[1:] if place == self.measured_at else self.angle
 
 
-def _beside(xp: Primitives, Fs: Any, Fp: Any, B: Any, C: Any, S: Any) -> Any:
-    """Return (Fs + Fp) / 2 - C, where Fs Fp = C^2 + S^2."""
-    # Below, the difference has digits enough beside what else leaves.
-    both, near = Fs + Fp, C > _LITTLE
-    small = 2.0 * (B * B + S * S) / xp.where(near, both + 2.0 * C, 1.0)
-    return xp.where(near, small, 0.5 * both - C)
-
-
-def _rows(C: Any, S: Any) -> Rows:
-    return (C, S), (-S, C)
-
-
-def _columns(at: Boundaries) -> list[tuple[dict[int, Any], Any]]:
-    """Return what becomes of a unit of light that goes down, or up, in each layer.
-
-    The unknowns are the parts of the light below each boundary but the last, layer by layer:
-    first those that go down, then those that go up.
-    """
-    width, layers, columns = len(at.reflected[0]), len(at.reflected) - 1, []
-    for layer in range(layers):
-        down, up = 2 * width * layer, 2 * width * layer + width
-        ways = (
-            # What goes down meets the boundary behind the layer; what goes up, the one before.
-            (layer + 1, up, down + 2 * width if layer + 1 < layers else None),
-            (layer, down, up - 2 * width if layer else None),
-        )
-        for boundary, turned, onwards in ways:
-            for part in range(width):
-                back = {turned + i: row[part] for i, row in enumerate(at.reflected[boundary])}
-                passed = [row[part] for row in at.transmitted[boundary]]
-                if onwards is not None:
-                    back |= {onwards + i: number for i, number in enumerate(passed)}
-                leaves = at.leaves[boundary][onwards is not None][part]
-                columns.append((back, leaves))
-    return columns
-
-
-def _times(rows: Rows, parts: Sequence[Any]) -> list[Any]:
-    return [reduce(add, (g * p for g, p in zip(row, parts, strict=True))) for row in rows]
+def _made(xp: Primitives, kernel: Kernel, given: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return the five numbers of a boundary, by the cheapest kernel."""
+    cheapest, left = kernel.specialised(given, is_zero)
+    numbers: tuple[Any, ...] = xp.apart(cheapest.made_for(xp))(*left)
+    return numbers

@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 _LITTLE = 2.0**-26
 """A difference of 1 and a gain that has lost half of its digits."""
 
+_LARGE = 2.0
+"""The size of a sum from which on a difference of 1 and a gain has more digits."""
+
 _LEAST = 2.0**-53
 """What a pivot is at least that may be 0 by chance."""
 
@@ -44,6 +47,10 @@ class Elimination:
         Where no light gains on its way. Elsewhere a pivot that is 0 by chance says nothing and
         is moved by the rounding of a float, which takes numbers of more digits; not given, no
         pivot is moved.
+    sizes : sequence of number, optional
+        Where what goes elsewhere may be of either sign, the sums of the absolute values of what
+        each of `leaves` is the sum of: where they are large, a sum of these has fewer digits than
+        a difference of 1 and what comes back, which is taken then.
 
     Attributes
     ----------
@@ -68,6 +75,7 @@ class Elimination:
         leaves: Sequence[Any],
         intensities: Sequence[bool],
         fading: Any = None,
+        sizes: Sequence[Any] | None = None,
     ) -> None:
         self._xp = xp
         self._fading = fading
@@ -75,6 +83,7 @@ class Elimination:
         self._difference = _difference(xp)
         self._back = [{to: g for to, g in column.items() if not is_zero(g)} for column in back]
         self._leaves = list(leaves)
+        self._sizes = None if sizes is None else list(sizes)
         self._intensities = intensities
         self._feeds: list[set[int]] = [set() for _ in back]
         for unknown, column in enumerate(self._back):
@@ -107,8 +116,12 @@ class Elimination:
         """Send what passes an unknown on to where it goes; return what does not come back."""
         onwards = self._later(unknown)
         if self._intensities[unknown]:
-            others = (gain for to, gain in onwards if self._intensities[to])
+            others = [gain for to, gain in onwards if self._intensities[to]]
             pivot = reduce(_add, others, self._leaves[unknown])
+            if self._sizes is not None:
+                size = reduce(_add, map(abs, others), self._sizes[unknown])
+                stays = 1.0 - self._back[unknown].get(unknown, 0.0)
+                pivot = self._xp.where(size < _LARGE, pivot, stays)
             if self._fading is not None:
                 pivot, more = self._moved(pivot)
                 self._leaves[unknown] = self._leaves[unknown] + more
@@ -126,6 +139,9 @@ class Elimination:
                     column[to] = column[to] + share * gain if to in column else share * gain
                     self._feeds[to].add(source)
                 self._leaves[source] = self._leaves[source] + share * self._leaves[unknown]
+                if self._sizes is not None:
+                    more = abs(share) * self._sizes[unknown]
+                    self._sizes[source] = self._sizes[source] + more
         return pivot
 
     def _moved(self, pivot: Any) -> tuple[Any, Any]:

@@ -10,7 +10,8 @@ import numpy as np
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.vertex_domain import VerticesDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
-from optipath.paths.format.faults import Faults, unknown_keys
+from optipath.paths.format.faults import unknown_keys
+from optipath.paths.format.lists import decode_list, entry_domain
 from optipath.paths.format.references import named, referred
 from optipath.paths.format.schema import as_meant
 from optipath.paths.format.tables_of_angles import chain_by_angles, table_of_angles
@@ -19,13 +20,7 @@ from optipath.values.domains.axis import axes_for
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
-from optipath.values.domains.indices import (
-    FOLLOWED_OUTSIDE,
-    INDEX,
-    IndexDomain,
-    IndicesDomain,
-    OutsideDomain,
-)
+from optipath.values.domains.indices import INDEX, IndexDomain, OutsideDomain
 from optipath.values.domains.pair import is_pair, pair_in
 from optipath.values.domains.quantities import AMPLITUDE, ANGLE
 from optipath.values.domains.states import IntensityDomain
@@ -73,23 +68,8 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
     """
     if isinstance(domain, Choice):
         return domain.check("the value", raw)
-    if isinstance(domain, IndicesDomain):
-        if not isinstance(raw, list):
-            raise PresetError(
-                f"{shown(raw)} is no list of indices; write [1, 1.5, {{ n = 0.6, k = 2 }}]"
-            )
-        # The one in front may be misspelt as well.
-        domains = [FOLLOWED_OUTSIDE] + [INDEX] * len(raw)
-        faults = Faults()
-        indices = [
-            FOLLOWS
-            if index == FOLLOWS.word
-            else faults.attempt(f"[{place}]", decode, index, domain, parameters)
-            for place, (index, domain) in enumerate(zip(raw, domains, strict=False))
-        ]
-        if faults:
-            raise PresetError(*faults)
-        return indices
+    if entry_domain(domain) is not None:
+        return decode_list(raw, domain, lambda entry, of: decode(entry, of, parameters))
     if isinstance(domain, Followed) and raw == FOLLOWS.word:
         return FOLLOWS
     if isinstance(raw, str) and "$" in raw:

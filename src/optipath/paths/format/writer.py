@@ -14,11 +14,12 @@ from optipath.composer.wiring import LOOPS
 from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults
+from optipath.paths.format.lists import entry_domain
 from optipath.paths.format.schema import FORMAT
 from optipath.paths.place_choice import choice_faults
 from optipath.values.cases import name_faults
 from optipath.values.domains.choice import Choice
-from optipath.values.domains.indices import INDEX, IndicesDomain
+from optipath.values.domains.indices import INDEX
 from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.parameters import Parameter
@@ -154,8 +155,9 @@ def _frame(frame: Frame) -> dict[str, Any]:
 
 def _field(value: Any, domain: Domain) -> Any:
     """Write a value of an element's field so that decoding gives it back."""
-    if isinstance(domain, IndicesDomain) and isinstance(value, tuple):
-        return [_field(one, INDEX) for one in value]
+    each = entry_domain(domain)
+    if each is not None and isinstance(value, tuple):
+        return [_field(one, each) for one in value]
     return _number(value, domain.unit, domain.complex_parts)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
@@ -185,18 +186,54 @@ class ClearDomain(OutsideDomain):
         )
 
 
+@dataclass(frozen=True)
 class InnerDomain(OutsideDomain):
-    """Indices of the layers of a stack, between which light goes to and fro."""
+    """Indices of the layers of a stack, between which light goes to and fro.
+
+    Attributes
+    ----------
+    missing : str
+        What the stack is not given, which says how much light a layer absorbs.
+    """
+
+    missing: str = "the lengths (one for each layer) and the wavelength"
+
+    @classmethod
+    def without(cls, missing: str) -> InnerDomain:
+        """Return the domain of layers of a stack that is not given something."""
+        return cls(INNER.name, minimum=INNER.minimum, maximum=INNER.maximum, missing=missing)
+
+    @property
+    def of_k(self) -> Domain:  # type: ignore[override]
+        """What k may be."""
+        return _NoKInside("extinction coefficient", minimum=0.0, maximum=0.0, missing=self.missing)
 
     def described(self) -> str:
         return (
-            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; what a layer "
-            f"absorbs depends on how thick it is: link Interfaces with a Medium between"
+            f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; or, for a "
+            f"layer that absorbs, give the stack {self.missing}, too"
         )
 
 
+@dataclass(frozen=True)
+class _NoKInside(Domain):
+    missing: str = ""
+
+    def described(self) -> str:
+        return f"0; or, for a layer that absorbs, give the stack {self.missing}, too"
+
+
+@dataclass(frozen=True)
 class IndicesDomain(Domain):
-    """Indices of the media of a stack, the front medium first and the substrate last."""
+    """Indices of the media of a stack, the front medium first and the substrate last.
+
+    Attributes
+    ----------
+    inner : Domain, optional
+        That of the layers; without absorption by default.
+    """
+
+    inner: Domain | None = None
 
     def quickly_allows(self, value: Any) -> bool:
         del value
@@ -229,7 +266,7 @@ class IndicesDomain(Domain):
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, tuple) or len(value) < 2:
             return [(name, value, self)]
-        domains = [FOLLOWED_OUTSIDE, *[INNER] * (len(value) - 2), INDEX]
+        domains = [FOLLOWED_OUTSIDE, *[self.inner or INNER] * (len(value) - 2), INDEX]
         return [
             part
             for place, (index, domain) in enumerate(zip(value, domains, strict=True))

@@ -24,6 +24,7 @@ from optipath.values.domains.indices import (
     OPTIONAL_LIT_INDEX,
     OPTIONAL_OUTSIDE,
 )
+from optipath.values.domains.layers import LENGTHS
 from optipath.values.domains.optional import OptionalDomain
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
@@ -59,6 +60,7 @@ OutsideIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_OUTS
 LitIndex: TypeAlias = Annotated[Quantity | Material | Follows, FOLLOWED_LIT_INDEX]
 OptionalLitIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_LIT_INDEX]
 Indices: TypeAlias = Annotated[Sequence[Quantity | Material | Follows], INDICES]
+Lengths: TypeAlias = Annotated[Sequence[Quantity], LENGTHS]
 OptionalIndex: TypeAlias = Annotated[Quantity | Material, OPTIONAL_OUTSIDE]
 AMPLITUDE = AmplitudeDomain("amplitude")
 Amplitude: TypeAlias = Annotated[Quantity, AMPLITUDE]
@@ -89,6 +91,9 @@ MagneticField: TypeAlias = Annotated[
 ]
 WAVELENGTH = Domain("wavelength in metres", "length", minimum=1e-12, maximum=1e-3, own_unit="m")
 Wavelength: TypeAlias = Annotated[Quantity, replace(WAVELENGTH, name="wavelength", own_unit="nm")]
+OptionalWavelength: TypeAlias = Annotated[
+    Quantity, OptionalDomain("wavelength", "length", minimum=1e-12, maximum=1e-3, own_unit="nm")
+]
 Birefringence: TypeAlias = Annotated[Quantity, Domain("birefringence", minimum=-10, maximum=10)]
 EXTINCTION = ExtinctionDomain("extinction ratio", minimum=1.000001)
 ExtinctionRatio: TypeAlias = Annotated[Quantity, EXTINCTION]

@@ -1,0 +1,302 @@
+"""Layers that absorb: against 50 digits, Beer and Lambert, tmm's algorithm, and energy."""
+
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import optipath as op
+from chains import ENGINES
+from incoherent_stacks import exact_stack, mueller_of
+
+WAVE = {"wavelength": 500e-9}
+OF_PANE = {"lengths": [4e-3], "wavelength": 550e-9}
+
+
+def drawn(rng, *, thick):
+    """Media, lengths, a wavelength and an incidence; media may be thinner than the wavelength."""
+    count = rng.integers(1, 7)
+    layers = [
+        complex(rng.uniform(0.9, 2.5), 10.0 ** rng.uniform(-9, -0.52) * (rng.random() < 0.7))
+        for _ in range(count)
+    ]
+    substrate = complex(rng.uniform(0.9, 2.5), rng.uniform(0, 3) * (rng.random() < 0.5))
+    first = float(rng.uniform(1.0, 1.3))
+    wavelength = float(10.0 ** rng.uniform(-6.6, -5.0))
+    lengths = 10.0 ** rng.uniform(np.log10(wavelength) if thick else -9, 0, count)
+    media = [n.real if n.imag == 0 else n for n in layers]
+    return [first, *media, substrate], lengths.tolist(), wavelength, float(rng.uniform(0, 1.5))
+
+
+def stack_of(case, **others):
+    media, lengths, wavelength, incidence = case
+    return op.LayerStack(media, incidence, lengths=lengths, wavelength=wavelength, **others)
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("thick", [True, False])
+def test_a_stack_is_the_linear_system_of_its_intensities_in_50_digits(seed, thick):
+    rng = np.random.default_rng(seed)
+    for _ in range(4):
+        case = drawn(rng, thick=thick)
+        exact, stack = exact_stack(*case), stack_of(case)
+        for leaves in ("reflected", "transmitted"):
+            expected = mueller_of(getattr(exact, leaves))
+            found = stack.mueller("in", leaves).matrix
+            # The light that has passed has the rounding of an exponent of up to 700.
+            scale = 1e-12 if leaves == "transmitted" else 5e-14
+            np.testing.assert_allclose(found, expected, rtol=0, atol=scale * expected[0, 0])
+        shares = np.array([[float(share) for share in layer] for layer in exact.absorbed])
+        tolerance = 1e-13 * (1.0 + np.abs(shares).max())
+        np.testing.assert_allclose(stack.absorbed(), shares.mean(1), rtol=0, atol=tolerance)
+        seen = 0.5 * (1.3 * shares[:, 0] + 0.7 * shares[:, 1])
+        np.testing.assert_allclose(stack.absorbed([1, 0.3, 0.4, 0.5]), seen, rtol=0, atol=tolerance)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_light_from_behind_is_right_too(seed):
+    rng = np.random.default_rng(seed)
+    media, lengths, wavelength, _ = drawn(rng, thick=True)
+    case = [*media[:-1], 1.4], lengths, wavelength, float(rng.uniform(0, 1.3))
+    exact, stack = exact_stack(*case, back=True), stack_of(case)
+    for leaves, parts in (("transmitted", exact.reflected), ("reflected", exact.transmitted)):
+        found, expected = stack.mueller("back", leaves).matrix, mueller_of(parts)
+        np.testing.assert_allclose(found, expected, rtol=0, atol=1e-13 * max(expected[0, 0], 1e-9))
+    shares = [float(s + p) / 2 for s, p in exact.absorbed]
+    np.testing.assert_allclose(stack.absorbed(enters="back"), shares, rtol=0, atol=1e-13)
+
+
+def test_an_incidence_before_other_parallel_faces_is_right_too():
+    case = [1.33, 1.5 + 1e-4j, 1.2], [1e-4], 5e-7, 0.9
+    exact = exact_stack(*case, n0=1.1)
+    stack = stack_of(case, incidence_in=1.1)
+    for leaves in ("reflected", "transmitted"):
+        expected = mueller_of(getattr(exact, leaves))
+        np.testing.assert_allclose(stack.mueller("in", leaves).matrix, expected, rtol=0, atol=1e-15)
+
+
+def tmm_incoherent(polarization, media, lengths, incidence, wavelength):
+    """R, T and the absorbed shares by the transfer matrices of tmm's inc_tmm, in 50 digits.
+
+    Written after the published algorithm (S. J. Byrnes, arXiv:1603.02720; tmm is not installed).
+    """
+    media = [mpmath.mpc(m) for m in media]
+    y = media[0].real * mpmath.sin(incidence)
+    # Cosines by Snell's law, of the wave that goes forward.
+    cosines = [mpmath.sqrt(1 - (y / m) ** 2) for m in media]
+    cosines = [c if (m * c).imag >= 0 else -c for m, c in zip(media, cosines, strict=True)]
+
+    def power(i, j):
+        (m1, c1), (m2, c2) = (media[i], cosines[i]), (media[j], cosines[j])
+        if polarization == "s":
+            r, t = (m1 * c1 - m2 * c2) / (m1 * c1 + m2 * c2), 2 * m1 * c1 / (m1 * c1 + m2 * c2)
+            return abs(r) ** 2, abs(t) ** 2 * (m2 * c2).real / (m1 * c1).real
+        r, t = (m2 * c1 - m1 * c2) / (m2 * c1 + m1 * c2), 2 * m1 * c1 / (m2 * c1 + m1 * c2)
+        share = (m2 * mpmath.conj(c2)).real / (m1 * mpmath.conj(c1)).real
+        return abs(r) ** 2, abs(t) ** 2 * share
+
+    last = len(media) - 1
+    passes = [
+        mpmath.exp(-4 * mpmath.pi * length * (media[i] * cosines[i]).imag / wavelength)
+        for i, length in zip(range(1, last), lengths, strict=True)
+    ]
+    matrices = []
+    for i in range(last):
+        (R, T), (R_back, T_back) = power(i, i + 1), power(i + 1, i)
+        rows = mpmath.matrix([[1, -R_back], [R, T_back * T - R_back * R]]) / T
+        P = passes[i - 1] if i else mpmath.mpf(1)
+        matrices.append(mpmath.diag([1 / P, P]) * rows)
+    total = mpmath.eye(2)
+    for matrix in matrices:
+        total = total * matrix
+    T, R = 1 / total[0, 0], total[1, 0] / total[0, 0]
+    light, forward_backward = mpmath.matrix([T, 0]), {last: (T, 0)}
+    for i in range(last - 1, 0, -1):
+        light = matrices[i] * light
+        forward_backward[i] = light[0], light[1]
+    entering = []
+    for i in range(1, last + 1):
+        before = forward_backward[i - 1][0] * passes[i - 2] if i > 1 else 1
+        entering.append(before * power(i - 1, i)[1] - forward_backward[i][1] * power(i, i - 1)[1])
+    return R, T, [a - b for a, b in pairwise(entering)]
+
+
+@pytest.mark.parametrize("k", [1e-9, 1e-4, 1e-2, 0.2])
+@pytest.mark.parametrize("incidence", [0.0, 0.7, 1.4])
+def test_a_stack_is_what_tmm_means_by_incoherent_layers(k, incidence):
+    media, wavelength = [1.0, 1.5 + 1j * k, 1.4, 2.1 + 2j * k, 1.3 + 0.5j], 5e-7
+    lengths = [2e-8 / k, 1e-4, 1e-8 / k]
+    stack = op.LayerStack(media, incidence, lengths=lengths, wavelength=wavelength)
+    for sign, polarization in ((1, "s"), (-1, "p")):
+        with mpmath.workdps(50):
+            exact = tmm_incoherent(polarization, media, lengths, mpmath.mpf(incidence), wavelength)
+        R, T, shares = (np.asarray(part, float) for part in exact)
+        light = op.Light([1.0, sign, 0.0, 0.0])
+        for leaves, expected in (("reflected", R), ("transmitted", T)):
+            found = (stack.mueller("in", leaves) @ light).intensity
+            np.testing.assert_allclose(found, expected, rtol=1e-13)
+        np.testing.assert_allclose(stack.absorbed(light), shares, rtol=1e-12, atol=1e-15)
+
+
+def test_a_plate_that_hardly_absorbs_dims_light_along_its_slanted_way():
+    # Of a plate of R and t = exp(-alpha d / cos of the angle in it): T = (1-R)^2 t / (1 - R^2 t^2).
+    n, alpha, d, theta = 1.5, 20.0, 0.01, 0.8
+    inside = np.arcsin(np.sin(theta) / n)
+    left = np.exp(-alpha * d / np.cos(inside))
+    A, B, _, _ = op.fresnel_reflection(n, np.cos(theta), np.sin(theta))
+    each = [(1 - R) ** 2 * left / (1 - (R * left) ** 2) for R in (A + B, A - B)]
+    plate = op.LayerStack(
+        [1, op.Material(n, alpha * 1e-6 / (4 * np.pi)), 1], theta, lengths=[d], wavelength=1e-6
+    )
+    found = plate.mueller("in", "transmitted").matrix[0, 0]
+    np.testing.assert_allclose(found, sum(each) / 2, rtol=1e-10)
+
+
+@settings(max_examples=40, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_what_is_reflected_let_through_and_absorbed_is_all_that_came(seed):
+    rng = np.random.default_rng(seed)
+    case = drawn(rng, thick=True)
+    stack, light = stack_of(case), op.Light([1.0, *rng.uniform(-0.5, 0.5, 3)])
+    out = [(stack.mueller("in", leaves) @ light).intensity for leaves in stack.outputs]
+    shares = stack.absorbed(light)
+    assert sum(out) + shares.sum() == pytest.approx(1.0, abs=1e-13)
+
+
+@pytest.mark.parametrize("leaves", ["reflected", "transmitted"])
+def test_layers_known_to_be_lossless_are_what_they_are_without_lengths_bit_for_bit(leaves, rng):
+    for _ in range(10):
+        media, theta = [1.0, *rng.uniform(1.0, 2.5, 3), 0.6 + 2j], float(rng.uniform(0, 1.5))
+        given = [media[0], complex(media[1], 0.0), op.Material(media[2], 0.0), *media[3:]]
+        plain = op.LayerStack(media, theta)
+        told = op.LayerStack(given, theta, lengths=[1e-3, 1e-6, 1.0], wavelength="500 nm")
+        found, expected = (stack.mueller("in", leaves).matrix for stack in (told, plain))
+        np.testing.assert_array_equal(found, expected)
+        assert not told.absorbed().any()
+
+
+def test_opaque_layers_let_nothing_through_and_absorb_all_that_enters():
+    stack = op.LayerStack([1.0, 1.5 + 0.3j, 1.2 + 0.01j, 1.0], 0.7, lengths=[1.0, 1.0], **WAVE)
+    face = op.Interface(1.5 + 0.3j, 0.7).mueller("in", "reflected").matrix
+    found = stack.mueller("in", "reflected").matrix
+    np.testing.assert_allclose(found, face, rtol=1e-15, atol=1e-16)
+    assert not stack.mueller("in", "transmitted").matrix.any()
+    np.testing.assert_allclose(stack.absorbed(), [1.0 - face[0, 0], 0.0], rtol=1e-15)
+
+
+def path_of():
+    m, theta, d, wavelength = map(op.Parameter, ("m", "theta", "d", "wavelength"))
+    stack = op.LayerStack([1.0, m, 0.6 + 2j], theta, lengths=[d], wavelength=wavelength)
+    return op.Source(1.0, (1.0, 0.3, 0.4, 0.5)) >> stack >> op.Detector()
+
+
+def exact_stokes(m, theta, d, wavelength):
+    """What comes back of the light of the path, in as many digits as are worked with."""
+    exact = exact_stack([1.0, m, 0.6 + 2j], [d], wavelength, theta, digits=mpmath.mp.dps)
+    s, p, both = exact.reflected
+    sums = (s + p) / 2 + 0.3 * (s - p) / 2, (s - p) / 2 + 0.3 * (s + p) / 2
+    across = 0.4 * both.real + 0.5 * both.imag, 0.5 * both.real - 0.4 * both.imag
+    return np.array([*sums, *across])
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_engines_agree(engine):
+    theta, d = np.linspace(0.0, 1.5, 7), np.logspace(-6, 0, 7)
+    plan = op.Composer(engine=engine).compose(path_of())
+    light = plan.run(m=1.5 + 1e-5j, theta=theta, d=d, wavelength=500e-9)
+    with mpmath.workdps(50):
+        expected = [exact_stokes(1.5 + 1e-5j, *pair, 500e-9) for pair in zip(theta, d, strict=True)]
+    np.testing.assert_allclose(light.stokes, np.array(expected, float), rtol=0, atol=1e-14)
+
+
+def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque():
+    jax = pytest.importorskip("jax")
+    plan = op.Composer(engine="jax").compose(path_of())
+
+    @jax.jit
+    def stokes(values, k):
+        theta, d, wavelength = values
+        return plan.run(m=1.5 + 1j * k, theta=theta, d=d, wavelength=wavelength).stokes
+
+    with jax.enable_x64(True):  # noqa: FBT003 - as JAX has it
+        slopes = jax.jit(jax.jacfwd(stokes))
+        assert np.isfinite(slopes(np.array([0.6, 1.0, 500e-9]), 0.1)).all()
+        for k in (1e-7, 1e-2):
+            at = [0.6, 1e-8 / k, 500e-9]
+            found = slopes(np.array(at), k)
+            with mpmath.workdps(60):
+                for place in range(3):
+                    step = mpmath.mpf(at[place]) * mpmath.mpf(10) ** -20
+                    ends = [[*at[:place], at[place] + d, *at[place + 1 :]] for d in (-step, step)]
+                    less, more = (exact_stokes(1.5 + 1j * k, *end) for end in ends)
+                    expected = np.array((more - less) / (2 * step), float)
+                    scale = np.abs(expected).max()
+                    np.testing.assert_allclose(
+                        found[:, place], expected, rtol=0, atol=1e-12 * scale
+                    )
+
+
+def test_a_thick_pile_of_30_layers_composes():
+    pile = op.LayerStack(
+        [1.0, *[1.5 + 1e-6j, 1.0] * 14, 1.5 + 1e-6j, 1.0], 0.9, lengths=[1e-3] * 29, **WAVE
+    )
+    out = sum(pile.mueller("in", leaves).matrix[0, 0] for leaves in pile.outputs)
+    assert out + pile.absorbed().sum() == pytest.approx(1.0, abs=1e-14)
+
+
+def test_a_stack_with_lengths_goes_into_a_file_and_back():
+    path = path_of()
+    assert 'lengths = ["$d"]' in path.to_toml()
+    given = {"m": 1.5 + 1e-5j, "theta": 0.3, "d": "2 mm", "wavelength": "550 nm"}
+    assert path.bind(**given).trace() == path.trace(**given)
+    again = op.LayerStack([1, 1.5, 1], 0.3, lengths=["1 mm"], wavelength="5 um")
+    assert again == op.LayerStack([1, 1.5, 1], 0.3, lengths=[1e-3], wavelength=5e-6)
+    assert again != op.LayerStack([1, 1.5, 1], 0.3, lengths=[2e-3], wavelength=5e-6)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({}, r"indices\[1\] is complex.* give the stack the lengths .* and the wavelength, too"),
+        ({"lengths": [1e-3]}, r"absorbs, give the stack the wavelength, too"),
+        ({"wavelength": 5e-7}, r"absorbs, give the stack the lengths \(one for each layer\), too"),
+        ({"lengths": [1.0, 2.0], **WAVE}, "lengths has 2 entries, where the stack has 1"),
+        ({"lengths": 1e-3, "wavelength": 5e-7}, r"lengths is 0\.001; give a list of lengths"),
+        ({"lengths": op.Parameter("d"), **WAVE}, "cannot be the parameter 'd'; give a list"),
+        ({"lengths": [-1.0], **WAVE}, r"lengths\[0\] is -1000 mm"),
+        ({"lengths": ["1 deg"], **WAVE}, r"lengths\[0\]: '1 deg' is no length"),
+        ({"lengths": [1.0], "wavelength": 500.0}, r"wavelength is 5e\+11 nm"),
+    ],
+)
+def test_what_is_missing_or_does_not_fit_is_told(given, message):
+    with pytest.raises(op.ValueFault, match=message):
+        op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 0.5, **given)
+
+
+def test_a_parameter_that_turns_out_to_absorb_needs_lengths_too():
+    path = op.Source() >> op.LayerStack([1.0, op.Parameter("n"), 1.0], 0.5) >> op.Detector()
+    with pytest.raises(op.OptipathError, match=r"give the stack the lengths .* and the wavelength"):
+        path.trace(n=1.5 + 1e-6j)
+
+
+def test_what_is_absorbed_is_asked_with_words():
+    stack = op.LayerStack([1.0, op.Parameter("m"), 1.0], 0.5, **OF_PANE)
+    with pytest.raises(op.PathError, match="parameter 'm' of layer-stack has no value yet"):
+        stack.absorbed()
+    known = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 0.5, **OF_PANE)
+    with pytest.raises(op.PathError, match=r"no in-port .reflected.; light arrives at .in."):
+        known.absorbed(enters="reflected")
+    with pytest.raises(op.OptipathError, match="polarised by 200 %"):
+        known.absorbed([1, 2, 0, 0])
+
+
+def test_what_is_absorbed_is_that_of_light_in_its_own_frame():
+    stack = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 1.0, **OF_PANE)
+    turned = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], 1.0, "90 deg", **OF_PANE)
+    np.testing.assert_allclose(stack.absorbed([1, 1, 0, 0]), turned.absorbed([1, -1, 0, 0]))
+    several = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], [0.1, 0.2], **OF_PANE)
+    assert several.absorbed().shape == (2, 1)
+    assert np.isnan(several.absorbed([0, 0, 0, 0])).all()
