@@ -11,7 +11,7 @@ from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import INDEX, INDICES
-from optipath.values.domains.layers import LENGTH_OF_LAYER, LENGTHS
+from optipath.values.domains.layer_values import LENGTH_OF_LAYER, LENGTHS
 from optipath.values.domains.quantities import REAL, YES_OR_NO
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from optipath.elements.coupling import Operation, numbers_of
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
 from optipath.values.domains.indices import INDEX, INDICES, OPTIONAL_OUTSIDE, InnerDomain
-from optipath.values.domains.layers import LENGTHS, LOSSY
+from optipath.values.domains.layer_values import LENGTHS, LOSSY
 from optipath.values.domains.quantities import (
     Angle,
     FollowedIncidence,

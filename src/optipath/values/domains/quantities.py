@@ -24,7 +24,7 @@ from optipath.values.domains.indices import (
     OPTIONAL_LIT_INDEX,
     OPTIONAL_OUTSIDE,
 )
-from optipath.values.domains.layers import LENGTHS
+from optipath.values.domains.layer_values import LENGTHS
 from optipath.values.domains.optional import OptionalDomain
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.whole_number import WholeNumber
