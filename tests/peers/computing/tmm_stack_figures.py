@@ -44,10 +44,20 @@ STACKS = (
 )
 
 FACES = (
-    {"name": "tinted glass into air", "front": [1.5, 1e-3], "behind": [1.0, 0.0], "incidence": 40.0},
+    {
+        "name": "tinted glass into air",
+        "front": [1.5, 1e-3],
+        "behind": [1.0, 0.0],
+        "incidence": 40.0,
+    },
     {"name": "k = 0.2 into air", "front": [1.5, 0.2], "behind": [1.0, 0.0], "incidence": 70.0},
     {"name": "k = 0.2 into k = 0.1", "front": [1.5, 0.2], "behind": [2.0, 0.1], "incidence": 30.0},
-    {"name": "k = 0.05 onto a metal", "front": [1.3, 0.05], "behind": [0.2, 3.4], "incidence": 60.0},
+    {
+        "name": "k = 0.05 onto a metal",
+        "front": [1.3, 0.05],
+        "behind": [0.2, 3.4],
+        "incidence": 60.0,
+    },
 )
 """The incidence is that in air, from which a parallel face has refracted the light."""
 
