@@ -224,3 +224,8 @@ def test_axes_of_less_precision_make_a_frame(kind):
         op.Frame(axes[:, 0], axes[:, 1], kind(1.1) * axes[:, 2])
     with pytest.raises(op.FrameError, match="orthogonal unit vectors"):
         op.Frame(*(turned[:, i] * (1.0 + 1e-6) for i in range(3)))
+
+
+def test_a_number_of_less_precision_is_refused_beyond_a_limit_that_it_cannot_hold():
+    with pytest.raises(op.OptipathError, match="give the optimiser bounds="):
+        op.load_preset("pile-of-plates").trace(theta=0.1, n=np.float16(-1.5))

@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.errors import OptipathError
 from optipath.values.arrays.array_likes import as_given
+from optipath.values.roundings import doubles
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -58,4 +59,5 @@ def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Do
     # So large an angle is in degrees.
     if any(domain.dimension == "angle" for domain in domains) and np.all(np.abs(array) > 2.0 * pi):
         return False
+    array = doubles(array, limits)
     return not np.all((limits[0] <= array) & (array <= limits[1]))
