@@ -18,13 +18,18 @@ from optipath.errors import PathError, ValueFault, shown
 from optipath.paths.grazing_or_through import doubtful_vertex
 from optipath.paths.known_media import sides_of
 from optipath.paths.path_graph import PathGraph
-from optipath.paths.vertex_events import REFLECTS, event_faults, media_in_front
+from optipath.paths.vertex_events import (
+    REFLECTS,
+    event_faults,
+    media_in_front,
+    medium_faults,
+    passable,
+)
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.domains.indices import OUTSIDE
-from optipath.values.made import checked_later, faults_of, kept_value, refuse
+from optipath.values.made import checked_later, kept_value
 from optipath.values.parameters import Parameter
-from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -100,13 +105,17 @@ def path_from_vertices(
     """
     several, not_several = _several(materials)
     chain, faults = _chain(vertices, len(several))
-    faults += [] if events is None else event_faults(events, len(several))
-    start, of_start = _start(outside)
-    faults += of_start
+    of_events = [] if events is None else event_faults(events, len(several))
+    of_start = medium_faults("outside", outside, OUTSIDE)
+    faults += [*of_events, *of_start]
     if not several:
         raise PathError(*faults, *not_several)
-    # With others in place of faulty vertices, so that the rest is checked too.
-    happens = REFLECTS * len(several) if events is None or faults else events
+    happens = REFLECTS * len(several) if events is None or of_events else events
+    several, of_media = passable(happens, several)
+    faults += of_media
+    # With others in place of what is faulty, so that the rest is checked too.
+    start = 1.0 if of_start else kept_value("outside", outside, OUTSIDE)
+    happens = REFLECTS * len(several) if faults else happens
     with checked_later():  # Composing names the vertices, and looks at their array once.
         given = _any_chain(len(several)) if faults else chain
         path = _path(given, several, intensity, happens, start)
@@ -137,16 +146,6 @@ def _normal_faults(
     return normal_faults(chain, normals, len(materials), sides)
 
 
-def _start(outside: Any) -> tuple[Any, list[str]]:
-    """Return the medium that light starts in, and what is wrong with it."""
-    try:
-        kept = kept_value("outside", outside, OUTSIDE)
-        refuse(faults_of([Use(name, n, of) for name, n, of in OUTSIDE.parts("outside", kept)]))
-    except ValueFault as fault:
-        return 1.0, list(fault.faults)
-    return kept, []
-
-
 def _is_sound(chain: Any, count: int) -> bool:
     try:
         replace(VERTICES, tail=(count + 2, 3)).check("vertices", chain)
@@ -173,7 +172,7 @@ def _any_chain(count: int) -> VerticesByAngles:
     return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
 
 
-def _several(materials: Any) -> tuple[tuple[Any, ...], list[str]]:
+def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
     """Return the materials one by one, or what is wrong with them."""
     try:
         several = entries_of("materials", "one for each vertex", materials)
