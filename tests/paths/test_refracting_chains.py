@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import optipath as op
-from chains import COMPILED, ENGINES
+from chains import COMPILED, ENGINES, random_rotation
 from histories import (
     coherency,
     exact_coherency,
@@ -53,6 +55,22 @@ def test_a_history_is_that_of_50_digits(seed):
     np.testing.assert_allclose(light.stokes, exact, rtol=0, atol=1e-13 * exact[0])
     known = [float(part) for part in exact_lights(path)["eye"].stokes]
     np.testing.assert_allclose(known, exact, rtol=0, atol=1e-13 * exact[0])
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10**6), st.text("RT", min_size=1, max_size=8))
+def test_no_history_makes_light_brighter_or_more_than_polarised_and_none_knows_its_world(
+    seed, events
+):
+    points, _, materials = random_histories(seed, events, 20)
+    light = op.path_from_vertices(points, materials, events=events).trace()
+    assert np.all(light.intensity <= 1.0 + 1e-14)
+    assert np.all(light.dop[light.intensity > 1e-9] <= 1.0 + 1e-9)
+    rotation = random_rotation(np.random.default_rng(seed))
+    turned = op.path_from_vertices(points @ rotation.T, materials, events=events).trace()
+    np.testing.assert_allclose(turned.intensity, light.intensity, rtol=1e-9, atol=1e-13)
+    moved = turned.in_frame(light.frame.rotated(rotation))
+    np.testing.assert_allclose(moved.stokes, light.stokes, rtol=0, atol=1e-10)
 
 
 def test_the_frame_of_the_light_is_across_the_last_plane_of_incidence():
@@ -190,6 +208,15 @@ def test_what_is_wrong_is_told_in_words(points, materials, others, message):
     assert len(error.value.faults) == 1
 
 
+@pytest.mark.parametrize("medium", [1.5 + 1j, op.Material(1.5, 0.1), -1.0, np.inf, "glass"])
+@pytest.mark.parametrize("events", ["TTR", "TRR", "TRT"])
+def test_a_medium_that_light_cannot_go_on_in_is_told_once(events, medium):
+    points = [*INTO_GLASS, [0.0, 2.0, -3.0], [0.0, 3.0, -3.0]]
+    with pytest.raises(op.PathError, match=r"^vertex1\.index") as error:
+        op.path_from_vertices(points, [medium, 1.2, 3.0], events=events)
+    assert len(error.value.faults) == 1
+
+
 def test_normals_of_both_kinds_are_checked_and_between_equal_media_any_will_do():
     points, normals, materials = random_histories(13, "TRTT", 500)
     materials[3] = materials[2]
@@ -231,6 +258,7 @@ def test_the_cure_that_is_offered_is_for_the_whole_chain():
         ([[0, 0, 0], [0, 0, 1], [0, 0, 2]], [1.5], {}),  # Straight on.
         (op.Parameter("points"), [1.5], {}),  # Not known yet.
         (INTO_GLASS, [op.Parameter("n")], {}),
+        (INTO_GLASS, [np.array([])], {}),
         (op.VerticesByAngles((1.5,)), [1.5], {}),
         (INTO_GLASS, [1.5], {"normals": np.diff(np.diff(INTO_GLASS, axis=0), axis=0)}),
     ],

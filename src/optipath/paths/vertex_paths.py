@@ -15,12 +15,12 @@ from optipath.paths.histories.chain_histories import Histories, apart_where_abso
 from optipath.paths.histories.normals_of_chains import normals_checked
 from optipath.paths.histories.path_of_chains import path_of_chains
 from optipath.paths.path_graph import PathGraph
+from optipath.paths.vertex_events import medium_faults, passable
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.domains.indices import OUTSIDE
-from optipath.values.made import checked_later, faults_of, kept_value, refuse
+from optipath.values.made import checked_later, kept_value
 from optipath.values.parameters import Parameter
-from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -99,6 +99,9 @@ def path_from_vertices(
     """
     several, not_several = _several(materials)
     chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))
+    if isinstance(chains.events, str):
+        media, not_media = passable(chains.events, chains.materials)
+        chains, faults = replace(chains, materials=tuple(media)), [*faults, *not_media]
     points, not_points = _chain(vertices, chains.count)
     start, not_start = _start(outside)
     faults += [*not_points, *not_start, *unknown("bad", bad, BAD)]
@@ -148,12 +151,8 @@ def _composed(
 
 def _start(outside: Any) -> tuple[Any, list[str]]:
     """Return the medium that light starts in, and what is wrong with it."""
-    try:
-        kept = kept_value("outside", outside, OUTSIDE)
-        refuse(faults_of([Use(name, n, of) for name, n, of in OUTSIDE.parts("outside", kept)]))
-    except ValueFault as fault:
-        return 1.0, list(fault.faults)
-    return kept, []
+    faults = medium_faults("outside", outside, OUTSIDE)
+    return 1.0 if faults else kept_value("outside", outside, OUTSIDE), faults
 
 
 def _is_sound(points: Any, chains: Histories, bad: str) -> bool:
