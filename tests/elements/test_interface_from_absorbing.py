@@ -3,9 +3,9 @@
 import mpmath
 import numpy as np
 import pytest
-from chains import ENGINES
 
 import optipath as op
+from chains import ENGINES
 from optipath.lab.accuracy.path_reference import exact_lights
 
 GLASS = 1.5 + 0.01j
@@ -195,8 +195,13 @@ def test_a_file_keeps_an_index_that_absorbs(tmp_path):
     path = through(
         op.Interface(op.Material(1.5, P("k", 0.01)), P("t", 0.4)), op.Interface(1.0, F, outside=F)
     )
-    again = op.loads(op.dumps(path)) if hasattr(op, "dumps") else path
-    np.testing.assert_array_equal(again.trace().stokes, path.trace().stokes)
+    plain = through(op.Interface(1.2, 0.4, outside=GLASS))
+    for written in (path, plain):
+        file = tmp_path / "path.toml"
+        file.write_text(written.to_toml(), "utf-8")
+        again = op.load_preset(file)
+        assert again == written
+        np.testing.assert_array_equal(again.trace().stokes, written.trace().stokes)
 
 
 def test_directions_in_the_world_are_those_of_the_real_angle():
