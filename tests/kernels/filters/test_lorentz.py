@@ -70,7 +70,7 @@ def test_a_depolarizing_medium_is_the_exponential_to_13_digits(seed):
         assert error(DEPOLARIZING(*p, *q, d), p, q, d) < 1e-13
 
 
-@pytest.mark.skipif(not os.environ.get("OPTIPATH_LONG"), reason="a search of a minute")
+@pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="a search of a minute")
 @pytest.mark.parametrize("depolarizes", [False, True])
 def test_no_climb_finds_a_worse_medium(depolarizes):
     rng = np.random.default_rng(11)
