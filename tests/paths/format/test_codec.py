@@ -91,7 +91,7 @@ def test_numbers_of_a_parameter_are_written_in_its_unit():
         ('"100 mm"', "100", ["100 has no unit, but a length is asked for; write '100 mm'"]),
         ('"0.5 1/cm"', "0.5", ["an inverse length is asked for; write '0.5 1/cm'"]),
         ('"1 deg/mm"', '"1 deg"', ["'1 deg' is no angle per length; use one of deg/um"]),
-        ('"0 deg/mm"', '"1 deg/mm"', ["slab.retardance is 1 deg/mm; give 0 beside a rotation"]),
+        ('"0 1/cm"', '"1 1/cm"', ["'slab' would amplify some light", "give an absorption of 1.41"]),
     ],
 )
 def test_faults_of_a_file_are_named_with_a_cure(old, new, expected, tmp_path):

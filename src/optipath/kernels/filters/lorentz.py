@@ -46,7 +46,13 @@ def lorentz(xp: Primitives) -> KernelFunction:
 def retardance(xp: Primitives) -> KernelFunction:
     """Make ``(q1, q2, q3) ->`` the sixteen numbers of a rotation of the sphere (Rodrigues)."""
     exponential = lorentz(xp)
-    return lambda q1, q2, q3: exponential(0.0, 0.0, 0.0, q1, q2, q3)
+
+    def rotate(q1: Any, q2: Any, q3: Any) -> tuple[Any, ...]:
+        # No light is lost, not even by a rounding.
+        _, *rest = exponential(0.0, 0.0, 0.0, q1, q2, q3)
+        return 1.0, *rest
+
+    return rotate
 
 
 def _parts(xp: Primitives) -> KernelFunction:

@@ -1,0 +1,113 @@
+"""The exponentials of dichroism and retardance, against 4 x 4 matrices in many digits."""
+
+import os
+
+import mpmath
+import numpy as np
+import pytest
+
+from optipath.kernels.filters.lorentz import lorentz, retardance
+from optipath.kernels.filters.lorentz_depolarizing import (
+    LARGEST,
+    LARGEST_DICHROISM,
+    depolarizing_lorentz,
+)
+from optipath.kernels.numbers.primitives import FLOAT, NUMPY
+
+PURE, DEPOLARIZING = lorentz(FLOAT), depolarizing_lorentz(FLOAT)
+
+
+def exact(p, q, d=0.0):
+    p, q, d = [mpmath.mpf(x) for x in p], [mpmath.mpf(x) for x in q], mpmath.mpf(d)
+    size = mpmath.sqrt(sum(x * x for x in p))
+    generator = mpmath.matrix(
+        [
+            [0, *p],
+            [p[0], -d, -q[2], q[1]],
+            [p[1], q[2], -d, -q[0]],
+            [p[2], -q[1], q[0], -d],
+        ]
+    )
+    return mpmath.expm(generator - size * mpmath.eye(4), method="taylor")
+
+
+def error(found, p, q, d=0.0):
+    with mpmath.workdps(60):
+        wanted = exact(p, q, d)
+        differences = [abs(x - wanted[i // 4, i % 4]) for i, x in enumerate(map(mpmath.mpf, found))]
+        return float(max(differences) / wanted[0, 0])
+
+
+def drawn(rng, most):
+    """Vectors of any size, some of one size, parallel or across."""
+    p, q = rng.normal(size=(2, 3)) * 10.0 ** rng.uniform(-12, np.log10(most / 2), (2, 1))
+    kind = rng.integers(5)
+    if kind == 1:
+        p *= np.linalg.norm(q) / np.linalg.norm(p)
+    if kind == 2:
+        q = p * rng.normal()
+    if kind == 3:
+        p = np.cross(p, q) / np.linalg.norm(q)
+    if kind == 4:
+        p = np.cross(p, q) / np.linalg.norm(p) * (1.0 + 10.0 ** rng.uniform(-16, 0))
+    return p.tolist(), q.tolist()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_pure_medium_is_the_exponential_to_13_digits(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(8):
+        p, q = drawn(rng, 50.0)
+        assert error(PURE(*p, *q), p, q) < 1e-13
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_depolarizing_medium_is_the_exponential_to_13_digits(seed):
+    rng = np.random.default_rng(seed)
+    for _ in range(4):
+        p, q = drawn(rng, 40.0)
+        d = float(10.0 ** rng.uniform(-12, np.log10(50)))
+        assert error(DEPOLARIZING(*p, *q, d), p, q, d) < 1e-13
+
+
+@pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="a search of a minute")
+@pytest.mark.parametrize("depolarizes", [False, True])
+def test_no_climb_finds_a_worse_medium(depolarizes):
+    rng = np.random.default_rng(11)
+    for _ in range(20):
+        p, q = drawn(rng, 50.0)
+        numbers = [*p, *q, float(rng.uniform(0.0, 50.0))]
+        worst, step = 0.0, 0.3
+        for _ in range(60):
+            moved = [x * (1.0 + step * rng.normal()) for x in numbers]
+            p, q, d = moved[:3], moved[3:6], abs(moved[6]) if depolarizes else 0.0
+            if max(np.linalg.norm(p), np.linalg.norm(q), d) > 50.0:
+                continue
+            found = DEPOLARIZING(*p, *q, d) if depolarizes else PURE(*p, *q)
+            if (now := error(found, p, q, d)) > worst:
+                worst, numbers = now, moved
+            else:
+                step *= 0.9
+        assert worst < 1e-13
+
+
+@pytest.mark.parametrize("size", [0.0, 5e-324, 1e-200, 1e-160, 1e-3, 1e3, 1e160, 1e300])
+def test_numbers_of_any_size_give_numbers(size):
+    one, other = (size, 0.3 * size, -0.2 * size), (0.5 * size, -size, 0.1 * size)
+    for given in ((*one, *other), (*one, 0.0, 0.0, 0.0), (0.0, 0.0, 0.0, *other)):
+        for xp in (FLOAT, NUMPY):
+            numbers = lorentz(xp)(*(np.float64(x) if xp is NUMPY else x for x in given))
+            assert np.all(np.isfinite(np.array(numbers, float)))
+
+
+def test_single_precision_gives_numbers_up_to_the_limit():
+    single = [np.float32(x) for x in (LARGEST_DICHROISM, 0, 0, 0, 0, 0, LARGEST - 80.0)]
+    numbers = np.array(depolarizing_lorentz(NUMPY)(*single))
+    assert numbers.dtype == np.float32
+    assert np.all(np.isfinite(numbers))
+    assert numbers[0] > 0.0
+
+
+def test_a_retardance_is_a_medium_without_dichroism():
+    assert retardance(FLOAT)(0.1, 0.2, 0.3)[1:] == PURE(0.0, 0.0, 0.0, 0.1, 0.2, 0.3)[1:]
+    assert retardance(FLOAT)(0.1, 0.2, 0.3)[0] == 1.0
