@@ -19,6 +19,7 @@ GIVEN = {
     "CosSin": (0.6, 0.8),
     "Depolarizer": (0.2,),
     "Diattenuator": (0.5, 0.2),
+    "FaradayRotator": (None, -134.0, [0.1, 0.2], 0.02),
     "Interface": (1.5, [0.1, 0.2]),
     "LayerStack": ([1.0, 1.3, 1.5], 0.1),
     "Light": ([1.0, 0.2, 0.0, 0.0],),
@@ -27,11 +28,13 @@ GIVEN = {
     "Mueller": (np.eye(4),),
     "MuellerElement": (np.eye(4),),
     "Parameter": ("a", np.ones(3, np.float32)),
+    "PolarizingBeamSplitter": ("1000:1",),
     "Retarder": (0.1, 0.2),
     "Rotator": (0.1,),
     "RefractingVertex": (1.5, [[0, 0, 1], [0, 0, 0], [0, 0, -1]], 1),
     "SpecularVertex": (1.5, CORNER, 1),
     "VerticesByAngles": ((0.1,),),
+    "Waveplate": (1e-3, 0.01, [5e-7, 6e-7]),
 }
 FOUND = {
     "Certificate": PATH.compose().certificate(),

@@ -24,7 +24,7 @@ INTERRUPTED = 130
 """The status of a command that Ctrl-C ended: 128 and the number of the signal."""
 
 _LONGEST = 600
-_MOST_LISTED = 30
+_MOST_LISTED = 40
 
 
 class OptipathError(Exception):

@@ -8,6 +8,9 @@ from hypothesis import strategies as st
 
 import optipath as op
 from chains import ENGINES
+from optipath.kernels.numbers.double_double import DoubleDouble
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.kernels.numbers.twice import twice
 
 STATE = (1.0, 0.3, 0.5, 0.6)
 T, R = op.Parameter("t"), op.Parameter("r")
@@ -75,6 +78,29 @@ def test_engines_agree_with_50_digits_from_either_side(engine, enters):
             wanted = [x * s + y * p, x * s - y * p, across * s2, across * s3]
             found = np.asarray(light.stokes)[place]
             np.testing.assert_allclose(found, np.array(wanted, float), rtol=0, atol=1e-15)
+
+
+@pytest.mark.parametrize("ratio", [math.inf, 1e30, 40.0])
+def test_in_twice_the_digits_it_is_the_same(ratio):
+    xp = twice(NUMPY)
+    for way in op.PolarizingBeamSplitter(ratio, [20.0, math.inf]).couplings():
+        (operation,) = way.operations
+        found = operation.numbers(xp, lambda value: DoubleDouble(NUMPY, np.asarray(value)))
+        plain = operation.numbers(NUMPY, np.asarray)
+        for one, other in zip(found[:4], plain[:4], strict=True):
+            np.testing.assert_allclose(one.high, other, rtol=4e-16, atol=1e-30)
+
+
+def test_in_a_loop_that_is_nearly_closed_its_light_adds_up():
+    """A quarter-wave plate before a mirror turns p into s, which the cube sends on."""
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source()) >> path.add("cube", op.PolarizingBeamSplitter(T, math.inf))
+    path.connect("cube.transmitted", path.add("mirror", op.Mirror()).name + ".in")
+    path["mirror"] >> path.add("plate", op.Retarder(np.pi / 2, np.pi / 4))
+    path.connect("plate.out", "cube.back")
+    path.connect("cube.reflected", path.add("eye", op.Detector()).name + ".in")
+    light = path.trace(t=np.array([1.000001, 3.0, 1e6, 1e30]))
+    np.testing.assert_allclose(light.intensity, 1.0, rtol=1e-13)
 
 
 def test_its_phases_are_those_of_a_beam_splitter():

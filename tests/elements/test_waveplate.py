@@ -70,6 +70,10 @@ def test_a_plate_of_no_thickness_or_no_birefringence_does_nothing():
         np.testing.assert_allclose(plate.mueller().matrix, np.eye(4), rtol=0, atol=3e-16)
 
 
+def test_of_no_wavelengths_there_is_no_light():
+    assert chain([op.Waveplate(0.0, 0.1, np.zeros(0))]).trace().shape == (0,)
+
+
 def test_a_negative_birefringence_makes_the_axis_the_slow_one():
     negative = op.Waveplate(1.3e-6, -0.172, 5.89e-7, 0.3).mueller().matrix
     positive = op.Waveplate(1.3e-6, 0.172, 5.89e-7, 0.3 + np.pi / 2).mueller().matrix

@@ -24,6 +24,8 @@ ELEMENTS = {
     "rotation": op.Medium(1.0, 0.1, rotation=A),
     "retardance of a medium": op.Medium(1.0, 0.1, retardance=A, angle=0.2),
     "axis of a medium": op.Medium(1.0, 0.1, retardance=1.0, angle=A),
+    "Faraday's angle": op.FaradayRotator(A),
+    "axis of a plate": op.Waveplate(1e-3, 0.0091, 5e-7, A),
     "stack": op.LayerStack([1.0, 1.3, 1.5 + 0.1j], 0.7, A),
     "matrix": op.MuellerElement(np.diag([1.0, 0.5, 0.4, 0.3]), A),
 }

@@ -45,6 +45,12 @@ FIELDS = {
     "complex amplitude": (lambda v: op.Mirror(0.9, v), [0.6 + 0.8j], [0.8 + 0.8j]),
     "matrix": (op.MuellerElement, [np.diag([1, 0.5, 0.2, 0.1])], [np.eye(4) * np.nan]),
     "reflectance": (op.BeamSplitter, [0.0, 0.3], [-0.1, 1.1]),
+    "extinction": (op.PolarizingBeamSplitter, [1.000001, 30.0, 1e30], [1.0, -2.0, np.nan]),
+    "leakage of circular light": (lambda v: op.CircularPolarizer("left", 1.0, v), [0.3], [1.1]),
+    "Faraday's angle": (op.FaradayRotator, [0.7], [np.inf]),
+    "field": (lambda v: op.FaradayRotator(verdet=-9.0, field=v, length=0.1), [-2.0], [np.nan, 1e9]),
+    "thickness": (lambda v: op.Waveplate(v, 0.01, 5e-7), [0.0, 0.01], [-1e-3, 1e9]),
+    "wavelength": (lambda v: op.Waveplate(1e-3, 0.01, v), [5e-7], [0.0, 1.0]),
     "length": (lambda v: op.Medium(v, 2.0), [0.0, 0.5], [-0.1]),
     "absorption": (lambda v: op.Medium(0.5, v), [0.0, 2.0], [-0.1]),
     "incidence": (lambda v: op.Interface(1.5, v), [0.0, 0.7, np.pi / 2], [-0.1, 1.6, 2.0]),
@@ -69,7 +75,7 @@ def path_of(field, value):
         path = op.PathGraph()
         path.add("lamp", element) >> path.add("eye", op.Detector())
         return path
-    if isinstance(element, op.BeamSplitter):
+    if isinstance(element, (op.BeamSplitter, op.PolarizingBeamSplitter)):
         path = op.PathGraph()
         path.add("lamp", op.Source(1.0, STATE)) >> path.add("splitter", element)
         path.connect("splitter.reflected", path.add("eye", op.Detector()).name + ".in")

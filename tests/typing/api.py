@@ -26,8 +26,13 @@ partial = path.add("partial", op.Diattenuator(maximum=0.9, minimum=0.2, angle=0.
 ground = path.add("ground", op.Depolarizer(depolarization=[0.1, 0.2, 0.3, 0.4, 0.5]))
 sugar = path.add("sugar", op.Medium(length=0.1, rotation=2.0))
 ink = path.add("ink", op.Medium.from_extinction(1e-6, k=0.1, wavelength=500e-9))
-lamp >> glass >> metal >> mirror >> partial >> ground >> sugar >> ink >> plate
+rod = path.add("rod", op.FaradayRotator(verdet="-134 rad/(T m)", field=-0.2, length="2 cm"))
+circular = path.add("circular", op.CircularPolarizer("left", leakage=op.Parameter("l", 0.1)))
+quartz = path.add("quartz", op.Waveplate("2 mm", 0.0091, op.Parameter("w", 5e-7), angle=0.1))
+lamp >> rod >> circular >> quartz >> glass
+glass >> metal >> mirror >> partial >> ground >> sugar >> ink >> plate
 plate >> path.add("eye", op.Detector(reads="linear"))
+cube: op.Mueller = op.PolarizingBeamSplitter("1000:1", 50.0).mueller("in", "reflected")
 chained: op.PathGraph = op.Source(100.0) >> op.Polarizer(0.3).named("analyser") >> op.Detector()
 doubled_pass: op.PathGraph = op.there_and_back(op.Retarder(1.0, 0.3).named("plate"), op.Mirror())
 there_again: op.PathGraph = (op.Source() >> doubled_pass >> op.Detector()).reversed(op.Source(2.0))

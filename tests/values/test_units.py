@@ -25,6 +25,11 @@ from optipath.values.units import UNITS, format_quantity, in_unit, parse_quantit
         ("3 1/um", "inverse length", 3e6),
         ("66.5 deg/dm", "angle per length", math.radians(665)),
         ("2 rad/mm", "angle per length", 2000.0),
+        ("30 mT", "magnetic field", 0.03),
+        ("2.5 kG", "magnetic field", 0.25),
+        ("-134 rad/(T m)", "Verdet constant", -134.0),
+        ("1 deg/(T cm)", "Verdet constant", math.radians(100)),
+        ("0.12 arcmin/(G cm)", "Verdet constant", math.radians(0.12 / 60) * 1e6),
         (" 2.5 ", "", 2.5),
     ],
 )
@@ -56,6 +61,11 @@ def test_quantities_are_read_in_their_units(text, dimension, value):
         ("5 mm", "inverse length", "no inverse length; use one of 1/um, 1/mm, 1/cm, 1/dm, 1/m"),
         ("5 deg", "angle per length", "no angle per length; use one of deg/um"),
         ("5 deg/km", "angle per length", "'deg/km' of '5 deg/km' is unknown; did you mean 'deg/m'"),
+        ("3 tesla", "magnetic field", "'tesla' of '3 tesla' is unknown; did you mean 'T'"),
+        ("3 gauss", "magnetic field", "did you mean 'G'"),
+        ("5 min/(Oe cm)", "Verdet constant", r"did you mean 'arcmin/\(G cm\)'"),
+        ("5 rad/T/m", "Verdet constant", r"did you mean 'rad/\(T m\)'"),
+        ("5 rad", "Verdet constant", "'5 rad' is no Verdet constant; use one of rad/"),
         ("thirty deg", "angle", "not a quantity"),
         ("", "", "not a quantity"),
         ("nan deg", "angle", "not a quantity"),
@@ -82,6 +92,8 @@ def test_writing_and_reading_gives_the_very_same_number(value, unit):
         ("4.5 deg/um", "angle per length", "deg/mm", "4500 deg/mm"),
         ("0.7 1/um", "inverse length", "1/cm", "7000 1/cm"),
         ("90 deg", "angle", "deg", "90 deg"),
+        ("5 mT", "magnetic field", "G", "50 G"),
+        ("-45 deg/(T cm)", "Verdet constant", "deg/(T cm)", "-45 deg/(T cm)"),
     ],
 )
 def test_units_are_changed_without_noise(text, dimension, unit, written):

@@ -120,7 +120,8 @@ def _entries(kernel: Kernel, result: tuple[float, ...] | None, known: tuple[Entr
         for place, number in enumerate(known)
     ]
     try:
-        numbers: Any = kernel.made_for(SYMBOLIC)(*given) if result is None else result
+        with np.errstate(all="ignore"):  # Of no paths at all, every number is 0.
+            numbers: Any = kernel.made_for(SYMBOLIC)(*given) if result is None else result
         rows = (numbers,) if structure is None else structure.rows(xp, numbers)
         return tuple([tuple(map(_known, row)) for row in rows])
     except Exception:  # noqa: BLE001 - an element of one's own may do anything with numbers

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from optipath.elements.coupling import Operation
 from optipath.elements.splitter import Splitter
 from optipath.kernels.catalogue import POLARIZING_REFLECTION, POLARIZING_TRANSMISSION
+from optipath.kernels.filters.bench import INFINITE
+from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.quantities import Angle, ExtinctionRatio
 
 if TYPE_CHECKING:
@@ -26,8 +30,8 @@ class PolarizingBeamSplitter(Splitter, kind="polarizing-beam-splitter"):
     ----------
     extinction_transmitted, extinction_reflected : float, array_like, text or Parameter, optional
         Tp / Ts of what is transmitted and Rs / Rp of what is reflected, 1.000001 or more,
-        infinite by default (for a Parameter 1e30 is as good); ``"1000:1"`` is 1000. At 1 all
-        would go one way, whatever its polarisation, or any share.
+        infinite by default, which 1e30 is, too (a Parameter takes finite ones); ``"1000:1"`` is
+        1000. At 1 all would go one way, whatever its polarisation, or any share.
     azimuth : float, array_like or Parameter, optional
         The turn of the frame of ``in``, x = s, against the frame of the port before it; for
         ``back``, a link may say it.
@@ -49,7 +53,13 @@ class PolarizingBeamSplitter(Splitter, kind="polarizing-beam-splitter"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what passes, the same from either side."""
-        ratios = self.extinction_transmitted, self.extinction_reflected
+        ratios = _finite(self.extinction_transmitted), _finite(self.extinction_reflected)
         reflecting = Operation(POLARIZING_REFLECTION, ratios)
         both = reflecting, Operation(POLARIZING_TRANSMISSION, ratios)
         return self._ways(both, both)
+
+
+def _finite(ratio: Any) -> Any:
+    """Return a ratio that is known as numbers that can be computed with in any precision."""
+    known = isinstance(ratio, (int, float, np.ndarray))
+    return read_only(np.minimum(ratio, INFINITE)) if known else ratio

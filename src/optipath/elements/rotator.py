@@ -19,7 +19,7 @@ class Rotator(Element, kind="rotator"):
         By how many radians the polarisation turns from x towards y: counter-clockwise to who
         looks at the source, so that what is dextrorotatory has a negative angle.
         ``Medium(length, dextrorotation=...)`` takes the chemists' sign. Light that comes back
-        from a mirror meets the same angle again, but the opposite one in a Faraday rotator.
+        from a mirror meets the same angle again, but the opposite one in a `FaradayRotator`.
 
     Examples
     --------

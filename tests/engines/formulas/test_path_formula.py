@@ -37,6 +37,9 @@ def watched(reads="stokes", *, loops=False):
         "cell": op.Medium(op.Parameter("l"), op.Parameter("d"), rotation=op.Parameter("w")),
         "glass": op.Interface(1.5, op.Parameter("a"), outside=op.Parameter("n")),
         "foil": op.Diattenuator(0.9, op.Parameter("t"), op.Parameter("b")),
+        "rod": op.FaradayRotator(verdet=op.Parameter("v"), field=2.0, length=op.Parameter("l")),
+        "quartz": op.Waveplate(1e-3, op.Parameter("q"), 1e-3, op.Parameter("b")),
+        "circular": op.CircularPolarizer("left", op.Parameter("t"), op.Parameter("e")),
     }
     node = path.add("lamp", op.Source(stokes=[1.0, 0.5, 0.3, 0.4]))
     for name, element in elements.items():
@@ -44,7 +47,7 @@ def watched(reads="stokes", *, loops=False):
     if loops:
         path.add("split", op.BeamSplitter(0.5))
         path.add("back", op.BeamSplitter(op.Parameter("t")))
-        path.connect("foil.out", "split.in")
+        path.connect("circular.out", "split.in")
         path.connect("split.transmitted", "back.in")
         path.connect("back.reflected", "split.back", azimuth=op.Parameter("b"))
         path.add("eye", op.Detector(reads))
@@ -57,7 +60,7 @@ def watched(reads="stokes", *, loops=False):
 def given(rng, shape):
     """Ordinary values; along two axes where there are two."""
     spans = {"n": (1.1, 1.4), "m": (1.1, 1.4), "a": (0.2, 0.6), "b": (-1.0, 1.0)}
-    spans |= dict.fromkeys("kcldwt", (0.1, 0.9))
+    spans |= dict.fromkeys("kcldwtvqe", (0.1, 0.9))
     shapes = dict.fromkeys(spans, shape)
     if len(shape) == 2:
         shapes |= {"a": (shape[0], 1), "b": (1, shape[1]), "n": (1, shape[1])}

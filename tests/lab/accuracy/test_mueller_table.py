@@ -84,6 +84,15 @@ def element(does, n=1.0, k=0.0, outside=1.0, incidence=0.0, tan_incidence=None, 
         return op.Interface(complex(n, k) if k else n, radians, outside=outside)
     if does.endswith("by layers"):
         return op.LayerStack([complex(*pair) for pair in rest["indices"]], radians)
+    if does.endswith("polarizing beam splitter"):
+        return op.PolarizingBeamSplitter(**rest)
+    if does == "faraday rotator":
+        return op.FaradayRotator(**rest)
+    if does == "waveplate":
+        thickness, wavelength = (f"{rest[name]} um" for name in ("thickness", "wavelength"))
+        return op.Waveplate(thickness, rest["birefringence"], wavelength, turned)
+    if does == "circular polarizer":
+        return op.CircularPolarizer("right" if rest.pop("handedness") > 0 else "left", **rest)
     if does == "polarizer":
         return op.Polarizer(turned, **rest)
     if does == "retarder":
@@ -95,7 +104,8 @@ def element(does, n=1.0, k=0.0, outside=1.0, incidence=0.0, tan_incidence=None, 
 def test_elements_have_the_matrices_of_the_table(name):
     found = np.eye(4)
     for step in MATRICES[name]["steps"]:
-        way = "transmitted" if step["does"].startswith("transmission") else None
+        splits = "beam splitter" in step["does"]
+        way = "transmitted" if step["does"].startswith("transmission") else splits and "reflected"
         met = element(**step)
         part = met.mueller("in", way) if way else met.mueller()
         found = part.matrix @ found

@@ -18,6 +18,10 @@ ELEMENTS = [
     op.Depolarizer(0.3),
     op.Medium(0.2, 0.7, rotation=-np.radians(66.5)),
     op.Medium(op.Parameter("l", 1e-3, minimum=0.0), 12.3, retardance=97.3, angle=0.1, azimuth=0.2),
+    op.FaradayRotator(-0.3),
+    op.FaradayRotator(verdet=-134.0, field=-op.Parameter("b", "5 mT", unit="mT"), length=0.02),
+    op.CircularPolarizer("left", 0.9, op.Parameter("leakage")),
+    op.Waveplate(op.Parameter("d", "1 mm"), 0.0091, np.array([5e-7, 6e-7]), 0.1, azimuth=0.2),
     op.Medium(0.1, op.Parameter("a", [1.0, 2.0], unit="1/m"), rotation=op.Parameter("b")),
 ]
 

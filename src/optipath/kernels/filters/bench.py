@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 _TURN, _REST_OF_TURN = 2.0 * math.pi, 2.4492935982947064e-16
 """2 pi as the sum of two floats."""
 
-_LARGE = 1e30
-"""An extinction ratio r from where on r - 1 is r in any precision."""
+INFINITE = 1e30
+"""The extinction ratio from which on nothing is left, and r - 1 is r in any precision."""
 
 
 def faraday_rotation(xp: Primitives) -> KernelFunction:
@@ -64,46 +64,40 @@ def _without_trace(xp: Primitives) -> Callable[[Any, Any], Any]:
 
 def polarizing_reflection(xp: Primitives) -> KernelFunction:
     """Make ``(Tp/Ts, Rs/Rp) -> (Fs, Fp, B, C, S)`` of what is reflected, r_p = -r_s in phase."""
-    share, kept, sqrt = _share(xp), _kept(xp), xp.sqrt
+    shared = _shared(xp)
 
     def reflect(of_transmitted: Any, of_reflected: Any) -> tuple[Any, ...]:
-        s = share(of_transmitted, of_reflected)
-        p = s / of_reflected
-        return s, p, 0.5 * s * kept(of_reflected), -s / sqrt(of_reflected), 0.0
+        s, p, half, across = shared(of_reflected, of_transmitted)
+        return s, p, half, -across, 0.0
 
     return reflect
 
 
 def polarizing_transmission(xp: Primitives) -> KernelFunction:
     """Make ``(Tp/Ts, Rs/Rp) -> (Fs, Fp, B, C, S)`` of what is transmitted, without retardance."""
-    share, kept, sqrt = _share(xp), _kept(xp), xp.sqrt
+    shared = _shared(xp)
 
     def transmit(of_transmitted: Any, of_reflected: Any) -> tuple[Any, ...]:
-        p = share(of_reflected, of_transmitted)
-        s = p / of_transmitted
-        return s, p, -0.5 * p * kept(of_transmitted), p / sqrt(of_transmitted), 0.0
+        p, s, half, across = shared(of_transmitted, of_reflected)
+        return s, p, -half, across, 0.0
 
     return transmit
 
 
-def _share(xp: Primitives) -> Callable[[Any, Any], Any]:
-    """Make ``(t, r) -> (1 - 1/t) / (1 - 1/(r t))``: Rs without loss, Ts + Rs = Tp + Rp = 1."""
-    kept = _kept(xp)
+def _shared(xp: Primitives) -> KernelFunction:
+    """Make ``(r, t) -> (Rs, Rp, (Rs - Rp) / 2, sqrt(Rs Rp))``; of ``(t, r)``, Tp and Ts so.
 
-    def share(t: Any, r: Any) -> Any:
-        most = kept(t)
-        # The divisor as a sum of what is not negative.
-        return most / (most + kept(r) / t)
+    Without loss, Ts + Rs = Tp + Rp = 1: Rs = (1 - 1/t) / (1 - 1/(r t)) and Rp = Rs / r.
+    """
+    sqrt, where, minimum = xp.sqrt, xp.where, xp.minimum
 
-    return share
+    def shared(r: Any, t: Any) -> tuple[Any, ...]:
+        one, other = minimum(r, INFINITE), minimum(t, INFINITE)
+        leak = where(r < INFINITE, 1.0 / one, 0.0)
+        kept, of_other = ((ratio - 1.0) / ratio for ratio in (one, other))
+        # 1 - 1/(r t), as a sum of what is not negative.
+        most = of_other / (of_other + kept * where(t < INFINITE, 1.0 / other, 0.0))
+        across = where(r < INFINITE, 1.0 / sqrt(one), 0.0)
+        return most, most * leak, 0.5 * most * kept, most * across
 
-
-def _kept(xp: Primitives) -> Callable[[Any], Any]:
-    """Make ``ratio -> 1 - 1 / ratio`` with all its digits, of an infinite one as well."""
-    minimum = xp.minimum
-
-    def kept(ratio: Any) -> Any:
-        finite = minimum(ratio, _LARGE)
-        return (finite - 1.0) / finite
-
-    return kept
+    return shared

@@ -38,6 +38,14 @@ CONVENTION = {
     "default",
     "retarder": "angle is its fast axis; the slow component gains exp(+i retardance)",
     "rotator": "turns light from x towards y by angle",
+    "faraday rotator": "turns light from x towards y by verdet * field * length radians; verdet "
+    "in rad/(T m), field in T along the light, length in m",
+    "waveplate": "a retarder of 360 * thickness * birefringence / wavelength degrees, both lengths "
+    "in um",
+    "circular polarizer": "handedness 1 lets S3 > 0 through, -1 S3 < 0; transmittance of it, 1 by "
+    "default, leakage of the other, 0 by default",
+    "polarizing beam splitter": "without loss, x = s; extinction_transmitted is Tp / Ts, "
+    "extinction_reflected Rs / Rp; r_p and r_s of unlike sign, t_p and t_s of like sign",
     "turned frame": "the same light in a frame turned from x towards y by angle",
     "steps": "in the order in which light meets them; frame_in is that of the first step, and "
     "frame_out that of the last",
@@ -59,6 +67,7 @@ _TRANSPARENT = {
     "glass": ("0", "30", _BREWSTER, "75", "89.99"),
     "from glass": ("0", "20", "41", "60"),
 }
+_CUBE = {"extinction_transmitted": "1000", "extinction_reflected": "20"}
 _FILTERS: tuple[Step, ...] = (
     *(("polarizer", {"angle": angle}) for angle in ("0", "30", "45", "90", "-70")),
     ("polarizer", {"angle": "20", "transmittance": "0.9", "leakage": "0.2"}),
@@ -67,6 +76,18 @@ _FILTERS: tuple[Step, ...] = (
     ("retarder", {"retardance": "35", "angle": "-50"}),
     *(("rotator", {"angle": angle}) for angle in ("30", "-12.5")),
     ("turned frame", {"angle": "30"}),
+    ("faraday rotator", {"verdet": "-134", "field": "0.25", "length": "0.02"}),
+    (
+        "waveplate",
+        {"thickness": "17.5", "birefringence": "0.0091", "wavelength": "0.55", "angle": "20"},
+    ),
+    (
+        "waveplate",
+        {"thickness": "2.5", "birefringence": "-0.172", "wavelength": "0.59", "angle": "0"},
+    ),
+    ("circular polarizer", {"handedness": "1"}),
+    ("circular polarizer", {"handedness": "-1", "transmittance": "0.9", "leakage": "0.2"}),
+    *((f"{way} by a polarizing beam splitter", _CUBE) for way in ("reflection", "transmission")),
 )
 _AIR, _PANE = ("1", "0"), ("1.5", "0")
 _STACKS = {

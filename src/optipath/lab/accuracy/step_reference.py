@@ -87,6 +87,44 @@ def _rotator(values: Values) -> list[list[Any]]:
     return _of_jones(turn(-_degrees(values["angle"])))
 
 
+def _faraday_rotator(values: Values) -> list[list[Any]]:
+    factors = (mpmath.mpf(values[name]) for name in ("verdet", "field", "length"))
+    return _of_jones(turn(-mpmath.fprod(factors)))
+
+
+def _waveplate(values: Values) -> list[list[Any]]:
+    names = "thickness", "birefringence", "wavelength"
+    thickness, birefringence, wavelength = (mpmath.mpf(values[name]) for name in names)
+    retardance = 360 * thickness * birefringence / wavelength
+    return _retarder({**values, "retardance": retardance})
+
+
+def _circular_polarizer(values: Values) -> list[list[Any]]:
+    through = values.get("transmittance", "1"), values.get("leakage", "0")
+    t, leakage = (mpmath.mpf(part) for part in through)
+    sign = mpmath.mpf(values["handedness"])
+    mean, half, across = (t + leakage) / 2, sign * (t - leakage) / 2, mpmath.sqrt(t * leakage)
+    return [[mean, 0, 0, half], [0, across, 0, 0], [0, 0, across, 0], [half, 0, 0, mean]]
+
+
+def _polarizing_reflection(values: Values) -> list[list[Any]]:
+    u, v = _leaks(values)
+    s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
+    return _of_jones(((mpmath.sqrt(s), 0), (0, -mpmath.sqrt(p))))
+
+
+def _polarizing_transmission(values: Values) -> list[list[Any]]:
+    u, v = _leaks(values)
+    s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
+    return _of_jones(((mpmath.sqrt(s), 0), (0, mpmath.sqrt(p))))
+
+
+def _leaks(values: Values) -> tuple[Any, Any]:
+    names = "extinction_transmitted", "extinction_reflected"
+    u, v = (1 / mpmath.mpf(values[name]) for name in names)
+    return u, v
+
+
 def _turned_frame(values: Values) -> list[list[Any]]:
     return _of_jones(turn(_degrees(values["angle"])))
 
@@ -100,6 +138,11 @@ STEPS = {
     "retarder": _retarder,
     "rotator": _rotator,
     "turned frame": _turned_frame,
+    "faraday rotator": _faraday_rotator,
+    "waveplate": _waveplate,
+    "circular polarizer": _circular_polarizer,
+    "reflection by a polarizing beam splitter": _polarizing_reflection,
+    "transmission by a polarizing beam splitter": _polarizing_transmission,
 }
 """What there is by its word: a function of the values, which returns the rows of a matrix."""
 

@@ -84,6 +84,10 @@ ELEMENTS = {
     "rotator": {"angle": "1 deg"},
     "attenuator": {"transmittance": 0.5},
     "depolarizer": {},
+    "faraday-rotator": {"verdet": "1 rad/(T m)", "field": "1 T", "length": "1 mm"},
+    "circular-polarizer": {"handedness": "left"},
+    "polarizing-beam-splitter": {"extinction_transmitted": 1000},
+    "waveplate": {"thickness": "1 mm", "birefringence": 0.01, "wavelength": "589 nm"},
 }
 
 
