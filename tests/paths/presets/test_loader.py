@@ -272,3 +272,29 @@ def test_a_folder_is_no_preset(tmp_path):
     folder.mkdir()
     with pytest.raises(op.PresetError, match="cannot be read"):
         op.load_preset(folder)
+
+
+@pytest.mark.parametrize("case", ["crown", "flint", "brewster"])
+def test_a_prism_at_minimum_deviation_lets_through_what_fresnels_equations_say(case):
+    path = op.load_preset("prism-refraction", case=case)
+    apex, n = (path.parameters[name].default for name in ("apex", "n"))
+    inside, outside = np.cos(apex / 2), np.sqrt(1.0 - (n * np.sin(apex / 2)) ** 2)
+    # Both faces let through 4 p q / (p + q)^2, with q = n cos for s and cos / n for p.
+    s = (4.0 * n * inside * outside / (outside + n * inside) ** 2) ** 2
+    p = (4.0 * n * inside * outside / (n * outside + inside) ** 2) ** 2
+    expected = [0.5 * (s + p), 0.5 * (s - p), 0.0, 0.0]
+    np.testing.assert_allclose(path.trace().stokes, expected, rtol=0, atol=1e-15)
+    if case == "brewster":
+        assert p == pytest.approx(1.0, abs=1e-15), "all of p gets through"
+
+
+def test_a_prism_by_its_points_is_the_same():
+    apex, n = np.radians(60.0), 1.5
+    # It stands on its base, along which light runs inside; outside it is turned down on both sides.
+    half = 0.5 * (2.0 * np.arcsin(n * np.sin(apex / 2)) - apex)
+    away = [np.cos(half), 0.0, -np.sin(half)]
+    points = [[-1 - away[0], 0, away[2]], [-1, 0, 0], [1, 0, 0], [1 + away[0], 0, away[2]]]
+    faces = [[-np.cos(apex / 2), 0, np.sin(apex / 2)], [np.cos(apex / 2), 0, np.sin(apex / 2)]]
+    chain = op.path_from_vertices(points, [n, 1.0], faces, events="TT")
+    expected = op.load_preset("prism-refraction").trace(apex=apex, n=n).stokes
+    np.testing.assert_allclose(chain.trace().stokes, expected, rtol=0, atol=1e-15)

@@ -20,6 +20,7 @@ from optipath.elements.mirror import Mirror
 from optipath.elements.mueller_element import MuellerElement
 from optipath.elements.polarizer import Polarizer
 from optipath.elements.polarizing_beam_splitter import PolarizingBeamSplitter
+from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.specular_vertex import SpecularVertex
@@ -80,6 +81,20 @@ def _(element: SpecularVertex, _: Coupling, read: Reader) -> Jones:
     cos, sin = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
     m = read.index(element.index) / read.index(element.outside).real
     return boundary(m, *cos_sin(read.move(mpmath.atan2(sin, cos), 1))).reflected
+
+
+@jones.register
+def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
+    points = element.in_chain.points_around()
+    half, across = points.given_to(INCIDENCE).numbers(MANY_DIGITS, read.exact)
+    c, s = cos_sin(read.move(2 * mpmath.atan2(half, across), 1))
+    before, behind = read.index(element.outside).real, read.index(element.index).real
+    if before == behind:
+        return _diagonal(1, 1)
+    # By n1 sin t = n2 sin(t -+ turned), which is Snell's law.
+    side = 1 if behind > before else -1
+    incidence = mpmath.atan2(behind * s, side * (behind * c - before))
+    return boundary(behind / before, *cos_sin(incidence)).transmitted
 
 
 @jones.register
