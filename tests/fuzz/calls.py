@@ -23,6 +23,7 @@ _PLAUSIBLE = [
     *(
         "op.load_preset('malus')",
         "op.Polarizer(0.3)",
+        "op.Mirror()",
         "op.Detector()",
         "op.Frame([1, 0, 0], [0, 1, 0])",
     ),
@@ -65,16 +66,20 @@ def _called(function, places, values):
 def _made():
     """Return what can be called, on objects of its own, since some calls alter them."""
     path, matrix = op.load_preset("npgr026"), op.Polarizer(0.3).mueller()
-    light, plan, plate = path.trace(), path.compose(), op.Retarder(1.0, op.Parameter("angle"))
+    light, plan = path.trace(), path.compose()
     functions = [getattr(op, name) for name in op.__all__]
     found = {
         f"op.{function.__name__}": function
         for function in functions
         if inspect.isfunction(function) or function in _CLASSES
     }
-    things = {"path": path, "plan": plan, "light": light, "matrix": matrix, "plate": plate}
-    for label, thing in things.items():
+    for label, thing in {"path": path, "plan": plan, "light": light, "matrix": matrix}.items():
         for name in dir(type(thing)):
             if name[0] != "_" and name != "of" and callable(getattr(type(thing), name)):
                 found[f"{label}.{name}"] = getattr(thing, name)
-    return found
+    plate = op.Retarder(1.0, op.Parameter("angle"))
+    return found | {"plate.port_back": plate.port_back, "there_and_back": _there_and_back}
+
+
+def _there_and_back(first, last):
+    return op.there_and_back(first, last)

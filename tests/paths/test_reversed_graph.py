@@ -183,6 +183,18 @@ def test_vertices_of_one_chain_share_their_points_on_the_way_back():
     assert back.element("vertex1").vertices is back.element("vertex2").vertices
 
 
+def test_media_that_share_an_array_go_back_as_they_are():
+    several = np.array([1.5, 1.6])
+    points = [[0, 0, 0], [0, 0, 2.0], [0.0, 0.0, 4.0], [0.0, 0.0, 5.0], [0.0, 0.0, 7.0]]
+    path = op.path_from_vertices(points, [several, 1.3, several], events="TTT")
+    back = path.reversed()
+    media = [back.element(f"vertex{place}").index for place in (3, 2, 1)]
+    np.testing.assert_array_equal(media[0], 1.3)
+    np.testing.assert_array_equal(media[1], several)
+    np.testing.assert_array_equal(media[2], 1.0)
+    assert same_matrix(path)
+
+
 def test_a_chain_that_refracts_goes_back_from_its_last_medium():
     points = [[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2], [1, -2.0, -1.0]]
     path = op.path_from_vertices(points, [1.5, 0.2 + 3j, 1.0], events="TRT")

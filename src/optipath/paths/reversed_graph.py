@@ -17,7 +17,7 @@ from optipath.errors import OptipathError, PathError, listed, shown
 from optipath.kernels.carriers.own_code import called
 from optipath.paths.reversed_choices import reversed_choices
 from optipath.paths.reversed_ends import reversed_end, sources_by_name
-from optipath.values.arrays.read_only import changed
+from optipath.values.arrays.read_only import changed, same
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -117,16 +117,14 @@ class _Turning:
 
     def _share_arrays(self) -> None:
         """Let elements that share an array share its reverse: the vertices of one chain do."""
-        made: dict[Any, Any] = {}
+        made: dict[tuple[int, str], Any] = {}
         for name, back in self.elements.items():
-            fields = {
-                field: made.setdefault((id(value), field), getattr(back, field))
-                for field in back.domains()
-                if isinstance(value := getattr(self.before[name], field, None), np.ndarray)
-                and getattr(back, field) is not value
-            }
-            if any(getattr(back, field) is not value for field, value in fields.items()):
-                self.elements[name] = changed(back, **fields)
+            for field in back.domains():
+                value, there = getattr(back, field), getattr(self.before[name], field, None)
+                if isinstance(there, np.ndarray) and value is not there:
+                    shared = made.setdefault((id(there), field), value)
+                    if shared is not value and same(shared, value):
+                        self.elements[name] = changed(self.elements[name], **{field: shared})
 
     def port(self, name: str, port: str) -> str:
         """Return the port by which light leaves a node, on its way back, where it came in; or so.

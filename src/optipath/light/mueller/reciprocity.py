@@ -53,8 +53,9 @@ class HasReciprocal(KnownNoise):
 
         It is that of whatever is reciprocal: light that goes back along a frame (x, y, z) has
         (x, -y, -z), and between these frames it meets Q M^T Q, Q = diag(1, 1, -1, 1) (Sekera,
-        J. Opt. Soc. Am. 56, 1732 (1966)). What stands in a magnetic field is not, and a matrix
-        does not know: reverse the element, or the path.
+        J. Opt. Soc. Am. 56, 1732 (1966)). What stands in a magnetic field is not, nor is the power
+        that passes into a medium that absorbs, and a matrix does not know: reverse the element,
+        or the path.
 
         Returns
         -------
