@@ -178,6 +178,34 @@ def test_layers_known_to_be_lossless_are_what_they_are_without_lengths_bit_for_b
         assert not told.absorbed().any()
 
 
+def test_a_layer_is_two_interfaces_with_a_medium_between_in_a_loop():
+    m, theta, d, wavelength = 1.5 + 0.01j, 0.9, 1e-5, 500e-9
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(1.0, (1.0, 0.3, 0.4, 0.5)))
+    path.add("front", op.Interface(m, theta))
+    path.add("behind", op.Interface(1.2, op.FOLLOWS, outside=op.FOLLOWS))
+    # Along the normal, as a wave fades whose planes of constant amplitude are the faces.
+    fades = 4.0 * np.pi / wavelength * np.sqrt(m * m - np.sin(theta) ** 2).imag
+    for way in ("down", "up"):
+        path.add(way, op.Medium(d, absorption=float(fades)))
+    for name in ("reflected", "transmitted"):
+        path.add(name, op.Detector())
+    for start, end in (
+        ("lamp.out", "front.in"),
+        ("front.transmitted", "down.in"),
+        ("down.out", "behind.in"),
+        ("behind.reflected", "up.in"),
+        ("up.out", "front.back"),
+        ("front.reflected", "reflected.in"),
+        ("behind.transmitted", "transmitted.in"),
+    ):
+        path.connect(start, end)
+    stack = op.LayerStack([1.0, m, 1.2], theta, lengths=[d], wavelength=wavelength)
+    for leaves, light in path.trace_all().items():
+        expected = stack.mueller("in", leaves).matrix @ [1.0, 0.3, 0.4, 0.5]
+        np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-15)
+
+
 def test_opaque_layers_let_nothing_through_and_absorb_all_that_enters():
     stack = op.LayerStack([1.0, 1.5 + 0.3j, 1.2 + 0.01j, 1.0], 0.7, lengths=[1.0, 1.0], **WAVE)
     face = op.Interface(1.5 + 0.3j, 0.7).mueller("in", "reflected").matrix
