@@ -123,7 +123,8 @@ class Draw:
         """A path that parts and meets; every light ends in a detector or a dump.
 
         With loops, some light goes back into beam splitters that it may come from. Boundaries
-        stand at any angle, in the medium that light comes in; from one that absorbs, none goes on.
+        stand at any angle, in the medium that light comes in; of those that absorb, interfaces at
+        angles at which a wave comes out.
         """
         path, lights, splitters, media = op.PathGraph(loops="sum"), [], [], {}
         for number in range(self.rng.integers(1, 3)):
@@ -133,13 +134,13 @@ class Draw:
         for number in range(self.rng.integers(1, 9)):
             if len(lights) > 1 and self.chance(0.2):
                 path.add(f"c{number}", op.Combiner())
-                met = set()
+                met = []
                 for azimuth in (None, float(self.rng.uniform(-1, 1))):
                     light = lights.pop(self.rng.integers(len(lights)))
                     path.connect(light, f"c{number}.in", azimuth=azimuth)
-                    met.add(media[light])
+                    met.append(media[light])
                 lights.append(f"c{number}.out")
-                media[lights[-1]] = met.pop() if len(met) == 1 else None
+                media[lights[-1]] = met[0] if are_one(*met) else None
                 continue
             if loops and splitters and len(lights) > 1 and self.chance(0.5):
                 light = lights.pop(self.rng.integers(len(lights)))
@@ -161,7 +162,7 @@ class Draw:
                 is_behind = way == "transmitted" and isinstance(
                     element, op.Interface | op.LayerStack
                 )
-                media[lights[-1]] = real_index(element.index) if is_behind else media[light]
+                media[lights[-1]] = element.index if is_behind else media[light]
         readings = ["stokes", "linear", "intensity", "intensity"]
         for number, light in enumerate(lights):
             ends = op.Detector(str(self.rng.choice(readings)))
@@ -180,11 +181,29 @@ def standing_in(element, medium):
         return element
     if medium is None:
         return op.Attenuator(0.5)
-    if isinstance(element, op.Interface):
-        return replace(element, outside=medium, parallel=False)
+    if isinstance(element, op.Interface) and passes(medium):
+        angle = min(element.incidence, 1.0) if isinstance(element.incidence, float) else 0.5
+        angle = angle if absorption(medium) else element.incidence
+        return replace(element, outside=medium, incidence=angle, parallel=False)
+    if absorption(medium):
+        return op.Attenuator(0.5)
     return replace(element, indices=[medium, *element.indices[1:]], parallel=False)
 
 
-def real_index(index):
-    """The index of a medium without absorption; None for one that absorbs."""
-    return index if isinstance(index, float) else None
+def are_one(*media):
+    """Whether two media are known to be one."""
+    first, second = media
+    return isinstance(first, float) and isinstance(second, float) and first == second
+
+
+def absorption(index):
+    """The known k of a medium; that of a medium which may absorb is not 0."""
+    if isinstance(index, op.Material):
+        return index.k if isinstance(index.k, float) else np.inf
+    return np.imag(index) if isinstance(index, float | complex) else np.inf
+
+
+def passes(index):
+    """Whether a wave that carries power is known to come out of a medium at up to 1 rad."""
+    n = index.n if isinstance(index, op.Material) else np.real(index)
+    return not absorption(index) or (isinstance(n, float) and absorption(index) < 0.2 * n)

@@ -19,6 +19,7 @@ class HalfWavePlate(op.Element, kind="typed-half-wave-plate"):
 path = op.PathGraph("typed")
 lamp = path.add("lamp", op.Source(intensity=100.0, stokes=[1, 0, 0, 0]))
 glass = path.add("glass", op.Interface(index=1.5 + 0.1j, incidence=op.Parameter("theta")))
+tinted = op.Interface(1.0, 0.3, outside=1.5 + 0.01j, incidence_in=1.0)
 metal = path.add("metal", op.Interface(op.Material(0.6, 2.1), np.linspace(0, 1, 5), azimuth=0.1))
 plate = path.add("plate", HalfWavePlate(angle=-op.Parameter("angle")))
 mirror = path.add("mirror", op.Mirror(r_s=-0.97 + 0.12j, r_p=op.Parameter("r", 0.9)))

@@ -88,7 +88,7 @@ def test_kernels_agree_with_50_digits(family, method, media, angle, n0):
     with mpmath.workdps(50):
         exact = expected(*media, angle=angle, n0=n0)
         assume(exact is not None)
-        m1, m2, y, g1, g2 = waves(*media, angle, n0)
+        m1, m2, _, g1, g2 = waves(*media, angle, n0)
         # A root at a critical angle amplifies the rounding of the angle, behind and in front.
         near = min(abs(g / m) ** 2 for g, m in ((g1, m1), (g2, m2)))
         assume(near > 1e-6)

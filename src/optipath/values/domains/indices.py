@@ -111,6 +111,11 @@ class OutsideDomain(Domain):
 class LitIndexDomain(IndexDomain):
     """Complex numbers n + ik with n above 0: a medium that light comes from may absorb."""
 
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The limits of n."""
+        return _LEAST, math.inf
+
     def parts(self, name: str, value: Any) -> list[tuple[str, Any, Domain]]:
         if not isinstance(value, Material):
             return [(name, value, self)]
