@@ -13,7 +13,6 @@ from optipath.elements.coupling import Operation, numbers_of
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
 from optipath.values.domains.indices import INDEX, INDICES, OPTIONAL_OUTSIDE, InnerDomain
-from optipath.values.domains.layers import LENGTHS, LOSSY
 from optipath.values.domains.quantities import (
     Angle,
     FollowedIncidence,
@@ -23,6 +22,7 @@ from optipath.values.domains.quantities import (
     Wavelength,
     YesOrNo,
 )
+from optipath.values.domains.thick_layers import LENGTHS, LOSSY
 from optipath.values.made import not_known_sound
 from optipath.values.operands import Operand, operand_of
 

@@ -21,8 +21,8 @@ from optipath.values.domains.indices import (
     OPTIONAL_LIT_INDEX,
     OPTIONAL_OUTSIDE,
 )
-from optipath.values.domains.layers import LENGTHS, WAVELENGTH
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
+from optipath.values.domains.thick_layers import LENGTHS, WAVELENGTH
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
 from optipath.values.follows import Follows
