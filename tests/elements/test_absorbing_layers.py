@@ -1,5 +1,6 @@
 """Layers that absorb: against 50 digits, Beer and Lambert, tmm's algorithm, and energy."""
 
+import re
 from itertools import pairwise
 
 import mpmath
@@ -13,6 +14,7 @@ from chains import ENGINES
 from incoherent_stacks import exact_stack, mueller_of
 
 WAVE = {"wavelength": 500e-9}
+FILM = {"lengths": [op.Parameter("d")], **WAVE}
 OF_PANE = {"lengths": [4e-3], "wavelength": 550e-9}
 
 
@@ -20,7 +22,7 @@ def drawn(rng, *, thick):
     """Media, lengths, a wavelength and an incidence; media may be thinner than the wavelength."""
     count = rng.integers(1, 7)
     layers = [
-        complex(rng.uniform(0.9, 2.5), 10.0 ** rng.uniform(-9, -0.52) * (rng.random() < 0.7))
+        complex(rng.uniform(1.3, 2.5), 10.0 ** rng.uniform(-9, -0.52) * (rng.random() < 0.7))
         for _ in range(count)
     ]
     substrate = complex(rng.uniform(0.9, 2.5), rng.uniform(0, 3) * (rng.random() < 0.5))
@@ -308,6 +310,28 @@ def test_a_parameter_that_turns_out_to_absorb_needs_lengths_too():
     path = op.Source() >> op.LayerStack([1.0, op.Parameter("n"), 1.0], 0.5) >> op.Detector()
     with pytest.raises(op.OptipathError, match=r"give the stack the lengths .* and the wavelength"):
         path.trace(n=1.5 + 1e-6j)
+
+
+def test_a_layer_behind_total_reflection_must_be_opaque():
+    # Light would gain by the interference that intensities leave out.
+    def stack(length):
+        return op.LayerStack([1.5, 1.2 + 1e-3j, 1.5], 1.2, lengths=[length], wavelength=500e-9)
+
+    with pytest.raises(op.PathError, match=r"fades along the normal.*least ([0-9.]+) nm") as told:
+        stack(2e-8).mueller()
+    least = float(re.search(r"at least ([0-9.]+) nm", str(told.value))[1])
+    for sign in (1.0, -1.0):
+        thick = stack(f"{least} nm")
+        out = [
+            (thick.mueller("in", leaves) @ op.Light([1, sign, 0, 0]))
+            for leaves in stack(1.0).outputs
+        ]
+        assert all(light.intensity <= 1.0 for light in out)
+        assert 0.0 <= thick.absorbed([1, sign, 0, 0])[0] <= 1.0
+    path = op.Source() >> op.LayerStack([1.5, 1.2 + 1e-3j, 1.5], 1.2, **FILM) >> op.Detector()
+    with pytest.raises(op.OptipathError, match="intensities of waves do not add up"):
+        path.trace(d=2e-8)
+    assert path.trace(d=1e-5).intensity < 1.0
 
 
 def test_what_is_absorbed_is_asked_with_words():
