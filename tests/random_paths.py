@@ -79,7 +79,12 @@ class Draw:
                 return self.medium()
             case 12:
                 layers = [self.number(1, 2.5) for _ in range(self.rng.integers(1, 4))]
-                return op.LayerStack([1.0, *layers, self.index()], self.number(0, 1.5), self.turn())
+                lossy = {}
+                if isinstance(layers[0], float) and int(1e6 * layers[0]) % 2:
+                    layers[0] += 1e-5j
+                    lossy = {"lengths": [1e-3] * len(layers), "wavelength": 550e-9}
+                indices = [1.0, *layers, self.index()]
+                return op.LayerStack(indices, self.number(0, 1.5), self.turn(), **lossy)
         return op.BeamSplitter(float(self.rng.uniform(0, 1)), self.turn())
 
     def retarder(self):

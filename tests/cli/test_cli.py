@@ -414,7 +414,7 @@ def test_chart_measures_draws_and_draws_again(tmp_path, capsys):
     ("arguments", "message"),
     [
         (["chart"], "PRESET is missing"),
-        (["show"], "PRESET is missing; give a file or one of: coated-metal, "),
+        (["show"], "PRESET is missing; give a file or one of: absorbing-pile, "),
         (["chart", "--interface", "malus"], "leave it out"),
         (["chart", "--out", "x.png", "malus"], "behind the preset"),
         (["chart", "malus", "--out", "x.docx"], "ending"),

@@ -1,5 +1,6 @@
 """Layers that absorb: against 50 digits, Beer and Lambert, tmm's algorithm, and energy."""
 
+import re
 from itertools import pairwise
 
 import mpmath
@@ -13,6 +14,7 @@ from chains import ENGINES
 from incoherent_stacks import exact_stack, mueller_of
 
 WAVE = {"wavelength": 500e-9}
+FILM = {"lengths": [op.Parameter("d")], **WAVE}
 OF_PANE = {"lengths": [4e-3], "wavelength": 550e-9}
 
 
@@ -20,7 +22,7 @@ def drawn(rng, *, thick):
     """Media, lengths, a wavelength and an incidence; media may be thinner than the wavelength."""
     count = rng.integers(1, 7)
     layers = [
-        complex(rng.uniform(0.9, 2.5), 10.0 ** rng.uniform(-9, -0.52) * (rng.random() < 0.7))
+        complex(rng.uniform(1.3, 2.5), 10.0 ** rng.uniform(-9, -0.52) * (rng.random() < 0.7))
         for _ in range(count)
     ]
     substrate = complex(rng.uniform(0.9, 2.5), rng.uniform(0, 3) * (rng.random() < 0.5))
@@ -178,6 +180,34 @@ def test_layers_known_to_be_lossless_are_what_they_are_without_lengths_bit_for_b
         assert not told.absorbed().any()
 
 
+def test_a_layer_is_two_interfaces_with_a_medium_between_in_a_loop():
+    m, theta, d, wavelength = 1.5 + 0.01j, 0.9, 1e-5, 500e-9
+    path = op.PathGraph(loops="sum")
+    path.add("lamp", op.Source(1.0, (1.0, 0.3, 0.4, 0.5)))
+    path.add("front", op.Interface(m, theta))
+    path.add("behind", op.Interface(1.2, op.FOLLOWS, outside=op.FOLLOWS))
+    # Along the normal, as a wave fades whose planes of constant amplitude are the faces.
+    fades = 4.0 * np.pi / wavelength * np.sqrt(m * m - np.sin(theta) ** 2).imag
+    for way in ("down", "up"):
+        path.add(way, op.Medium(d, absorption=float(fades)))
+    for name in ("reflected", "transmitted"):
+        path.add(name, op.Detector())
+    for start, end in (
+        ("lamp.out", "front.in"),
+        ("front.transmitted", "down.in"),
+        ("down.out", "behind.in"),
+        ("behind.reflected", "up.in"),
+        ("up.out", "front.back"),
+        ("front.reflected", "reflected.in"),
+        ("behind.transmitted", "transmitted.in"),
+    ):
+        path.connect(start, end)
+    stack = op.LayerStack([1.0, m, 1.2], theta, lengths=[d], wavelength=wavelength)
+    for leaves, light in path.trace_all().items():
+        expected = stack.mueller("in", leaves).matrix @ [1.0, 0.3, 0.4, 0.5]
+        np.testing.assert_allclose(light.stokes, expected, rtol=0, atol=1e-15)
+
+
 def test_opaque_layers_let_nothing_through_and_absorb_all_that_enters():
     stack = op.LayerStack([1.0, 1.5 + 0.3j, 1.2 + 0.01j, 1.0], 0.7, lengths=[1.0, 1.0], **WAVE)
     face = op.Interface(1.5 + 0.3j, 0.7).mueller("in", "reflected").matrix
@@ -280,6 +310,28 @@ def test_a_parameter_that_turns_out_to_absorb_needs_lengths_too():
     path = op.Source() >> op.LayerStack([1.0, op.Parameter("n"), 1.0], 0.5) >> op.Detector()
     with pytest.raises(op.OptipathError, match=r"give the stack the lengths .* and the wavelength"):
         path.trace(n=1.5 + 1e-6j)
+
+
+def test_a_layer_behind_total_reflection_must_be_opaque():
+    # Light would gain by the interference that intensities leave out.
+    def stack(length):
+        return op.LayerStack([1.5, 1.2 + 1e-3j, 1.5], 1.2, lengths=[length], wavelength=500e-9)
+
+    with pytest.raises(op.PathError, match=r"fades along the normal.*least ([0-9.]+) nm") as told:
+        stack(2e-8).mueller()
+    least = float(re.search(r"at least ([0-9.]+) nm", str(told.value))[1])
+    for sign in (1.0, -1.0):
+        thick = stack(f"{least} nm")
+        out = [
+            (thick.mueller("in", leaves) @ op.Light([1, sign, 0, 0]))
+            for leaves in stack(1.0).outputs
+        ]
+        assert all(light.intensity <= 1.0 for light in out)
+        assert 0.0 <= thick.absorbed([1, sign, 0, 0])[0] <= 1.0
+    path = op.Source() >> op.LayerStack([1.5, 1.2 + 1e-3j, 1.5], 1.2, **FILM) >> op.Detector()
+    with pytest.raises(op.OptipathError, match="intensities of waves do not add up"):
+        path.trace(d=2e-8)
+    assert path.trace(d=1e-5).intensity < 1.0
 
 
 def test_what_is_absorbed_is_asked_with_words():

@@ -12,7 +12,7 @@ from optipath.composer.one_plane import OnePlane
 from optipath.composer.same_medium import SameMedium
 from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
-from optipath.elements.arriving_wave import ArrivingWave, arriving_waves
+from optipath.elements.arriving_wave import arriving_waves
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
@@ -150,7 +150,7 @@ class Media:
             yield from element.agreements(name)
 
     @property
-    def _arriving(self) -> Iterator[ArrivingWave]:
+    def _arriving(self) -> Iterator[Agreement]:
         """What must hold of light that comes out of media that absorb."""
         for name, port in sorted(self.meetings.wiring.lit):
             yield from arriving_waves(name, self.elements[name], port)

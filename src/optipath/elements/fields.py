@@ -11,8 +11,8 @@ from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import INDEX, INDICES
-from optipath.values.domains.layer_values import LENGTH_OF_LAYER, LENGTHS
 from optipath.values.domains.quantities import REAL, YES_OR_NO
+from optipath.values.domains.thick_layers import LENGTH_OF_LAYER, LENGTHS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

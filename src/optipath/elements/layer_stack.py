@@ -10,10 +10,10 @@ import numpy as np
 from optipath.elements.absorbed_alone import absorbed_alone
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
+from optipath.elements.fading_layer import FadingLayer
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
 from optipath.values.domains.indices import INDEX, INDICES, OPTIONAL_OUTSIDE, InnerDomain
-from optipath.values.domains.layer_values import LENGTHS, LOSSY
 from optipath.values.domains.quantities import (
     Angle,
     FollowedIncidence,
@@ -23,6 +23,8 @@ from optipath.values.domains.quantities import (
     OptionalWavelength,
     YesOrNo,
 )
+from optipath.values.domains.thick_layers import LENGTHS, LOSSY
+from optipath.values.follows import FOLLOWS
 from optipath.values.made import not_known_sound
 from optipath.values.operands import Operand, operand_of
 
@@ -63,6 +65,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         absorb need them: down once through a layer the intensity falls by
         exp(-4 pi Im(g) length / wavelength), g = sqrt(m^2 - (n0 sin(incidence))^2), along the
         slanted way that light takes in it (Byrnes, arXiv:1603.02720). Others take no notice.
+        A layer in which light fades faster than it goes on must be all but opaque.
     wavelength : float, array_like or Parameter, optional
         The wavelength in vacuum, in metres, 1e-12 to 1e-3; needed where a layer absorbs.
 
@@ -152,6 +155,18 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         """
         found = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
         return found[..., ::-1] if enters == "back" else found
+
+    def agreements_within(self, owner: str) -> Iterator[FadingLayer]:
+        """Yield what must hold of the layers that may absorb."""
+        incidence, measured = self.measured
+        if incidence is FOLLOWS or measured is FOLLOWS:
+            return  # What it takes over is looked at.
+        n0, lengths = numbers_of(measured, INDEX)[0], self.lengths
+        pairs = [numbers_of(index, INDEX) for index in self._media]
+        for place in self._absorbing(pairs):
+            assert lengths is not None  # noqa: S101 - without, none is known to absorb
+            given = (*pairs[place], lengths[place - 1], self.wavelength, n0, incidence)
+            yield FadingLayer(tuple(map(operand_of, given)), f"{owner}.indices[{place}]")
 
     def _operation(self, wanted: str, enters: str) -> Operation:
         """Return what the stack does to light from one side."""

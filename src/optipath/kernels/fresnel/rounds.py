@@ -63,14 +63,34 @@ class Side(NamedTuple):
 
 
 class Parts(NamedTuple):
-    """What a boundary does to some parts of light, from in front and from behind."""
+    """What a boundary does to some parts of light.
+
+    Attributes
+    ----------
+    reflected : Rows
+        What is reflected, the same from either side.
+    sides : tuple of Side
+        What becomes of light from in front, and from behind.
+    """
 
     reflected: Rows
     sides: tuple[Side, Side]
 
 
 def along(face: Face, part: int) -> Parts:
-    """Return what a boundary does to the intensity along s, or along p."""
+    """Return what a boundary does to the intensity along s, or along p.
+
+    Parameters
+    ----------
+    face : Face
+        The boundary.
+    part : int
+        0 for s, 1 for p.
+
+    Returns
+    -------
+    Parts
+    """
 
     def side(passed: tuple[Any, ...], beside: tuple[Any, Any] | None) -> Side:
         T = passed[part]
@@ -88,6 +108,19 @@ def across(xp: Primitives, face: Face, sign: Any) -> Parts:
 
     What is left of 1 when C and that of the other side are taken away is the sum of what each
     leaves of (Fs + Fp) / 2, which is not computed as a difference where C is near to that.
+
+    Parameters
+    ----------
+    xp : Primitives
+        What is computed with.
+    face : Face
+        The boundary.
+    sign : float or array_like
+        1, or -1 where light is turned over at each reflection.
+
+    Returns
+    -------
+    Parts
     """
     Fs, Fp, B, *turned = face.reflected
     C, S = (sign * number for number in turned)

@@ -39,6 +39,7 @@ from optipath.lab.accuracy.boundary_reference import (
     stack,
 )
 from optipath.lab.accuracy.exact_values import Reader
+from optipath.lab.accuracy.layers_reference import absorbing_stack
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, mpmath
 from optipath.lab.accuracy.medium_reference import elliptical_retarder, medium
 
@@ -257,9 +258,19 @@ def _(element: LayerStack, way: Coupling, read: Reader) -> list[list[Any]]:
     before = indices[0] if element.incidence_in is None else read.index(element.incidence_in)
     if way.enters == "back":
         indices.reverse()
+    if any(index.imag for index in indices[1:-1]):
+        return absorbing_stack(
+            indices, _depths(element, way, read), before.real * angle[1], way=way.reflects
+        )
     if indices[0] is not before:
         angle = refracted(before.real / indices[0].real, angle[1])
     return stack(indices, *angle, back=False, way=way.reflects)
+
+
+def _depths(stack: LayerStack, way: Coupling, read: Reader) -> list[Any]:
+    wavelength = read.real(stack.wavelength)
+    depths = [4 * mpmath.pi * read.real(length) / wavelength for length in stack.lengths or ()]
+    return depths[::-1] if way.enters == "back" else depths
 
 
 @mueller.register

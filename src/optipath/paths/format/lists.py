@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import PresetError, shown
 from optipath.paths.format.faults import Faults
 from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, IndicesDomain
-from optipath.values.domains.layer_values import LENGTH_OF_LAYER, LengthsDomain
+from optipath.values.domains.thick_layers import LENGTH_OF_LAYER, LengthsDomain
 from optipath.values.follows import FOLLOWS
 
 if TYPE_CHECKING:

@@ -24,9 +24,9 @@ from optipath.values.domains.indices import (
     OPTIONAL_LIT_INDEX,
     OPTIONAL_OUTSIDE,
 )
-from optipath.values.domains.layer_values import LENGTHS
 from optipath.values.domains.optional import OptionalDomain
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
+from optipath.values.domains.thick_layers import LENGTHS
 from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.domains.yes_no import YesNo
 from optipath.values.follows import Follows
