@@ -60,4 +60,7 @@ preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
 chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
 in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(delta=0.1).frame
+ended = op.path_from_vertices(
+    np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
+)
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)

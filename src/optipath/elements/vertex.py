@@ -124,6 +124,11 @@ class Vertex(ChainVertex, kind="vertex"):
         return (EventFits(given, owner),)
 
     @property
+    def event_here(self) -> Operand:
+        """What happens at this vertex."""
+        return self._event(self.place - 1)
+
+    @property
     def _events(self) -> tuple[Operand, ...]:
         """What happens at each vertex up to this one."""
         return tuple(self._event(place) for place in range(self.place))
@@ -135,4 +140,4 @@ class Vertex(ChainVertex, kind="vertex"):
     def _given(self) -> tuple[Any, Any, Any, Any]:
         """The event here, n in front, and n and k behind."""
         n, k = numbers_of(self.index, self.domains()["index"])
-        return self._event(self.place - 1), self.front, n, k
+        return self.event_here, self.front, n, k

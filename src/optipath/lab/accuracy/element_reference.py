@@ -21,11 +21,14 @@ from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.specular_vertex import SpecularVertex
+from optipath.elements.vertex import Vertex
 from optipath.errors import PathError
 from optipath.kernels.catalogue import INCIDENCE
+from optipath.kernels.geometry.events import Event
 from optipath.lab.accuracy.boundary_reference import Jones, boundary, refracted, stack
 from optipath.lab.accuracy.exact_values import Reader
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, mpmath
+from optipath.values.made import checked_later
 
 if TYPE_CHECKING:
     from optipath.elements.element import Element
@@ -91,6 +94,18 @@ def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
     side = 1 if behind > before else -1
     incidence = mpmath.atan2(behind * s, side * (behind * c - before))
     return boundary(behind / before, *cos_sin(incidence)).transmitted
+
+
+@jones.register
+def _(element: Vertex, way: Coupling, read: Reader) -> Jones:
+    event = float(read.exact(element.event_here))
+    if event == Event.BEHIND:
+        return _diagonal(1, 1)
+    kind = SpecularVertex if event == Event.REFLECTS else RefractingVertex
+    at = element.vertices, element.place, element.outside, element.in_chain.count
+    with checked_later():  # Other chains have other events.
+        alike = kind(element.index, *at, "mask")
+    return jones(alike, way, read)  # type: ignore[return-value]
 
 
 @jones.register
