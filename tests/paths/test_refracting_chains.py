@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import optipath as op
-from chains import COMPILED, ENGINES
+from chains import COMPILED, ENGINES, random_rotation
 from histories import (
     coherency,
     exact_coherency,
@@ -53,6 +55,22 @@ def test_a_history_is_that_of_50_digits(seed):
     np.testing.assert_allclose(light.stokes, exact, rtol=0, atol=1e-13 * exact[0])
     known = [float(part) for part in exact_lights(path)["eye"].stokes]
     np.testing.assert_allclose(known, exact, rtol=0, atol=1e-13 * exact[0])
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 10**6), st.text("RT", min_size=1, max_size=8))
+def test_no_history_makes_light_brighter_or_more_than_polarised_and_none_knows_its_world(
+    seed, events
+):
+    points, _, materials = random_histories(seed, events, 20)
+    light = op.path_from_vertices(points, materials, events=events).trace()
+    assert np.all(light.intensity <= 1.0 + 1e-14)
+    assert np.all(light.dop[light.intensity > 1e-9] <= 1.0 + 1e-9)
+    rotation = random_rotation(np.random.default_rng(seed))
+    turned = op.path_from_vertices(points @ rotation.T, materials, events=events).trace()
+    np.testing.assert_allclose(turned.intensity, light.intensity, rtol=1e-9, atol=1e-13)
+    moved = turned.in_frame(light.frame.rotated(rotation))
+    np.testing.assert_allclose(moved.stokes, light.stokes, rtol=0, atol=1e-10)
 
 
 def test_the_frame_of_the_light_is_across_the_last_plane_of_incidence():

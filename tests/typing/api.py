@@ -60,6 +60,9 @@ preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
 chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
 in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(delta=0.1).frame
+down = [[0, 0, 1], [0, 0, 0], [0, 0, -1]]
+through: op.PathGraph = op.path_from_vertices(down, [1.5], events="T", outside=1.0)
+water: op.Element = op.RefractingVertex(1.33, down, place=1, count=1)
 ended = op.path_from_vertices(
     np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
 )

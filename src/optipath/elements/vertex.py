@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.event_domain import Events, EventsDomain
 from optipath.elements.vertices.event_fits import EventFits
 from optipath.elements.vertices.place import PlaceInChain
@@ -118,7 +119,8 @@ class Vertex(ChainVertex, kind="vertex"):
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that light can go so from point to point, unless that is masked."""
-        if self.bad == "mask" or self.front is FOLLOWS:
+        of_angles = isinstance(self.vertices, VerticesByAngles)
+        if self.bad == "mask" or self.front is FOLLOWS or of_angles:
             return ()
         given = *map(operand_of, self._given), *self.in_chain.points_around().arguments
         return (EventFits(given, owner),)

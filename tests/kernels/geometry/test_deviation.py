@@ -98,3 +98,23 @@ def test_slopes_are_finite_along_the_normal_and_in_one_medium():
     np.testing.assert_array_equal(of_points, np.zeros((3, 3)))
     assert np.isnan(jax.jit(intensity)(1.5, down.at[2, 0].set(3.0)))
     jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
+
+
+def test_slopes_are_those_of_finite_differences():
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
+    points, step = around(0.7, 1.0, 1.5, np.random.default_rng(5)), 1e-5
+    plan = op.Composer(engine="jax").compose(
+        op.path_from_vertices(op.Parameter("p"), [op.Parameter("n")], events="T")
+    )
+
+    def polarized(p, n):
+        return plan.run(p=p, n=n).stokes[1]
+
+    slope, of_index = jax.grad(polarized, argnums=(0, 1))(points, 1.5)
+    way = np.random.default_rng(6).normal(size=(3, 3))
+    ahead, back = (polarized(points + sign * step * way, 1.5) for sign in (1.0, -1.0))
+    np.testing.assert_allclose(np.sum(slope * way), (ahead - back) / (2.0 * step), rtol=1e-7)
+    ahead, back = (polarized(points, 1.5 + sign * step) for sign in (1.0, -1.0))
+    np.testing.assert_allclose(of_index, (ahead - back) / (2.0 * step), rtol=1e-7)
+    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto

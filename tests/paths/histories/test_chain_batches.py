@@ -142,8 +142,10 @@ def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax, unlike):
         np.testing.assert_array_equal(slopes[chain, length + 2 :], 0.0)
 
 
-def test_histories_can_be_written_to_a_file_and_read_again():
+def test_histories_can_be_written_to_a_file_and_read_again(tmp_path):
     batch = random_batch(8, 3, several=3, each=2)
     for path in (path_of(batch), path_of(batch, bad="mask")):
-        again = op.PathGraph.from_toml(path.to_toml())
+        file = tmp_path / "histories.toml"
+        file.write_text(path.to_toml(), "utf-8")
+        again = op.load_preset(file)
         np.testing.assert_array_equal(again.trace().stokes, path.trace().stokes)
