@@ -71,7 +71,7 @@ class ChainVertex(MediaOfBoundary, Element):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number; which vertex this is, is none."""
         for name, domain in self.domains().items():
-            if name not in ("place", self.in_chain.counted_by, "bad"):
+            if name not in ("place", self.in_chain.counted_by):
                 yield from self.domain_here(domain).parts(name, getattr(self, name))
 
     def domain_here(self, domain: Domain) -> Domain:
