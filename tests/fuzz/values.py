@@ -12,7 +12,7 @@ _ELEMENTS = sorted(
     {made for made in KINDS.values() if made.__module__.startswith("optipath.")},
     key=lambda made: made.__name__,
 )
-_LEFT_OUT = ("RefractingVertex", "SpecularVertex")  # stand in chains alone
+_LEFT_OUT = ("RefractingVertex", "SpecularVertex", "Vertex")  # stand in chains alone
 
 
 def make(rng):

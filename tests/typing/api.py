@@ -80,4 +80,7 @@ in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(de
 down = [[0, 0, 1], [0, 0, 0], [0, 0, -1]]
 through: op.PathGraph = op.path_from_vertices(down, [1.5], events="T", outside=1.0)
 water: op.Element = op.RefractingVertex(1.33, down, place=1, count=1)
+ended = op.path_from_vertices(
+    np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
+)
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)

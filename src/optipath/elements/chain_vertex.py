@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 from optipath.elements.element import Element
 from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.reversing import with_values
+from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.frame import VertexFrame
 from optipath.elements.vertices.place import same_points
 from optipath.elements.vertices.vertex_domain import Vertices, VerticesDomain
@@ -56,7 +57,7 @@ class ChainVertex(MediaOfBoundary, Element):
     def __post_init__(self) -> None:
         """Check besides that there is such a place in the chain."""
         super().__post_init__()
-        refuse(self.in_chain.faults(type(self).__name__))
+        refuse(self._place_faults(type(self).__name__))
 
     @property
     def in_chain(self) -> PlaceInChain:
@@ -71,7 +72,7 @@ class ChainVertex(MediaOfBoundary, Element):
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
         """Yield every value that is a number; which vertex this is, is none."""
         for name, domain in self.domains().items():
-            if name not in ("place", self.in_chain.counted_by, "bad"):
+            if name not in ("place", self.in_chain.counted_by):
                 yield from self.domain_here(domain).parts(name, getattr(self, name))
 
     def domain_here(self, domain: Domain) -> Domain:
@@ -119,4 +120,12 @@ class ChainVertex(MediaOfBoundary, Element):
         found = []
         if frames:
             found.append(f"'{owner}' has its frames from its vertices; give it no other frames")
-        return [*found, *self.in_chain.faults(owner)]
+        return [*found, *self._place_faults(owner)]
+
+    def _place_faults(self, owner: str) -> list[str]:
+        found = self.in_chain.faults(owner)
+        if self.refracts and isinstance(self.vertices, VerticesByAngles):
+            found.append(
+                f"{owner}.vertices are angles, which say reflections alone; give the points"
+            )
+        return found

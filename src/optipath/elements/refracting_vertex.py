@@ -20,10 +20,8 @@ from optipath.values.materials import Material
 from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
     from typing import Any
 
-    from optipath.light.frames import Frame
     from optipath.values.agreement import Agreement
 
 
@@ -81,7 +79,6 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
         """Check besides that the points are those of a refraction."""
         super().__post_init__()
         name = type(self).__name__
-        refuse(self._angle_faults(name))
         if not is_checked_later():
             known = [law for law in self.agreements(name) if not law.is_open]
             refuse([fault for law in known if (fault := law.fault())])
@@ -121,14 +118,6 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
         media = operand_of(self.front), operand_of(self._behind)
         return (SnellAtVertex((*media, *self.in_chain.points_around().arguments), owner),)
 
-    def frame_faults(self, owner: str, frames: Mapping[str, Frame]) -> list[str]:
-        return [*super().frame_faults(owner, frames), *self._angle_faults(owner)]
-
     @property
     def _behind(self) -> Any:
         return self.index.n if isinstance(self.index, Material) else self.index
-
-    def _angle_faults(self, owner: str) -> list[str]:
-        if not isinstance(self.vertices, VerticesByAngles):
-            return []
-        return [f"{owner}.vertices are angles, which say reflections alone; give the points"]

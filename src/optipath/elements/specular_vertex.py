@@ -7,9 +7,9 @@ from typing import ClassVar
 from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.vertices.place import PlaceInChain
-from optipath.elements.vertices.vertex_domain import Bad
+from optipath.elements.vertices.vertex_domain import Bad, Vertices
 from optipath.kernels.catalogue import INCIDENCE, REFLECTION
-from optipath.values.domains.quantities import Whole
+from optipath.values.domains.quantities import Index, OutsideIndex, Whole
 
 
 class SpecularVertex(ChainVertex, kind="specular-vertex"):
@@ -47,6 +47,10 @@ class SpecularVertex(ChainVertex, kind="specular-vertex"):
     natural: ClassVar[str] = "reflected"
     mirrored: ClassVar[tuple[str, ...]] = ()
 
+    index: Index
+    vertices: Vertices
+    place: Whole
+    outside: OutsideIndex = 1.0
     reflections: Whole | None = None
     bad: Bad = "refuse"
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.elements.chain_vertex import ChainVertex
 from optipath.elements.coupling import Coupling, Operation, numbers_of
+from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.event_domain import Events, EventsDomain
 from optipath.elements.vertices.event_fits import EventFits
 from optipath.elements.vertices.place import PlaceInChain
@@ -133,10 +134,16 @@ class Vertex(ChainVertex, kind="vertex"):
 
     def agreements(self, owner: str) -> tuple[Agreement, ...]:
         """Return that light can go so from point to point, unless that is masked."""
-        if self.bad == "mask" or self.front is FOLLOWS:
+        of_angles = isinstance(self.vertices, VerticesByAngles)
+        if self.bad == "mask" or self.front is FOLLOWS or of_angles:
             return ()
         given = *map(operand_of, self._given), *self.in_chain.points_around().arguments
         return (EventFits(given, owner),)
+
+    @property
+    def event_here(self) -> Operand:
+        """What happens at this vertex."""
+        return self._event(self.place - 1)
 
     @property
     def _events(self) -> tuple[Operand, ...]:
@@ -150,4 +157,4 @@ class Vertex(ChainVertex, kind="vertex"):
     def _given(self) -> tuple[Any, Any, Any, Any]:
         """The event here, n in front, and n and k behind."""
         n, k = numbers_of(self.index, self.domains()["index"])
-        return self._event(self.place - 1), self.front, n, k
+        return self.event_here, self.front, n, k

@@ -57,18 +57,27 @@ def path_from_vertices(
     materials : sequence of m float, complex, array_like, Material or Parameter
         The index of refraction on the other side of each surface, in order from the light. Light
         that is reflected stays in its medium; light that is refracted goes on in this one, which
-        must not absorb.
+        must not absorb. With `ids`, a palette of numbers.
     normals : array_like, shape (..., m, 3), optional
         The normals of the surfaces, of any length and to either side, to be checked: each is to
         be along that of the vertex to within 1e-6 rad, or the rounding of half precision.
     intensity : float, array_like or Parameter, optional
         Of the unpolarised light.
-    events : str, optional
+    events : str, sequence of str, or array_like of str, shape (..., m), optional
         A letter for each vertex, in order from the light: R where it is reflected, T where it is
-        refracted (let through). Without it every vertex reflects, and normals say so, or points
-        that are known: where they may as well be those of a refraction, `events` is asked for.
+        refracted (let through). One text is for all chains, several are one for each, whose
+        letters say how long it is; an array has a single letter for each vertex. Without it every
+        vertex reflects, and normals say so, or points that are known: where they may as well be
+        those of a refraction, `events` is asked for.
     outside : float, array_like, Material or Parameter, optional
         The index of the medium that the light starts in, without absorption.
+    ids : array_like of int, shape (..., m), optional
+        Which of the materials, counted from 0, is on the other side of each surface of each chain.
+    lengths : array_like of int, shape (...), optional
+        How many vertices each chain has, 1 to m. What stands behind its last point is not read;
+        its light and its frame are those of its own last leg.
+    bad : {"refuse", "mask"}, optional
+        Whether chains that cannot be are refused, or their light is NaN.
 
     Returns
     -------
@@ -96,6 +105,13 @@ def path_from_vertices(
     >>> pane = path_from_vertices(down, materials=[1.5, 1.0, 1.0, 1.0], events="TRRT")
     >>> float(pane.trace().intensity.round(9))
     0.00147456
+
+    The same, beside light that the pane reflects at once:
+
+    >>> up = [*down[:2], *[[0, 0, 3]] * 4]
+    >>> both = path_from_vertices([down, up], [1.5, 1.0, 1.0, 1.0], events=["TRRT", "R"])
+    >>> print(both.trace().intensity.round(9))
+    [0.00147456 0.04      ]
     """
     several, not_several = _several(materials)
     chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.lab.accuracy.element_reference import times
+from optipath.lab.accuracy.jones_matrices import times
 from optipath.lab.accuracy.many_digits import mpmath
 
 if TYPE_CHECKING:

@@ -27,9 +27,11 @@ from optipath.elements.refracting_vertex import RefractingVertex
 from optipath.elements.retarder import Retarder
 from optipath.elements.rotator import Rotator
 from optipath.elements.specular_vertex import SpecularVertex
+from optipath.elements.vertex import Vertex
 from optipath.elements.waveplate import Waveplate
 from optipath.errors import PathError
 from optipath.kernels.catalogue import INCIDENCE
+from optipath.kernels.geometry.events import Event
 from optipath.lab.accuracy.boundary_reference import (
     Jones,
     along_face,
@@ -39,18 +41,14 @@ from optipath.lab.accuracy.boundary_reference import (
     stack,
 )
 from optipath.lab.accuracy.exact_values import Reader
+from optipath.lab.accuracy.jones_matrices import diagonal, filtering, retarding, times, turn
 from optipath.lab.accuracy.layers_reference import absorbing_stack
 from optipath.lab.accuracy.many_digits import MANY_DIGITS, cos_sin, mpmath
 from optipath.lab.accuracy.medium_reference import elliptical_retarder, medium
+from optipath.values.made import checked_later
 
 if TYPE_CHECKING:
     from optipath.elements.element import Element
-
-
-def turn(angle: Any) -> Jones:
-    """Return what a turn of the frame does to the field."""
-    c, s = cos_sin(angle)
-    return (c, s), (-s, c)
 
 
 @singledispatch
@@ -112,7 +110,7 @@ def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
     c, s = cos_sin(read.move(2 * mpmath.atan2(half, across), 1))
     before, behind = read.index(element.outside).real, read.index(element.index).real
     if before == behind:
-        return _diagonal(1, 1)
+        return diagonal(1, 1)
     # By n1 sin t = n2 sin(t -+ turned), which is Snell's law.
     side = 1 if behind > before else -1
     incidence = mpmath.atan2(behind * s, side * (behind * c - before))
@@ -120,18 +118,30 @@ def _(element: RefractingVertex, _: Coupling, read: Reader) -> Jones:
 
 
 @jones.register
+def _(element: Vertex, way: Coupling, read: Reader) -> Jones:
+    event = float(read.exact(element.event_here))
+    if event == Event.BEHIND:
+        return diagonal(1, 1)
+    kind = SpecularVertex if event == Event.REFLECTS else RefractingVertex
+    at = element.vertices, element.place, element.outside, element.in_chain.count
+    with checked_later():  # Other chains have other events.
+        alike = kind(element.index, *at, "mask")
+    return jones(alike, way, read)  # type: ignore[return-value]
+
+
+@jones.register
 def _(element: Polarizer, _: Coupling, read: Reader) -> Jones:
-    return _filter(read, element.transmittance, element.leakage, element.angle)
+    return filtering(read, element.transmittance, element.leakage, element.angle)
 
 
 @jones.register
 def _(element: Diattenuator, _: Coupling, read: Reader) -> Jones:
-    return _filter(read, element.maximum, element.minimum, element.angle)
+    return filtering(read, element.maximum, element.minimum, element.angle)
 
 
 @jones.register
 def _(element: Retarder, _: Coupling, read: Reader) -> Jones:
-    return _retarding(read, read.angle(element.retardance), element.angle)
+    return retarding(read, read.angle(element.retardance), element.angle)
 
 
 @jones.register
@@ -151,7 +161,7 @@ def _(element: FaradayRotator, _: Coupling, read: Reader) -> Jones:
 def _(element: Waveplate, _: Coupling, read: Reader) -> Jones:
     path = read.real(element.thickness) * read.real(element.birefringence)
     retardance = 2 * mpmath.pi * path / read.real(element.wavelength)
-    return _retarding(read, read.move(retardance, 1), element.angle)
+    return retarding(read, read.move(retardance, 1), element.angle)
 
 
 @jones.register
@@ -169,15 +179,15 @@ def _(element: PolarizingBeamSplitter, way: Coupling, read: Reader) -> Jones:
     u, v = (1 / read.real(ratio) for ratio in ratios)
     if way.reflects:
         s, p = (1 - u) / (1 - u * v), v * (1 - u) / (1 - u * v)
-        return _diagonal(mpmath.sqrt(s), -mpmath.sqrt(p))
+        return diagonal(mpmath.sqrt(s), -mpmath.sqrt(p))
     s, p = u * (1 - v) / (1 - u * v), (1 - v) / (1 - u * v)
-    return _diagonal(mpmath.sqrt(s), mpmath.sqrt(p))
+    return diagonal(mpmath.sqrt(s), mpmath.sqrt(p))
 
 
 @jones.register
 def _(element: Attenuator, _: Coupling, read: Reader) -> Jones:
     root = mpmath.sqrt(read.real(element.transmittance))
-    return _diagonal(root, root)
+    return diagonal(root, root)
 
 
 @jones.register
@@ -199,25 +209,25 @@ def _(element: Medium, _: Coupling, read: Reader) -> Jones | None:
     retardance = read.angle_along(element.retardance, element.length)
     # Only one of the three is not 0.
     turned = turn(dextrorotation - rotation)
-    passed = times(_retarding(read, retardance, element.angle), turned)
-    return times(_diagonal(left, left), passed)
+    passed = times(retarding(read, retardance, element.angle), turned)
+    return times(diagonal(left, left), passed)
 
 
 @jones.register
 def _(element: Mirror, _: Coupling, read: Reader) -> Jones:
-    return _diagonal(read.complex(element.r_s), read.complex(element.r_p))
+    return diagonal(read.complex(element.r_s), read.complex(element.r_p))
 
 
 @jones.register
 def _(element: BeamSplitter, way: Coupling, read: Reader) -> Jones:
     reflectance = read.real(element.reflectance)
     root = mpmath.sqrt(reflectance if way.reflects else 1 - reflectance)
-    return _diagonal(root, -root if way.reflects else root)
+    return diagonal(root, -root if way.reflects else root)
 
 
 @jones.register
 def _(_element: Combiner, _way: Coupling, _read: Reader) -> Jones:
-    return _diagonal(1, 1)
+    return diagonal(1, 1)
 
 
 @singledispatch
@@ -300,39 +310,3 @@ def _is_general(element: Medium) -> bool:
     rotates = not (vanishes(element.rotation) and vanishes(element.dextrorotation))
     others = element.dichroism, element.circular_dichroism, element.depolarization
     return not all(map(vanishes, others)) or (rotates and not vanishes(element.retardance))
-
-
-def _filter(read: Reader, along: Any, across: Any, angle: Any) -> Jones:
-    roots = (mpmath.sqrt(read.real(transmittance)) for transmittance in (along, across))
-    return _turned(_diagonal(*roots), read.angle(angle, 2))
-
-
-def _retarding(read: Reader, retardance: Any, angle: Any) -> Jones:
-    # The field is exp(-iwt): what falls behind gains a positive phase.
-    slow = mpmath.mpc(*cos_sin(retardance))
-    return _turned(_diagonal(1, slow), read.angle(angle, 2))
-
-
-def _diagonal(x: Any, y: Any) -> Jones:
-    return (x, 0), (0, y)
-
-
-def _turned(matrix: Jones, angle: Any) -> Jones:
-    return times(turn(-angle), times(matrix, turn(angle)))
-
-
-def times(first: Jones, second: Jones) -> Jones:
-    """Return the product of two matrices.
-
-    Parameters
-    ----------
-    first, second : Jones
-        The second is met first by the light.
-
-    Returns
-    -------
-    Jones
-    """
-    (a, b), (c, d) = first
-    (e, f), (g, h) = second
-    return (a * e + b * g, a * f + b * h), (c * e + d * g, c * f + d * h)

@@ -12,8 +12,9 @@ from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.wiring import Wiring
 from optipath.errors import ParameterError, PathError, shown
 from optipath.lab.accuracy.coherency_matrices import added, coherency, passed, stokes_of
-from optipath.lab.accuracy.element_reference import jones, mueller, turn
+from optipath.lab.accuracy.element_reference import jones, mueller
 from optipath.lab.accuracy.exact_values import Reader
+from optipath.lab.accuracy.jones_matrices import turn
 from optipath.lab.accuracy.many_digits import DIGITS, MANY_DIGITS, WORKING_DIGITS, exactly, mpmath
 from optipath.paths.path_graph import PathGraph
 

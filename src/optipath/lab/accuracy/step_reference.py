@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.lab.accuracy.boundary_reference import boundary, stack
 from optipath.lab.accuracy.coherency_matrices import coherency, passed, stokes_of
-from optipath.lab.accuracy.element_reference import times, turn
+from optipath.lab.accuracy.jones_matrices import times, turn
 from optipath.lab.accuracy.many_digits import DIGITS, WORKING_DIGITS, cos_sin, mpmath
 
 if TYPE_CHECKING:

@@ -82,10 +82,9 @@ def histories(
     count = len(materials) if chosen is None else chosen.shape[-1]
     told = None if lengths is None else attempt(lengths_given, lengths, count)
     letters = None
-    if isinstance(events, str) and lengths is None and (wrong := event_faults(events, count)):
-        faults += wrong
-        events = None  # Which tells nothing that is wrong besides.
-    if events is not None or lengths is not None:
+    of_text = event_faults(events, count) if isinstance(events, str) and lengths is None else []
+    faults += of_text
+    if not of_text and not (events is None and lengths is None):
         letters = attempt(letters_given, REFLECTS * count if events is None else events, count)
     batches = {"vertices": batch, "ids": None if chosen is None else chosen.shape[:-1]}
     batches |= {"lengths": getattr(told, "shape", None)}

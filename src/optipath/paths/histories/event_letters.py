@@ -112,8 +112,8 @@ def _texts(events: Any) -> npt.NDArray[np.str_]:
         array = array.astype(str)
     if array.dtype.kind != "U":
         raise ValueFault(
-            f"events is {shown(events)}; {_CURE}: one text for all chains, a text for each, or an "
-            f"array of single letters"
+            f"events is {shown(events)}; {_CURE}, such as 'RT' for all chains, a text for each, or "
+            f"an array of single letters"
         )
     return array
 

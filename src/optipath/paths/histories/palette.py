@@ -121,11 +121,10 @@ def media_by_ids(
         raise ValueFault(*faults)
     if ids is None:
         return None
-    each = [ids[..., place] for place in range(ids.shape[-1])]
-    return tuple(
-        Material(locked(n[one]), locked(k[one])) if np.any(k) and np.any(k[one]) else locked(n[one])
-        for one in each
-    )
+    # Row by row, which is read faster than with a stride.
+    rows = np.ascontiguousarray(np.moveaxis(ids, -1, 0))
+    each = ((locked(n.take(row)), locked(k.take(row)) if np.any(k) else k[:1]) for row in rows)
+    return tuple(Material(*parts) if np.any(parts[1]) else parts[0] for parts in each)
 
 
 def index_parts(name: str, medium: Any, why: str) -> tuple[Floats, Floats]:

@@ -108,11 +108,14 @@ class ForJax:
         Array
             Of the shape of the numbers.
         """
-        inside, xp = self.inputs.inside(resolved), namespace(numbers)
+        inside = self.inputs.inside(resolved)
         if self.inputs.masks:
-            inside = inside & ~xp.isnan(numbers[(..., *[0] * axes)])
+            # What is known is NumPy's from here, whatever precision JAX is set to.
+            numbers = numbers if is_traced(numbers) else np.asarray(numbers)
+            inside = inside & ~namespace(numbers).isnan(numbers[(..., *[0] * axes)])
         if inside is True:
             return numbers
+        xp = namespace(numbers)
         # As a factor it makes slopes NaN as well, and those of what is allowed stay as they are.
         factor = xp.where(inside, 1.0, xp.nan).astype(numbers.dtype)
         return numbers * factor.reshape(*factor.shape, *[1] * axes)
