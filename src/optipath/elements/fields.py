@@ -10,8 +10,9 @@ from optipath.elements.coupling import numbers_of
 from optipath.errors import PathError
 from optipath.values.arrays.read_only import same
 from optipath.values.domains.domain import Domain
-from optipath.values.domains.indices import INDEX, INDICES
+from optipath.values.domains.indices import INDEX
 from optipath.values.domains.quantities import REAL, YES_OR_NO
+from optipath.values.domains.stack_indices import INDICES
 from optipath.values.domains.thick_layers import LENGTH_OF_LAYER, LENGTHS
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.fading_layer import FadingLayer
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
-from optipath.values.domains.indices import INDEX, INDICES, OPTIONAL_OUTSIDE, InnerDomain
+from optipath.values.domains.indices import INDEX, OPTIONAL_OUTSIDE
 from optipath.values.domains.quantities import (
     Angle,
     FollowedIncidence,
@@ -23,6 +23,7 @@ from optipath.values.domains.quantities import (
     OptionalWavelength,
     YesOrNo,
 )
+from optipath.values.domains.stack_indices import INDICES, InnerDomain
 from optipath.values.domains.thick_layers import LENGTHS, LOSSY
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import not_known_sound

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PresetError, shown
 from optipath.paths.format.faults import Faults
-from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX, IndicesDomain
+from optipath.values.domains.indices import FOLLOWED_OUTSIDE, INDEX
+from optipath.values.domains.stack_indices import IndicesDomain
 from optipath.values.domains.thick_layers import LENGTH_OF_LAYER, LengthsDomain
 from optipath.values.follows import FOLLOWS
 

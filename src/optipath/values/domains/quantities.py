@@ -20,11 +20,11 @@ from optipath.values.domains.indices import (
     FOLLOWED_LIT_INDEX,
     FOLLOWED_OUTSIDE,
     INDEX,
-    INDICES,
     OPTIONAL_LIT_INDEX,
     OPTIONAL_OUTSIDE,
 )
 from optipath.values.domains.optional import OptionalDomain
+from optipath.values.domains.stack_indices import INDICES
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.thick_layers import LENGTHS
 from optipath.values.domains.whole_number import WholeNumber

@@ -11,7 +11,8 @@ from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import entries_of
 from optipath.values.arrays.read_only import read_only
 from optipath.values.domains.domain import Domain, in_unit_of
-from optipath.values.domains.indices import INNER, IndexDomain
+from optipath.values.domains.indices import IndexDomain
+from optipath.values.domains.stack_indices import INNER
 from optipath.values.materials import Material
 
 # Light-years are shorter; beyond, what is absorbed overflows before it is too much.
