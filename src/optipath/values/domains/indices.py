@@ -196,11 +196,6 @@ def _as_numbers(value: Any) -> Any:
     return [_as_number(one) for one in value] if isinstance(value, (list, tuple)) else value
 
 
-def _plain_index(index: Any) -> Any:
-    """Return an index that came out of an array with others as the real number that it is."""
-    return index.real if isinstance(index, complex) and index.imag == 0.0 else index
-
-
 INDEX = IndexDomain("index of refraction")
 OUTSIDE = OutsideDomain("index of refraction", minimum=_LEAST)
 LIT_INDEX = LitIndexDomain("index of refraction")

@@ -122,5 +122,10 @@ class IndicesDomain(Domain):
         )
 
 
+def _plain_index(index: Any) -> Any:
+    """Return an index that came out of an array with others as the real number that it is."""
+    return index.real if isinstance(index, complex) and index.imag == 0.0 else index
+
+
 INNER = InnerDomain("index of refraction", minimum=1e-60, maximum=1e60)
 INDICES = IndicesDomain("indices of refraction")
