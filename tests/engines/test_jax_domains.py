@@ -53,7 +53,7 @@ FIELDS = {
     "n": (lambda v: op.Interface(op.Material(v, 2.0), 0.7), [0.5], [-0.5]),
     "k": (lambda v: op.Interface(op.Material(1.5, v), 0.7), [0.0, 2.0], [-1e-3]),
     "outside": (lambda v: op.Interface(1.5, 0.7, v), [1.2], [0.0, -1.0]),
-    "k outside": (lambda v: op.Interface(1.5, 0.7, op.Material(1.2, v)), [0.0], [0.1]),
+    "k outside": (lambda v: op.Interface(1.5, 0.7, op.Material(1.2, v)), [0.0, 0.1], [-0.1, 2.0]),
     "incidence in": (lambda v: op.Interface(1.5, 0.5, incidence_in=v), [1.2], [0.0]),
     "layer": (lambda v: op.LayerStack([1.0, v, 1.5], 0.7), [1.3], [0.0, -1.3]),
     "front": (lambda v: op.LayerStack([v, 1.4, 1.5], 0.7), [1.3], [-1.3]),
