@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.coupling import numbers_of
-from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.kernels.fresnel.inhomogeneous import inhomogeneous_boundary, phase_index
 from optipath.kernels.fresnel.refraction import refraction
 from optipath.kernels.numbers.primitives import NUMPY, of_module
@@ -98,8 +97,8 @@ def _rounded_down(degrees: float) -> str:
     return f"{math.floor(degrees * 1e6) / 1e6:.12g}"
 
 
-def arriving_waves(owner: str, element: Any, port: str) -> Iterator[Agreement]:
-    """Yield what must hold of light that enters a port, where its medium or a layer may absorb.
+def arriving_waves(owner: str, element: Any, port: str) -> Iterator[ArrivingWave]:
+    """Yield what must hold of light that enters a port, where its medium may absorb.
 
     Parameters
     ----------
@@ -112,10 +111,8 @@ def arriving_waves(owner: str, element: Any, port: str) -> Iterator[Agreement]:
 
     Yields
     ------
-    Agreement
+    ArrivingWave
     """
-    if isinstance(element, MediaOfBoundary):
-        yield from element.agreements_within(owner)
     if not getattr(element, "lit_from_absorbing", False) or port not in element.inputs:
         return
     incidence, measured = element.measured
