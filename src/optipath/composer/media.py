@@ -14,7 +14,6 @@ from optipath.composer.same_turn import SameTurn
 from optipath.composer.snells_law import SnellsLaw
 from optipath.elements.arriving_wave import arriving_waves
 from optipath.elements.boundary_frames import BoundaryElement
-from optipath.elements.media_of_boundary import MediaOfBoundary
 from optipath.elements.world_angle import world_angles
 from optipath.values.agreement import first_faults
 from optipath.values.follows import FOLLOWS
@@ -152,10 +151,7 @@ class Media:
 
     @property
     def _arriving(self) -> Iterator[Agreement]:
-        """What must hold of light that comes out of media that absorb, and in layers that do."""
-        for name in sorted({name for name, _ in self.meetings.wiring.lit}):
-            if isinstance(element := self.elements[name], MediaOfBoundary):
-                yield from element.agreements_within(name)
+        """What must hold of light that comes out of media that absorb."""
         for name, port in sorted(self.meetings.wiring.lit):
             yield from arriving_waves(name, self.elements[name], port)
 

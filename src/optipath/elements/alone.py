@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.own_ways import OwnWays
-    from optipath.values.agreement import Agreement
 
 NO_FRAMES: Mapping[str, Frame] = MappingProxyType({})
 """Of an element that does not stand in the world."""
@@ -135,10 +134,8 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
     shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
-    waves: list[Agreement] = [*arriving_waves(owner, element, enters)]
-    if isinstance(element, MediaOfBoundary):
-        waves += element.agreements_within(owner)
-    faults = faults or first_faults(waves)
+    laws = [*arriving_waves(owner, element, enters), *element.agreements(owner)]
+    faults = faults or first_faults(laws)
     if not faults and element.frame_of(enters, frames) is not None:
         faults = _twice_turned(owner, element, enters)
     if faults:

@@ -19,7 +19,7 @@ from optipath.values.materials import Material
 from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection
 
 _ROUNDING = 1e-9
 """By how much a wave may fade faster than it goes on, as a share of either."""
@@ -97,8 +97,8 @@ def _rounded_down(degrees: float) -> str:
     return f"{math.floor(degrees * 1e6) / 1e6:.12g}"
 
 
-def arriving_waves(owner: str, element: Any, port: str) -> Iterator[ArrivingWave]:
-    """Yield what must hold of light that enters a port, where its medium may absorb.
+def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:
+    """Return what must hold of light that enters a port, where its medium may absorb.
 
     Parameters
     ----------
@@ -109,18 +109,19 @@ def arriving_waves(owner: str, element: Any, port: str) -> Iterator[ArrivingWave
     port : str
         Where light enters.
 
-    Yields
-    ------
-    ArrivingWave
+    Returns
+    -------
+    list of ArrivingWave
+        Empty where nothing needs to be looked at.
     """
     if not getattr(element, "lit_from_absorbing", False) or port not in element.inputs:
-        return
+        return []
     incidence, measured = element.measured
     medium = element.medium_at(port)
     if any(value is FOLLOWS for value in (incidence, measured, medium)):
-        return  # What it takes over is looked at.
+        return []  # What it takes over is looked at.
     n, k = numbers_of(medium, INDEX)
     if type(k) is float and k == 0.0:
-        return
+        return []
     operands = (n, k, *numbers_of(measured, INDEX), incidence)
-    yield ArrivingWave(tuple(map(operand_of, operands)), f"{owner}.{port}")
+    return [ArrivingWave(tuple(map(operand_of, operands)), f"{owner}.{port}")]

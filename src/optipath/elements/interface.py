@@ -107,13 +107,13 @@ class Interface(BoundaryElement, kind="interface"):
         refracted before, what is reflected from behind is another matter. With absorption,
         r' = -r as well, but what is let through differs.
         """
-        first, second = (numbers_of(index, INDEX) for index in (self.outside, self.index))
+        first, second = [numbers_of(index, INDEX) for index in (self.outside, self.index)]
         angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         before = self._index_of_angle(angle)
         behind = (second, first) if before else (first, second)
-        reflect, transmit = (
+        reflect, transmit = [
             _between(family, first, second, *before, *angle) for family in _FROM_FRONT
-        )
+        ]
         reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
         through_back = transmit
         if not (_is_zero(first[1]) and _is_zero(second[1])):
@@ -150,5 +150,7 @@ def _between(
 
 def _is_zero(k: Any) -> bool:
     """Tell whether an extinction coefficient is known to be 0."""
+    if type(k) is float:
+        return k == 0.0
     operand = operand_of(k)
     return operand.known and not operand.traced and not np.any(operand.numbers())

@@ -157,7 +157,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         found = absorbed_alone(self, self._operation("absorbed", enters), light, enters, method)
         return found[..., ::-1] if enters == "back" else found
 
-    def agreements_within(self, owner: str) -> Iterator[FadingLayer]:
+    def agreements(self, owner: str) -> Iterator[FadingLayer]:
         """Yield what must hold of the layers that may absorb."""
         incidence, measured = self.measured
         if incidence is FOLLOWS or measured is FOLLOWS:

@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from optipath.values.arrays.read_only import changed
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import not_known_sound
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from optipath.values.agreement import Agreement
 
 
 class MediaOfBoundary:
@@ -35,11 +30,6 @@ class MediaOfBoundary:
         """Return the index of refraction at a port, in front or behind."""
         face: Any = self
         return face.outside if port in ("in", "reflected") else face.index
-
-    def agreements_within(self, owner: str) -> Iterator[Agreement]:
-        """Return what must hold of light inside; of one face, nothing."""
-        del owner
-        return iter(())
 
     def followed(self) -> tuple[str, ...]:
         """Return the fields that are taken over from the boundary before."""
