@@ -153,7 +153,8 @@ class Media:
     def _arriving(self) -> Iterator[Agreement]:
         """What must hold of light that comes out of media that absorb."""
         for name, port in sorted(self.meetings.wiring.lit):
-            yield from arriving_waves(name, self.elements[name], port)
+            if isinstance(element := self.elements[name], BoundaryElement):
+                yield from arriving_waves(name, element, port)
 
     def _ends(self, meeting: Meeting) -> tuple[bool, bool]:
         """Tell of both ends whether an incidence of 90 deg means that no light is between."""

@@ -37,7 +37,7 @@ def preset_names() -> list[str]:
     >>> "npgr026" in preset_names()
     True
     """
-    return sorted(path.stem for path in _folder().glob("*.toml"))
+    return sorted([path.stem for path in _folder().glob("*.toml")])
 
 
 def preset_descriptions() -> dict[str, str]:
