@@ -207,6 +207,15 @@ def test_what_is_wrong_is_told_in_words(points, materials, others, message):
     assert len(error.value.faults) == 1
 
 
+@pytest.mark.parametrize("medium", [1.5 + 1j, op.Material(1.5, 0.1), -1.0, np.inf, "glass"])
+@pytest.mark.parametrize("events", ["TTR", "TRR", "TRT"])
+def test_a_medium_that_light_cannot_go_on_in_is_told_once(events, medium):
+    points = [*INTO_GLASS, [0.0, 2.0, -3.0], [0.0, 3.0, -3.0]]
+    with pytest.raises(op.PathError, match=r"^vertex1\.index") as error:
+        op.path_from_vertices(points, [medium, 1.2, 3.0], events=events)
+    assert len(error.value.faults) == 1
+
+
 def test_normals_of_both_kinds_are_checked_and_between_equal_media_any_will_do():
     points, normals, materials = random_histories(13, "TRTT", 500)
     materials[3] = materials[2]
@@ -248,6 +257,7 @@ def test_the_cure_that_is_offered_is_for_the_whole_chain():
         ([[0, 0, 0], [0, 0, 1], [0, 0, 2]], [1.5], {}),  # Straight on.
         (op.Parameter("points"), [1.5], {}),  # Not known yet.
         (INTO_GLASS, [op.Parameter("n")], {}),
+        (INTO_GLASS, [np.array([])], {}),
         (op.VerticesByAngles((1.5,)), [1.5], {}),
         (INTO_GLASS, [1.5], {"normals": np.diff(np.diff(INTO_GLASS, axis=0), axis=0)}),
     ],

@@ -84,7 +84,7 @@ def _may_all_refract(around: Any, front: Any, behind: Any) -> bool:
     points = np.broadcast_to(around, (*batch, 3, 3)).reshape(-1, 9)
     media = [np.broadcast_to(n, batch).reshape(-1) for n in (front, behind)]
     # Mostly the first piece says that light is reflected.
-    return all(
+    return len(points) > 0 and all(
         _refracts(points[piece].T, *(n[piece] for n in media)) for piece in pieces_of(len(points))
     )
 

@@ -6,10 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, shown
 from optipath.values.domains.indices import CLEAR
-from optipath.values.parameters import Parameter
+from optipath.values.made import faults_of, kept_value
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from optipath.values.domains.domain import Domain
 
 REFLECTS, REFRACTS = "R", "T"
 
@@ -47,6 +50,58 @@ def event_faults(events: Any, count: int) -> list[str]:
     return []
 
 
+def passable(events: str, materials: Sequence[Any]) -> tuple[list[Any], list[str]]:
+    """Return the media of a chain, and why light cannot go on in some of those that it should.
+
+    Parameters
+    ----------
+    events : str
+        Of R and T, one for each vertex.
+    materials : sequence
+        The media on the other side of each.
+
+    Returns
+    -------
+    media : list
+        Others in place of those that are told, so that the rest is checked.
+    faults : list of str
+
+    Examples
+    --------
+    >>> passable("RT", (1.5 + 2j, 1.5))
+    ([(1.5+2j), 1.5], [])
+    """
+    media, faults = list(materials), []
+    for place, event in enumerate(events):
+        if event == REFRACTS and (found := medium_faults(f"vertex{place + 1}.index", media[place])):
+            media[place] = 1.0
+            faults += found
+    return media, faults
+
+
+def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
+    """Return why a value is no medium that light may go on in, or come from.
+
+    Parameters
+    ----------
+    owner : str
+        What sentences call it.
+    medium : Any
+        The value.
+    domain : Domain, optional
+        Which of both is asked.
+
+    Returns
+    -------
+    list of str
+    """
+    try:
+        kept = kept_value(owner, medium, domain)
+    except ValueFault as fault:
+        return list(fault.faults)
+    return faults_of(Use(name, value, of) for name, value, of in domain.parts(owner, kept))
+
+
 def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[Any]:
     """Return the medium that light comes from at each vertex.
 
@@ -73,22 +128,8 @@ def media_in_front(events: str, materials: Sequence[Any], outside: Any) -> list[
     found, medium = [], outside
     for event, material in zip(events, materials, strict=True):
         found.append(medium)
-        # What light cannot go on in is told where it should, and once.
-        if event == REFRACTS and _is_clear(material):
-            medium = material
+        medium = material if event == REFRACTS else medium
     return found
-
-
-def _is_clear(material: Any) -> bool:
-    try:
-        for name, value, domain in CLEAR.parts("", material):
-            if isinstance(value, Parameter):
-                domain.check_parameter(name, value)
-            else:
-                domain.check(name, domain.read(name, value))
-    except ValueFault:
-        return False
-    return True
 
 
 def _meant(events: Any) -> str:

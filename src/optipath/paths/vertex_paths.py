@@ -15,12 +15,12 @@ from optipath.paths.histories.chain_histories import Histories, apart_where_abso
 from optipath.paths.histories.normals_of_chains import normals_checked
 from optipath.paths.histories.path_of_chains import path_of_chains
 from optipath.paths.path_graph import PathGraph
+from optipath.paths.vertex_events import medium_faults, passable
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.domains.indices import OUTSIDE
-from optipath.values.made import checked_later, faults_of, kept_value, refuse
+from optipath.values.made import checked_later, kept_value
 from optipath.values.parameters import Parameter
-from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -116,12 +116,16 @@ def path_from_vertices(
     several, not_several = _several(materials)
     chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))
     points, not_points = _chain(vertices, chains.count)
-    start, not_start = _start(outside)
-    faults += [*not_points, *not_start, *unknown("bad", bad, BAD)]
+    of_start = medium_faults("outside", outside, OUTSIDE)
+    start = 1.0 if of_start else kept_value("outside", outside, OUTSIDE)
+    faults += [*not_points, *of_start, *unknown("bad", bad, BAD)]
     if isinstance(points, VerticesByAngles) and isinstance(chains.events, np.ndarray):
         faults.append("vertices by angles have one length and reflect; give the points")
     if not several:
         raise PathError(*faults, *not_several)
+    if bad != "mask" and isinstance(chains.events, str):
+        media, of_media = passable(chains.events, chains.materials)
+        chains, faults = replace(chains, materials=tuple(media)), faults + of_media
     is_sound = not faults
     if bad == "mask" and is_sound:
         chains = apart_where_absorbed(chains)
@@ -162,16 +166,6 @@ def _composed(
     return path, [], is_sound
 
 
-def _start(outside: Any) -> tuple[Any, list[str]]:
-    """Return the medium that light starts in, and what is wrong with it."""
-    try:
-        kept = kept_value("outside", outside, OUTSIDE)
-        refuse(faults_of([Use(name, n, of) for name, n, of in OUTSIDE.parts("outside", kept)]))
-    except ValueFault as fault:
-        return 1.0, list(fault.faults)
-    return kept, []
-
-
 def _is_sound(points: Any, chains: Histories, bad: str) -> bool:
     masks = bad == "mask" or isinstance(chains.events, np.ndarray)
     try:
@@ -206,7 +200,7 @@ def _any_chain(count: int) -> VerticesByAngles:
     return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
 
 
-def _several(materials: Any) -> tuple[tuple[Any, ...], list[str]]:
+def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
     """Return the materials one by one, or what is wrong with them."""
     try:
         several = entries_of("materials", "one for each vertex", materials)

@@ -47,7 +47,8 @@ class SnellAtVertex(Agreement):
             return surely
         *_, cos, _ = REFRACTION.made_for(primitives)(n1, n2, *points)
         # Faulty indices and points are told elsewhere.
-        return ~xp.isnan(cos) | ~(n1 > 0.0) | ~(n2 > 0.0) | xp.isnan(half)
+        sound = (n1 > 0.0) & (n2 > 0.0) & xp.isfinite(larger) & ~xp.isnan(half)
+        return ~xp.isnan(cos) | ~sound
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying  # No number is a cure.
