@@ -92,7 +92,7 @@ def histories(
     batches |= {"lengths": getattr(told, "shape", None)}
     batches |= {"events": None if letters is None else letters.shape[:-1]}
     faults += broadcast_fault({name: shape for name, shape in batches.items() if shape})
-    found = Histories((*materials, *materials[-1:] * count)[:count])
+    found = Histories((*materials, *[*materials[-1:]] * count)[:count])
     if faults or not materials:
         return found, list(dict.fromkeys(faults))
     codes = None if letters is None else attempt(events_of, letters, told)
