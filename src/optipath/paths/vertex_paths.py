@@ -115,16 +115,17 @@ def path_from_vertices(
     """
     several, not_several = _several(materials)
     chains, faults = histories(several, events, ids, lengths, _batch_of(vertices))
-    if isinstance(chains.events, str):
-        media, not_media = passable(chains.events, chains.materials)
-        chains, faults = replace(chains, materials=tuple(media)), [*faults, *not_media]
     points, not_points = _chain(vertices, chains.count)
-    start, not_start = _start(outside)
-    faults += [*not_points, *not_start, *unknown("bad", bad, BAD)]
+    of_start = medium_faults("outside", outside, OUTSIDE)
+    start = 1.0 if of_start else kept_value("outside", outside, OUTSIDE)
+    faults += [*not_points, *of_start, *unknown("bad", bad, BAD)]
     if isinstance(points, VerticesByAngles) and isinstance(chains.events, np.ndarray):
         faults.append("vertices by angles have one length and reflect; give the points")
     if not several:
         raise PathError(*faults, *not_several)
+    if bad != "mask" and isinstance(chains.events, str):
+        media, of_media = passable(chains.events, chains.materials)
+        chains, faults = replace(chains, materials=tuple(media)), faults + of_media
     is_sound = not faults
     if bad == "mask" and is_sound:
         chains = apart_where_absorbed(chains)
@@ -165,12 +166,6 @@ def _composed(
     return path, [], is_sound
 
 
-def _start(outside: Any) -> tuple[Any, list[str]]:
-    """Return the medium that light starts in, and what is wrong with it."""
-    faults = medium_faults("outside", outside, OUTSIDE)
-    return 1.0 if faults else kept_value("outside", outside, OUTSIDE), faults
-
-
 def _is_sound(points: Any, chains: Histories, bad: str) -> bool:
     masks = bad == "mask" or isinstance(chains.events, np.ndarray)
     try:
@@ -205,7 +200,7 @@ def _any_chain(count: int) -> VerticesByAngles:
     return VerticesByAngles((0.5,) * count, (0.0,) * (count - 1))
 
 
-def _several(materials: Any) -> tuple[tuple[Any, ...], list[str]]:
+def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
     """Return the materials one by one, or what is wrong with them."""
     try:
         several = entries_of("materials", "one for each vertex", materials)

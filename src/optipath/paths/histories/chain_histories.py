@@ -16,6 +16,8 @@ from optipath.paths.vertex_events import REFLECTS, REFRACTS, event_faults
 from optipath.values.arrays.shapes import broadcast_fault
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
     Floats = npt.NDArray[np.float64]
@@ -47,13 +49,13 @@ class Histories:
 
 
 def histories(
-    materials: tuple[Any, ...], events: Any, ids: Any, lengths: Any, batch: tuple[int, ...]
+    materials: Sequence[Any], events: Any, ids: Any, lengths: Any, batch: tuple[int, ...]
 ) -> tuple[Histories, list[str]]:
     """Return what is told of chains, and what is wrong with it.
 
     Parameters
     ----------
-    materials : tuple
+    materials : sequence
         One for each vertex, or the palette of `ids`.
     events, ids, lengths : Any
         As `path_from_vertices` takes them.
@@ -90,7 +92,7 @@ def histories(
     batches |= {"lengths": getattr(told, "shape", None)}
     batches |= {"events": None if letters is None else letters.shape[:-1]}
     faults += broadcast_fault({name: shape for name, shape in batches.items() if shape})
-    found = Histories((*materials, *materials[-1:] * count)[:count])
+    found = Histories((*materials, *[*materials[-1:]] * count)[:count])
     if faults or not materials:
         return found, list(dict.fromkeys(faults))
     codes = None if letters is None else attempt(events_of, letters, told)
