@@ -102,7 +102,6 @@ def called(
     function: Callable[..., T],
     *given: Any,
     left: tuple[type[Exception], ...] = (),
-    **named: Any,
 ) -> T:
     """Return what code of a user's own gives, which raises errors of the library alone.
 
@@ -112,7 +111,7 @@ def called(
         What sentences call it.
     function : callable
         The code.
-    *given, **named : Any
+    *given : Any
         What it is called with.
     left : tuple of type, optional
         Errors that stay what they are, as interruptions and warnings do.
@@ -123,7 +122,7 @@ def called(
     """
     kept: tuple[type[Exception], ...] = (MemoryError, OptipathError, Warning, *left)
     try:
-        return function(*given, **named)
+        return function(*given)
     except kept:
         raise
     except (Exception, SystemExit) as error:

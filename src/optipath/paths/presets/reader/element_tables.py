@@ -74,7 +74,8 @@ def read_element(
     what = f"element class {found.__name__}"
     # What code of a user's own says of a stand-in is no news.
     unknown = is_own(found) and any(value is STAND_IN for value in values.values())
-    return (Faults() if unknown else faults).attempt(where, lambda: called(what, found, **values))
+    told = Faults() if unknown else faults
+    return told.attempt(where, lambda: called(what, lambda: found(**values)))
 
 
 def _no_fields(table: Mapping[str, Any]) -> dict[str, Any]:
