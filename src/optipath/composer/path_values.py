@@ -117,8 +117,8 @@ class Values:
             known=tuple(use for use in self.uses if use.is_traced),
             choices=tuple(self.graph.graph.get("choices", ())),
             masks=any(use.domain.masks for use in self.uses),
-            agreements=tuple(a for a in agreements if not a.waits_for_complex),
-            for_complex=tuple(a for a in agreements if a.waits_for_complex),
+            agreements=tuple([a for a in agreements if not a.waits_for_complex]),
+            for_complex=tuple([a for a in agreements if a.waits_for_complex]),
         )
 
     def faults(self) -> list[str]:

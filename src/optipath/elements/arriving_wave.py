@@ -120,8 +120,10 @@ def arriving_waves(owner: str, element: Any, port: str) -> Iterator[Agreement]:
         return
     incidence, measured = element.measured
     medium = element.medium_at(port)
-    if any(value is FOLLOWS for value in (incidence, measured, medium)):
+    if incidence is FOLLOWS or measured is FOLLOWS or medium is FOLLOWS:
         return  # What it takes over is looked at.
+    if type(medium) is float:
+        return
     n, k = numbers_of(medium, INDEX)
     if type(k) is float and k == 0.0:
         return
