@@ -112,11 +112,11 @@ class Values:
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
-            uses=tuple(use for use in self.uses if use.is_open),
+            uses=tuple([use for use in self.uses if use.is_open]),
             shapes=self.known_shapes,
-            known=tuple(use for use in self.uses if use.is_traced),
+            known=tuple([use for use in self.uses if use.is_traced]),
             choices=tuple(self.graph.graph.get("choices", ())),
-            masks=any(use.domain.masks for use in self.uses),
+            masks=True in [use.domain.masks for use in self.uses],
             agreements=tuple([a for a in agreements if not a.waits_for_complex]),
             for_complex=tuple([a for a in agreements if a.waits_for_complex]),
         )

@@ -136,7 +136,7 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
     @classmethod
     def needs(cls, name: str) -> bool:
         """Tell whether a field must be given, having no default."""
-        (field,) = (f for f in fields(cls) if f.name == name)  # type: ignore[arg-type]
+        (field,) = [f for f in fields(cls) if f.name == name]  # type: ignore[arg-type]
         return field.default is MISSING and field.default_factory is MISSING
 
     def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
