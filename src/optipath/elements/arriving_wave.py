@@ -118,8 +118,10 @@ def arriving_waves(owner: str, element: Any, port: str) -> list[ArrivingWave]:
         return []
     incidence, measured = element.measured
     medium = element.medium_at(port)
-    if FOLLOWS is incidence or FOLLOWS is measured or FOLLOWS is medium:
+    if incidence is FOLLOWS or measured is FOLLOWS or medium is FOLLOWS:
         return []  # What it takes over is looked at.
+    if type(medium) is float:
+        return []
     n, k = numbers_of(medium, INDEX)
     if type(k) is float and k == 0.0:
         return []

@@ -209,6 +209,8 @@ def numbers_of(value: Any, domain: Domain) -> tuple[Any, ...]:
         return value.n, value.k
     if not domain.complex_parts:
         return (value,)
+    if type(value) is float:
+        return value, 0.0
     if isinstance(value, (int, float, complex, np.ndarray)):
         return read_only(np.real(value)), read_only(np.imag(value))
     return Operand(value, "real"), Operand(value, "imag")

@@ -111,14 +111,13 @@ class Interface(BoundaryElement, kind="interface"):
         angle = (Operand(self.incidence, "cos"), Operand(self.incidence, "sin"))
         before = self._index_of_angle(angle)
         behind = (second, first) if before else (first, second)
-        reflect, transmit = [
-            _between(family, first, second, *before, *angle) for family in _FROM_FRONT
-        ]
+        given = first, second, *before, *angle
+        reflect, transmit = [_between(family, *given) for family in _FROM_FRONT]
         reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
         through_back = transmit
         if not (_is_zero(first[1]) and _is_zero(second[1])):
-            given = (*first, *second, *before, *angle)
-            through_back = Operation(TRANSMISSION_FROM_BEHIND, given)
+            numbers = (*first, *second, *before, *angle)
+            through_back = Operation(TRANSMISSION_FROM_BEHIND, numbers)
         return self._ways((reflect, transmit), (reflect_back, through_back))
 
     def _index_of_angle(self, angle: tuple[Any, ...]) -> tuple[Any, ...]:

@@ -215,6 +215,10 @@ class JaxPath:
             raw = jnp.asarray(values[placed])
         else:
             raw = operand.placed(jnp.asarray(values[value.name]))
+        if operand.part == "imag" and not jnp.iscomplexobj(raw):
+            return self.dtype.type(
+                0.0
+            )  # Known while JAX traces: the kernels without absorption do.
         raw = part_of(raw, operand.input_part, operand.tail)
         # A cosine is 0 at a right angle, but with its slope.
         return operand.evaluated(JAX, self._number(raw))

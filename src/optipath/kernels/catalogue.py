@@ -164,7 +164,12 @@ TRANSMISSION_FROM_BEHIND = _from_behind(
     from_absorbing.transmission_from_behind,
     amplitude_from_absorbing.amplitude_transmission_from_behind,
 )
-PHASE_INDEX = Kernel("index of planes of constant phase", None, inhomogeneous.phase_index)
+PHASE_INDEX = Kernel(
+    "index of planes of constant phase",
+    None,
+    inhomogeneous.phase_index,
+    without=(1, Kernel("index without absorption", None, inhomogeneous.real_index)),
+)
 """The index by which Snell's law holds for the real angle in an absorbing medium."""
 
 

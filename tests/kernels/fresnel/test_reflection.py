@@ -5,7 +5,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import optipath as op
-from optipath.kernels.catalogue import METHODS, REFLECTION, TRANSMISSION
+from optipath.kernels.catalogue import (
+    METHODS,
+    REFLECTION,
+    REFLECTION_FROM_ABSORBING,
+    TRANSMISSION,
+)
 from optipath.kernels.numbers.primitives import FLOAT, NUMPY
 
 INDICES = st.floats(0.1, 5.0)
@@ -237,3 +242,41 @@ def test_the_result_has_the_precision_that_was_asked_for(method, dtype):
 def test_an_unknown_precision_is_refused_and_the_known_are_named():
     with pytest.raises(op.ComposerError, match="'flaot64' is unknown; give 'float64', 'float32'"):
         op.fresnel_reflection(1.5, 1.0, 0.0, dtype="flaot64")
+
+
+LOST = (2.1601279950827297, 1.2841725811036993, 0.8035599507794031)
+"""n, an index in front that light from n0 = 3 does not get into at an angle, and the angle."""
+
+
+@pytest.mark.parametrize("k", [0.0, 1e-12, 0.3])
+@pytest.mark.parametrize("n", [0.5, LOST[1], LOST[0], 3.0 * np.sin(LOST[2])])
+def test_what_was_all_reflected_before_is_all_reflected_by_every_kernel(n, k):
+    _, n1, angle = LOST
+    given = (3.0, np.cos(angle), np.sin(angle))
+    whole = REFLECTION.methods["stable"]
+    cheaper = [] if k else [whole.without[1], whole.without[1].denser[2]]
+    inhomogeneous = REFLECTION_FROM_ABSORBING.methods["stable"]
+    kernels = [(whole, (n1, n, k)), (inhomogeneous, (n1, 0.0, n, k))]
+    kernels += [(kernel, (n1, n)) for kernel in cheaper]
+    for kernel, media in kernels:
+        Fs, Fp, B, *_ = kernel.made_for(FLOAT)(*media, *given)
+        assert (Fs, Fp, B) == (1.0, 1.0, 0.0), kernel.name
+        Fs, Fp, over = kernel.powers.made_for(FLOAT)(*media, *given)
+        assert (Fs / over, Fp / over) == (pytest.approx(1.0, rel=1e-15),) * 2, kernel.name
+
+
+@given(n0=INDICES, angle=ANGLES, first=st.floats(-1e-12, 1e-12), other=st.floats(-1e-12, 1e-12))
+def test_powers_are_never_more_than_all_next_to_where_light_gets_no_further(
+    n0, angle, first, other
+):
+    c, s = np.cos(angle), np.sin(angle)
+    assume(s > 0.01)
+    n1, n = n0 * s * (1.0 + first), n0 * s * (1.0 + other)
+    for kernel, media in (
+        (REFLECTION, (n1, n, 0.0)),
+        (REFLECTION_FROM_ABSORBING, (n1, 0.0, n, 0.0)),
+    ):
+        powers = kernel.methods["stable"].powers
+        Fs, Fp, over = powers.made_for(FLOAT)(*media, n0, c, s)
+        assert 0.0 <= Fp <= (1.0 + 1e-15) * Fs
+        assert Fs <= (1.0 + 1e-15) * over

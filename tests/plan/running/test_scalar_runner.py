@@ -194,3 +194,36 @@ def test_an_index_on_both_sides_does_without_steps_though_it_absorbs_nothing():
     for _ in range(5):
         plan.run_all(theta=0.5)
     assert plan.answers.ran_by == ("floats",)
+
+
+def boundary(**values):
+    """Return the path of light that a boundary reflects."""
+    path = op.PathGraph()
+    lamp = path.add("lamp", op.Source(stokes=[1.0, 0.6, 0.2, 0.3]))
+    lamp >> path.add("pane", op.Interface(**values)) >> path.add("eye", op.Detector())
+    return path
+
+
+OPEN = {"index": 1.7, "incidence": 0.5, "outside": 1.25, "incidence_in": 1.125}
+
+
+@pytest.mark.parametrize("name", ["index", "outside", "incidence_in"])
+def test_an_open_index_costs_what_a_known_one_does_where_it_is_real(name):
+    known = op.Composer().compose(boundary(**OPEN))
+    plan = op.Composer().compose(boundary(**OPEN | {name: op.Parameter("m", OPEN[name])}))
+    lights = [plan.run(**given) for given in [{}, {"m": OPEN[name]}] * 4]
+    assert {tuple(light.stokes) for light in lights} == {tuple(known.run().stokes)}
+    single = plan.answers.light.single
+    assert single.fast_path({"m": OPEN[name]}) is not None
+    assert all("imag" not in name for name in next(iter(single.functions.values())).names)
+
+
+@pytest.mark.parametrize("count", [(), 3])
+@pytest.mark.parametrize("name", ["index", "outside", "incidence_in"])
+def test_a_complex_index_between_real_ones_is_taken_as_it_is(name, count):
+    plan = op.Composer().compose(boundary(**OPEN | {name: op.Parameter("m", OPEN[name])}))
+    for _ in range(6):
+        for value in (OPEN[name], OPEN[name] + 0.01j, OPEN[name] + 0j):
+            found = plan.run(m=np.full(count, value) if count else value).stokes
+            known = op.Composer().compose(boundary(**OPEN | {name: value})).run().stokes
+            np.testing.assert_allclose(found, np.broadcast_to(known, found.shape), rtol=1e-14)

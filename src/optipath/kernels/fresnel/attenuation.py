@@ -6,7 +6,7 @@ import math
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.fresnel.boundary import refracted_wave
+from optipath.kernels.fresnel.boundary import squared_along_normal
 from optipath.kernels.numbers.complex_pairs import brought_near_one, complex_root, from_within
 
 if TYPE_CHECKING:
@@ -41,15 +41,15 @@ def attenuation(xp: Primitives) -> KernelFunction:
 
 def _decay(xp: Primitives) -> Callable[..., Any]:
     """Make ``(n, k, n0, cos, sin) -> Im g``, without loss however weakly the layer absorbs."""
-    divided, refracted, root = brought_near_one(xp), refracted_wave(xp), complex_root(xp)
+    divided, root, cosine = brought_near_one(xp), complex_root(xp), from_within(xp)
     scaling, ldexp, maximum, inside = xp.scaling, xp.ldexp, xp.maximum, from_within(xp, 6)
 
     def decay(n: Any, k: Any, n0: Any, c: Any, s: Any) -> Any:
         k = inside(xp.absolute(k))
         exponent = scaling(reduce(maximum, (n, k, n0)))
         n, k, n0 = divided(n, k, n0)
-        squared = refracted(n, n, n0, c, s)[3]
-        return ldexp(root(squared - k * k, n, k)[1], exponent)
+        along, _ = squared_along_normal(xp, n0, cosine(c), s)
+        return ldexp(root(along(n) - k * k, n, k)[1], exponent)
 
     return decay
 

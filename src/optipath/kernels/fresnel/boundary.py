@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from optipath.kernels.numbers.primitives import KernelFunction, Primitives
 
 
+LOST = -1.0
+"""What n^2 - y^2 is taken for where all has been reflected before: all is reflected here, too."""
+
+
 class Boundary(NamedTuple):
     """What reflection and transmission are made of.
 
@@ -150,19 +154,20 @@ def _wave(xp: Primitives) -> KernelFunction:
 
 
 def refracted_wave(xp: Primitives) -> KernelFunction:
-    """Make ``(n1, n, n0, cos0, sin0) -> (cos, sin, p, n^2 - (n0 sin0)^2)`` for the angle in n1.
+    """Make ``(n1, n, n0, cos0, sin0) -> (cos, sin, p, n^2 - y^2)`` for the angle in n1.
 
-    Parallel boundaries have refracted the light from n0 into n1; n0 sin0 is what Snell's law
+    Parallel boundaries have refracted the light from n0 into n1; y = n0 sin0 is what Snell's law
     keeps.
     """
-    sqrt, maximum, minimum = xp.sqrt, xp.maximum, xp.minimum
+    sqrt, where, maximum, minimum = xp.sqrt, xp.where, xp.maximum, xp.minimum
     inside = from_within(xp)
 
     def refracted(n1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
         along, y = squared_along_normal(xp, n0, inside(c0), s0)
+        squared = along(n1)
         # Where all has been reflected before, there is no light, and any angle will do.
-        p = sqrt(maximum(along(n1), 0.0))
-        return p / n1, minimum(y / n1, 1.0), p, along(n)
+        p, lost = sqrt(maximum(squared, 0.0)), squared < 0.0
+        return p / n1, minimum(y / n1, 1.0), p, where(lost, LOST, along(n))
 
     return refracted
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.kernels.fresnel.boundary import squared_along_normal
+from optipath.kernels.fresnel.boundary import LOST, squared_along_normal
 from optipath.kernels.numbers.complex_pairs import brought_near_one, complex_root, from_within
 
 if TYPE_CHECKING:
@@ -161,6 +161,12 @@ def phase_index(xp: Primitives) -> KernelFunction:
     return index
 
 
+def real_index(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, cos, sin) -> (n1,)``: the same where nothing absorbs."""
+    del xp
+    return lambda n1, *_: (n1,)
+
+
 def _refracted(xp: Primitives) -> KernelFunction:
     """Make ``(n1, k1, n, n0, cos0, sin0) -> (p, fades, s, Re g2^2 + k2^2)``."""
     where, minimum, root = xp.where, xp.minimum, complex_root(xp)
@@ -168,12 +174,13 @@ def _refracted(xp: Primitives) -> KernelFunction:
 
     def refracted(n1: Any, k1: Any, n: Any, n0: Any, c0: Any, s0: Any) -> tuple[Any, ...]:
         along, y = squared_along_normal(xp, n0, inside(c0), s0)
-        a, b, _ = root(along(n1) - k1 * k1, n1, k1)
+        squared, absorbs = along(n1), k1 > 0.0
+        a, b, _ = root(squared - k1 * k1, n1, k1)
         # Where nothing absorbs and all has been reflected before, there is no light, and any
         # angle will do: the right one, as between media that do not absorb.
-        absorbs = k1 > 0.0
+        lost = (squared < 0.0) & (k1 <= 0.0)
         s = y / n1
         s = where(absorbs, s, minimum(s, 1.0))
-        return a, where(absorbs, b, 0.0), s, along(n)
+        return a, where(absorbs, b, 0.0), s, where(lost, LOST, along(n))
 
     return refracted

@@ -46,7 +46,7 @@ def reflected_powers(xp: Primitives) -> KernelFunction:
         P = (p * p + squared) * r + 2.0 * p * ar
         q = (z * z + c * c * squared) * r + 2.0 * z * c * ar
         apart, across = z * r - c * ar, c * br
-        parted = (D * D + v * v) * r2
+        parted = _of_refracted(xp, angle, p, (D * D + v * v) * r2, P * P)
         return parted * (q * r), parted * (apart * apart + across * across), P * P * (q * r)
 
     return powers
@@ -55,13 +55,13 @@ def reflected_powers(xp: Primitives) -> KernelFunction:
 def lossless_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: the same, cheaper, for k = 0."""
     boundary = lossless_boundary(xp)
-    return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))
+    return lambda n1, n, *angle: _powers(xp, angle, boundary(n1, n, *angle))
 
 
 def denser_powers(xp: Primitives) -> KernelFunction:
     """Make ``(n1, n, [n0,] cos, sin) -> (Fs d, Fp d, d)``: cheaper again, for n >= n1."""
     boundary = denser_boundary(xp)
-    return lambda n1, n, *angle: _powers(boundary(n1, n, *angle))
+    return lambda n1, n, *angle: _powers(xp, angle, boundary(n1, n, *angle))
 
 
 def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
@@ -72,12 +72,24 @@ def inhomogeneous_powers(xp: Primitives) -> KernelFunction:
         at = boundary(*given)
         P, along = sum_squared(at), slant_of(where, at)
         parted = at.D * at.D + at.v * at.v
+        real = _of_refracted(xp, given[4:], at.p, parted, P * P)
+        # Out of a medium that absorbs, it may be more than all.
+        parted = where(at.kappa > 0.0, parted, real)
         return parted * along.q, parted * along.less, P * P * along.q
 
     return powers
 
 
-def _powers(at: Boundary) -> tuple[Any, ...]:
+def _of_refracted(xp: Primitives, angle: tuple[Any, ...], p: Any, parted: Any, most: Any) -> Any:
+    """Return |D|^2, of an angle in n0 no more than |p + g|^4, and that where nothing arrives.
+
+    Next to where all has been reflected before, p and g are what rounding has left of them, and
+    beyond, D is that of two media which light does not get to.
+    """
+    return xp.where(p > 0.0, xp.minimum(parted, most), most) if len(angle) > 2 else parted
+
+
+def _powers(xp: Primitives, angle: tuple[Any, ...], at: Boundary) -> tuple[Any, ...]:
     P, along = front(at), slant(at)
-    parted = at.D * at.D + at.v * at.v
+    parted = _of_refracted(xp, angle, at.p, at.D * at.D + at.v * at.v, P * P)
     return parted * along.q, parted * along.less, P * P * along.q

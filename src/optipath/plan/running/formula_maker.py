@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from optipath.engines.formulas.path_formula import lights_formula
-from optipath.values.operands import ONE
+from optipath.values.operands import ONE, ZERO
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
@@ -106,8 +106,9 @@ class FormulaMaker:
 
     @cached_property
     def length(self) -> int | None:
-        """How many operations light takes; None where there is no formula."""
+        """How many operations light takes for real numbers; None where there is no formula."""
         forms, unreduced = self.all_given_as(ONE), self.unreduced
+        forms |= {key: ZERO for key in forms if key.part == "imag"}
         made = self.attempt(lambda: self.lights(forms, polynomials=True, unreduced=unreduced))
         return None if made is None else len(made.steps)
 

@@ -267,6 +267,9 @@ class Interpreter:
         ]
 
     def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
+        if operand.part == "imag" and type(number := given.numbers[operand.input_key]) is float:
+            # Not an array, so that kernels see an index that does not absorb.
+            return self.dtype.type(number)  # type: ignore[no-any-return]
         kind = wide(self.dtype) if operand.part in ("cos", "sin") else None
         raw = operand.given_in(given.numbers, partial(np.asarray, dtype=kind))
         return self._cast(operand.evaluated(NUMPY, raw))

@@ -11,7 +11,7 @@ from optipath.engines.automatic import COMPILER, EngineChoice
 from optipath.engines.known_engines import REGISTRY
 from optipath.errors import ValueFault
 from optipath.plan.running.batch_runner import BatchRunner
-from optipath.values.operands import ABSENT
+from optipath.values.operands import ABSENT, ZERO
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -80,8 +80,9 @@ class BatchKind:
     @cached_property
     def function(self) -> FloatFunction | None:
         """What does one path after the other; None where it cannot be made."""
-        absent = frozenset([key.name for key, form in self.forms.items() if form == ABSENT])
-        return self.single.function(absent)
+        forms = self.forms.items()
+        nothing = [k for k, f in forms if f == ABSENT or (f == ZERO and k.part == "imag")]
+        return self.single.function(frozenset(nothing))
 
     @property
     def has_floats(self) -> bool:
@@ -188,7 +189,7 @@ class Recipe:
         return all(
             isinstance(number, np.ndarray)
             for key, number in given.numbers.items()
-            if type(parameters.get(key.name)) is np.ndarray and key.part != "present"
+            if type(parameters.get(key.name)) is np.ndarray and key.part not in ("present", "imag")
         )
 
     def numbers(self, parameters: Mapping[str, Any]) -> dict[str, Any] | None:

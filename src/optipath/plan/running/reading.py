@@ -72,6 +72,17 @@ class ResolvedInputs(NamedTuple):
         return True
 
     @property
+    def nothing(self) -> frozenset[InputKey]:
+        """What is not there: optional elements by their presence, and imaginary parts of 0."""
+        return frozenset(
+            [
+                key
+                for key, n in self.numbers.items()
+                if n is False or (key.part == "imag" and n == 0.0)
+            ]
+        )
+
+    @property
     def is_of_floats(self) -> bool:
         """Whether every number of a path is a plain float, or says that an element is there."""
         for key, number in self.numbers.items():
@@ -222,8 +233,11 @@ class InputReader:
         """
         if key.part == "present":
             return True if np.all(present) else present
+        # Of real numbers it is known for all paths, and the kernels without absorption do.
+        if key.part == "imag" and not np.iscomplexobj(value):
+            return 0.0
         if type(value) is float:
-            return 0.0 if key.part == "imag" else self._placed(key, value)
+            return self._placed(key, value)
         return part_of(self._placed(key, value), key.part, self.inputs.tails[key.name])
 
     def _placed(self, key: InputKey, value: Any) -> Any:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.engines.float_engine import FLOAT_ENGINE
-from optipath.values.operands import ABSENT, ONE
+from optipath.values.operands import ABSENT, ONE, ZERO
 from optipath.values.parameters import ABSENT as WORD
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ Lights: TypeAlias = list[tuple[Any, ...]]
 
 _SEVERAL, _SHORT = 3, 64
 """After how many runs a function is worth its while, and up to how many steps."""
+
+_REAL = (float, int, NoneType)
+"""The sorts of defaults that floats may stand for."""
 
 _REFUSED = (ArithmeticError, TypeError, ValueError)
 
@@ -116,8 +119,8 @@ class ScalarRunner:
         self.interpreter = interpreter
         self.formulas = formulas
         self.own_ways = own_ways
-        self.functions: dict[frozenset[str], FloatFunction | None] = {}
-        self._looked_at: set[frozenset[str]] = set()
+        self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
+        self._looked_at: set[frozenset[InputKey]] = set()
         self._runs = 0
         self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
@@ -137,35 +140,36 @@ class ScalarRunner:
 
     def lights(self, given: ResolvedInputs) -> Lights | None:
         """Return (S0, S1, S2, S3, exponent) at every end; None where that takes more care."""
-        # Which optional elements are not there.
-        absent = frozenset([key.name for key, n in given.numbers.items() if n is False])
-        if absent not in self.functions:
+        nothing = given.nothing
+        if nothing not in self.functions:
             self._runs += 1
             if self._runs <= max(_SEVERAL, len(self.program.steps) - _SHORT):
                 return self._stepped(given)
-        function = self.function(absent)
+        function = self.function(nothing)
         if function is None:
             return self._stepped(given)
-        if absent not in self._looked_at:
-            self._looked_at.add(absent)
+        if nothing not in self._looked_at:
+            self._looked_at.add(nothing)
             if self._is_default(given) and not self.inputs.agreements and self._defaults_hold():
                 self._default_call = self._unread(given, function)
         return _called(function.path, [given.numbers[key] for key in function.keys])
 
-    def function(self, absent: frozenset[str]) -> FloatFunction | None:
-        """Return the function for when some optional elements are not there, if one can be made."""
-        if absent not in self.functions:
-            self.functions[absent] = self._made(absent)
-        return self.functions[absent]
+    def function(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
+        """Return the function for what is not there, as `ResolvedInputs.nothing`, if it can be."""
+        if nothing not in self.functions:
+            self.functions[nothing] = self._made(nothing)
+        return self.functions[nothing]
 
     def _stepped(self, given: ResolvedInputs) -> Lights | None:
         if not given.within(self.inputs.limits):
             return None
         return self.interpreter.single(given.numbers)
 
-    def _made(self, absent: frozenset[str]) -> FloatFunction | None:
+    def _made(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
-        forms = {key: ABSENT if key.name in absent else ONE for key in keys}
+        absent = {key.name for key in nothing if key.part == "present"}
+        of_real = dict.fromkeys(nothing, ZERO)
+        forms = {key: ABSENT if key.name in absent else of_real.get(key, ONE) for key in keys}
         formula = self.formulas.of_floats(forms)
         if formula is None:
             return None
@@ -191,14 +195,17 @@ class ScalarRunner:
         """Return what `fast_path` needs: the function, and the default of each that it takes."""
         keys = {str(key): key for key in given.numbers}
         optional = {key.name for key in given.numbers if key.part == "present"}
-        parts = Counter(key.name for key in given.numbers if key.part != "present")
+        # A plain float has no imaginary part, and the function has been made for none.
+        parts = Counter(key.name for key in given.numbers if key.part not in ("present", "imag"))
+        real = {name for name, p in self.inputs.open.items() if type(p.default) in _REAL}
+        if any(key.part == "imag" and key.name not in real for key in given.numbers):
+            return None
         order = []
         for key in map(keys.__getitem__, function.names):
-            default = self.inputs.open[key.name].default
-            # One number may be given to several kernels, an index as its two parts.
-            if key.part != "value" or key.is_affine or type(default) not in (float, int, NoneType):
+            # One number may be given to several kernels.
+            if key.part not in ("value", "real") or key.is_affine or key.name not in real:
                 return None
-            order.append((key.name, default))
+            order.append((key.name, self.inputs.open[key.name].default))
         asked = {name for name, _ in order}
         if any(p.default is None for name, p in self.inputs.open.items() if name not in asked):
             return None  # What nothing needs must be given all the same.
