@@ -6,7 +6,7 @@ import pytest
 import optipath as op
 from batches_of_chains import random_batch
 from chains import ENGINES, MATERIALS, random_chains
-from histories import stokes_in
+from histories import coherency, stokes_in
 from optipath.lab.accuracy.path_reference import exact_batch
 
 # What Numba compiles for eight events takes some seconds; four have all that there is.
@@ -125,21 +125,43 @@ def test_the_medium_that_light_is_in_follows_each_chain():
     np.testing.assert_allclose(path.trace().intensity, expected, rtol=1e-14)
 
 
-@pytest.mark.parametrize("unlike", [0, 1])
-def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax, unlike):
-    batch = random_batch(6 + unlike, 3, several=6, each=1)
+def slopes_of_intensity(points, text, media, step=1e-4):
+    """Of a chain alone, by differences of the frame-free reference to sixth order."""
+    moved = np.eye(points.size).reshape(-1, *points.shape) * step
+
+    def intensity(far):
+        return coherency(points + far * moved, text, media).trace(axis1=-2, axis2=-1).real
+
+    near = [intensity(far) - intensity(-far) for far in (1, 2, 3)]
+    return ((45 * near[0] - 9 * near[1] + near[2]) / (60 * step)).reshape(points.shape)
+
+
+def test_slopes_do_not_see_what_is_behind_the_end_of_a_chain(jax):
+    batch = random_batch(5, 3, several=6, each=1)
+    points = batch.points.copy()
+    padded = np.isnan(points)
+    points[padded] = np.resize([np.nan] * 3 + [0.0] * 3 + [1e300] * 3, padded.sum())
     plan = path_of(batch, op.Parameter("points")).compose()
-    slopes = jax.grad(lambda p: plan.run(points=p).stokes[..., 0].sum())(
-        jax.numpy.asarray(batch.points)
-    )
+    with jax.disable_jit():  # Which would be compiled for minutes.
+        slopes = jax.grad(lambda p: plan.run(points=p).intensity.sum())(jax.numpy.asarray(points))
+    np.testing.assert_array_equal(slopes[padded], 0.0)
+    assert np.all(np.isfinite(slopes))
     for chain, length in enumerate(batch.lengths):
-        points, media, text = batch.alone(chain)
-        alone = op.path_from_vertices(op.Parameter("points"), media, events=text).compose()
-        own = jax.grad(lambda p, plan=alone: plan.run(points=p).stokes[0])(
-            jax.numpy.asarray(points)
-        )
-        np.testing.assert_allclose(slopes[chain, : length + 2], own, rtol=1e-9, atol=1e-11)
-        np.testing.assert_array_equal(slopes[chain, length + 2 :], 0.0)
+        own, media, text = batch.alone(chain)
+        expected = slopes_of_intensity(own, text, media)
+        np.testing.assert_allclose(slopes[chain, : length + 2], expected, rtol=1e-8, atol=1e-10)
+
+
+def test_slopes_in_an_index_are_those_of_the_event_of_each_chain(jax):
+    points = [DOWN[:3], [*DOWN[:2], DOWN[0]], [*DOWN[:2], [np.nan] * 3]]
+    vertex = op.Vertex(op.Parameter("n"), points, place=1, events=[[1.0], [0.0], [2.0]])
+    path = op.PathGraph()
+    path.add("light", op.Source()) >> path.add("vertex1", vertex) >> path.add("eye", op.Detector())
+    plan = path.compose()
+    with jax.disable_jit():
+        slopes = jax.jacobian(lambda n: plan.run(n=n).intensity)(1.5)
+    through, back = 4 * (1 - 1.5**2) / 2.5**4, 4 * 0.5 / 2.5**3
+    np.testing.assert_allclose(slopes, [through, back, 0.0], rtol=1e-12)
 
 
 def test_histories_can_be_written_to_a_file_and_read_again(tmp_path):
