@@ -1,8 +1,10 @@
 """Batches of chains of light that differ in events, lengths and media, with what each must give."""
 
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 import numpy as np
+import pytest
 
 from histories import coherency, random_histories
 
@@ -61,3 +63,8 @@ def random_batch(seed, most=8, several=24, each=8):
     return Batch(
         flat[0], media, flat[1], [texts[i] for i in mixed], np.concatenate(expected)[mixed]
     )
+
+
+def quickly(engine):
+    """A context in which an engine runs what is run once: JAX step by step, not compiled."""
+    return pytest.importorskip("jax").disable_jit() if engine == "jax" else nullcontext()

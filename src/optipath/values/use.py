@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ValueFault
 from optipath.values.arrays.array_likes import as_given
-from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.degrees import is_of_an_angle, meant_in_degrees
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE
@@ -85,7 +85,11 @@ class Use:
         if not is_traced(numbers):
             return True
         placed = value.placed(numbers) if parameter else numbers
-        found = [self.domain.allows(placed), *([value.allows(numbers)] if parameter else [])]
+        found = [self.domain.allows(placed)]
+        if parameter:
+            # What is not looked at, as behind the end of a chain, may be no number.
+            unseen = self.domain.takes_any and ~namespace(numbers).isfinite(numbers)
+            found.append(value.allows(numbers) | unseen)
         batch = len(self.batch_shape(numbers))
         return reduce(and_, (part.all(axis=tuple(range(batch, part.ndim))) for part in found))
 
