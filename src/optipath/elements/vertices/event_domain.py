@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import reduce
 from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import numpy as np
@@ -34,11 +35,18 @@ class EventsDomain(Domain):
         raise ValueFault(f"{owner} cannot be a parameter; give {self.described()}")
 
     def _check_numbers(self, owner: str, array: npt.NDArray[Any], rounding: float) -> None:
+        if np.all(_are_events(array)):
+            return  # As quickly as that; the rest is for words.
         super()._check_numbers(owner, array, rounding)
         bad = array != np.rint(array)
         if np.any(bad):
             number = array[bad].ravel()[0]
             raise ValueFault(f"{owner} is {number}{first_place(bad)}; give {self.described()}")
+
+
+def _are_events(array: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
+    events = Event.REFLECTS, Event.REFRACTS, Event.BEHIND, Event.CANNOT
+    return reduce(np.logical_or, (array == event for event in events))
 
 
 EVENTS = EventsDomain("event", minimum=Event.REFLECTS, maximum=Event.CANNOT)

@@ -87,17 +87,19 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
     array([[0., 1., 0.],
            [1., 2., 2.]])
     """
-    codes = np.full(letters.shape, np.nan)
-    codes[letters == ord(REFLECTS)] = Event.REFLECTS
-    codes[letters == ord(REFRACTS)] = Event.REFRACTS
     if lengths is None:
         # Of a text, all behind its last letter is none.
         ended = np.logical_and.accumulate(letters[..., ::-1] == 0, axis=-1)[..., ::-1]
         ended[..., 0] = False
     else:
         ended = has_ended(lengths, letters.shape[-1])
-    codes = np.where(ended, Event.BEHIND, codes)
-    if np.any(bad := np.isnan(codes)):
+    refracts = letters == ord(REFRACTS)
+    told = refracts | (letters == ord(REFLECTS)) | ended
+    codes = np.empty(told.shape)
+    codes[...] = refracts  # By their numbers, 0 and 1.
+    np.copyto(codes, Event.BEHIND, where=ended)
+    if not np.all(told):
+        bad = ~told
         chain, place = (int(found[0]) for found in np.nonzero(bad.reshape(-1, bad.shape[-1])))
         letter = np.broadcast_to(letters, codes.shape).reshape(-1, bad.shape[-1])[chain, place]
         found = f"is {chr(letter)!r}" if letter else "is missing"

@@ -37,7 +37,7 @@ def rows_of_ids(ids: Any) -> npt.NDArray[Any]:
     return numbers
 
 
-def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray[np.intp]:
+def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray[Any]:
     """Return which medium stands behind each vertex of each chain.
 
     Parameters
@@ -52,6 +52,7 @@ def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray
     Returns
     -------
     ndarray of int
+        In as few bytes as there are for so many; 0 behind the end of a chain.
 
     Raises
     ------
@@ -60,26 +61,27 @@ def ids_within(numbers: npt.NDArray[Any], media: int, ended: Any) -> npt.NDArray
 
     Examples
     --------
-    >>> ids_within(np.array([[0, 1], [1, -1]]), 2, np.array([[False, False], [False, True]]))
-    array([[0, 1],
-           [1, 0]])
+    >>> ended = np.array([[False, False], [False, True]])
+    >>> ids_within(np.array([[0, 1], [1, -1]]), 2, ended).tolist()
+    [[0, 1], [1, 0]]
     """
-    if ended is not None and np.any(ended):
-        numbers = np.where(ended, 0, numbers)
-    bad = ~((numbers >= 0) & (numbers < media))
+    bad = (numbers < 0) | (numbers >= media)
     if numbers.dtype.kind == "f":
         bad |= numbers != np.rint(numbers)
+    there = True if ended is None else ~ended
+    bad = bad & there
     if np.any(bad):
+        every = np.broadcast_to(numbers, bad.shape)
         raise ValueFault(
-            f"ids is {number_of(numbers, bad)}{first_place(bad)}; give the place of one of the "
+            f"ids is {number_of(every, bad)}{first_place(bad)}; give the place of one of the "
             f"materials, 0 .. {media - 1}"
         )
-    return numbers.astype(np.intp, copy=False)
+    with np.errstate(invalid="ignore"):  # Behind the end of a chain.
+        few = numbers.astype(np.min_scalar_type(media - 1))
+    return few * there
 
 
-def media_by_ids(
-    materials: Sequence[Any], ids: npt.NDArray[np.intp] | None
-) -> tuple[Any, ...] | None:
+def media_by_ids(materials: Sequence[Any], ids: npt.NDArray[Any] | None) -> tuple[Any, ...] | None:
     """Return the medium behind each vertex, an array over chains for each.
 
     Parameters
