@@ -2,7 +2,7 @@
 
 import optipath as op
 from chains import random_chains
-from random_paths import Draw, real_index, standing_in
+from random_paths import Draw, standing_in
 
 
 class ReciprocalPath(Draw):
@@ -55,7 +55,7 @@ class ReciprocalPath(Draw):
         for way in sorted({c.leaves for c in element.couplings() if c.enters == "in"}):
             boundary = isinstance(element, op.Interface | op.LayerStack)
             behind = boundary and way == "transmitted"
-            medium_there = real_index(element.index) if behind else medium
+            medium_there = _real_index(element.index) if behind else medium
             if medium_there is not None:
                 self.media[f"{name}.{way}"] = medium_there
 
@@ -104,3 +104,8 @@ def matrices_there_and_back(path, values):
         if name.startswith("d"):
             there = path.mueller("s", name, **values)
             yield there.reversed(), back.mueller(name, "s", **values)
+
+
+def _real_index(index):
+    """The index of a medium without absorption; None for one that absorbs."""
+    return index if isinstance(index, float) else None

@@ -1,4 +1,5 @@
 import math
+import re
 
 import mpmath
 import numpy as np
@@ -155,8 +156,8 @@ def test_a_ratio_may_be_written_as_one(tmp_path):
         (1.0, "is 1; give a real extinction ratio of 1.000001 or more, or infinity"),
         (0.01, "is 0.01; give a real extinction ratio of 1.000001 or more"),
         (math.nan, "is nan"),
-        ("1:0", "'1:0' is no ratio of two numbers; write '1000:1', or inf"),
-        ("1000:x", "'x' is not a quantity"),
+        ("1:0", "'1:0' is no ratio of two positive numbers; write one such as '1000:1'"),
+        ("1000:x", "'1000:x' is no ratio of two positive numbers"),
     ],
 )
 def test_what_is_no_ratio_beyond_1_is_refused(ratio, fault):
@@ -165,3 +166,49 @@ def test_what_is_no_ratio_beyond_1_is_refused(ratio, fault):
     if not isinstance(ratio, str):
         with pytest.raises(op.OptipathError):
             cube().trace_all(t=ratio, r=10.0)
+
+
+@pytest.mark.parametrize("ratio", ["1000:1", " 1000 : 1 ", ["1000:1"], "1e3"])
+def test_a_ratio_may_be_written_wherever_it_is_given(ratio):
+    wanted = cube(1000.0, 5.0).trace_all()["transmitted light"].S0
+    given = [
+        cube(r=5.0).trace_all(t=ratio),
+        cube(r=5.0).bind(t=ratio).trace_all(),
+        cube(op.Parameter("t", ratio), 5.0).trace_all(),
+        cube(ratio, 5.0).trace_all(),
+    ]
+    for lights in given:
+        np.testing.assert_array_equal(np.ravel(lights["transmitted light"].S0), [wanted])
+
+
+def test_a_ratio_without_end_may_be_a_text():
+    assert op.PolarizingBeamSplitter("inf").extinction_transmitted == math.inf
+
+
+@pytest.mark.parametrize(
+    ("ratio", "sentence"),
+    [
+        ("30 dB", "write 1000, which is 10 ** (30 / 10), for a ratio of intensities"),
+        ("-5:-1", "'-5:-1' is no ratio of two positive numbers; write one such as '1000:1'"),
+        ("1000:1:1", "'1000:1:1' is no ratio of two positive numbers; write one such as"),
+        ("1:0", "'1:0' is no ratio of two positive numbers"),
+        (math.nan, "is nan; give a finite"),
+    ],
+)
+def test_what_is_no_ratio_is_told_with_what_to_write(ratio, sentence):
+    for fault in (
+        lambda: op.PolarizingBeamSplitter(ratio),
+        lambda: op.Parameter("t", ratio),
+        lambda: cube(r=5.0).trace_all(t=ratio),
+    ):
+        with pytest.raises(op.OptipathError, match=re.escape(sentence)):
+            fault()
+
+
+@pytest.mark.parametrize("ratio", [math.inf, "inf"])
+def test_a_parameter_that_is_infinite_is_told_the_number_to_give(ratio):
+    with pytest.raises(op.ParameterError, match="1e30 for an extinction ratio without end"):
+        cube(r=5.0).trace_all(t=ratio)
+    ideal = cube(math.inf, 5.0).trace_all()["transmitted light"]
+    given = cube(r=5.0).trace_all(t=1e30)["transmitted light"]
+    np.testing.assert_array_equal(given.stokes, ideal.stokes)

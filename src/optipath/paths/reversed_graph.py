@@ -10,9 +10,11 @@ import numpy as np
 from optipath.composer.followed_values import with_followed
 from optipath.composer.meetings import Meetings
 from optipath.composer.placement import azimuth_of, frame_at, is_zero
+from optipath.composer.taps import fed_by, without_tap
 from optipath.composer.wiring import Wiring, link_text
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.element import Element
+from optipath.elements.terminal import Dump
 from optipath.errors import OptipathError, PathError, listed, shown
 from optipath.kernels.carriers.own_code import called
 from optipath.paths.reversed_choices import reversed_choices
@@ -140,13 +142,18 @@ class _Turning:
 
     def link_faults(self) -> Iterator[str]:
         """Yield what has no way back of the links, a sentence each."""
+        taps = {*self.wiring.taps}
+        fed = {tap: fed_by(self.wiring, tap) for tap in taps}
         for link in self.wiring.taps:
+            # A tap behind another goes with what that one feeds.
+            if any(link[0] in fed[tap] and tap[0] not in fed[link] for tap in taps):
+                continue
             yield (
                 f"link '{link_text(link)}' is a tap, which takes nothing of the light, and gives "
-                f"none on the way back; take it out, path.disconnect('{link[0]}.{link[2][0]}', "
-                f"'{link[1]}.{link[2][1]}')"
+                f"none on the way back; take it out, {without_tap(self.wiring, link)}"
             )
-        taps = {*self.wiring.taps}
+        if taps:
+            yield from self._unread(set().union(*fed.values()))
         for (name, port), several in self.wiring.links_to.items():
             links = [link for link in several if link not in taps]
             # What adds up inside of an element has been told.
@@ -162,6 +169,16 @@ class _Turning:
                 f"'{name}': element class {_named(self.before[name])} does not say by "
                 f"which port light goes back; give it a class method port_back(port), which "
                 f"returns an out-port for an in-port, and the other way"
+            )
+
+    def _unread(self, tapped: set[str]) -> Iterator[str]:
+        """Yield a sentence if there is no detector but those of taps, which are to go."""
+        ends = {name: end for name, end in self.before.items() if name not in tapped}
+        dumps = [f"'{name}'" for name, end in ends.items() if isinstance(end, Dump)]
+        if dumps and not any(end.detects for end in ends.values()):
+            yield (
+                f"without what its taps feed, the path has no detector; put one in the place of "
+                f"{listed(dumps)}, path.replace({dumps[0]}, op.Detector())"
             )
 
     def _has_back(self, name: str, port: str) -> bool:

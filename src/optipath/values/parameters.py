@@ -16,6 +16,7 @@ from optipath.values.arrays.read_only import read_only, same
 from optipath.values.arrays.shapes import first_place
 from optipath.values.degrees import called, has_plain_degrees
 from optipath.values.displayed import displayed, format_range
+from optipath.values.ratios import INFINITE, finite_number
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.roundings import doubles, traced_within, within
 from optipath.values.specification import check_types, checked_name, limit_of, read_specification
@@ -251,7 +252,7 @@ class Parameter(AffineArithmetic):
         """
         if text in self.words or (self.optional and text == ABSENT):
             return text
-        if text[:1].isalpha():
+        if text[:1].isalpha() and text != INFINITE:
             dimension = dimension_of(self.unit)
             raise ParameterError(unknown_word(self.name, text, self.all_words, dimension))
         try:
@@ -306,10 +307,9 @@ class Parameter(AffineArithmetic):
         bad = ~self.allows(array)
         if not np.any(bad):
             return
-        value = array[bad].ravel()[0]
-        if not np.isfinite(value):
-            where = first_place(~np.isfinite(array))
-            raise ParameterError(f"parameter '{self.name}' is {value}{where}; give a finite number")
+        if not np.isfinite(value := array[bad].ravel()[0]):
+            place, wanted = first_place(~np.isfinite(array)), finite_number(value, self.unit)
+            raise ParameterError(f"parameter '{self.name}' is {value}{place}; give {wanted}")
         number, limits = float(value), (self.minimum, self.maximum)
         plain = dimension_of(self.unit) == "angle" and has_plain_degrees(*limits)
         unit = "" if plain else self.unit

@@ -14,6 +14,7 @@ from optipath.values.degree_warnings import (
     warn_of_two_factors,
 )
 from optipath.values.degrees import is_round_in_degrees, is_within_a_turn
+from optipath.values.ratios import is_of_decibels
 from optipath.values.texts import numbers_for
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, unit_of
 
@@ -201,6 +202,7 @@ def _first_unit(values: list[Any]) -> str:
     for value in values:
         several = value if isinstance(value, (list, tuple)) else [value]
         for text in several:
-            if isinstance(text, str) and (unit := unit_of(text)):
+            unit = unit_of(text) if isinstance(text, str) else ""
+            if unit and not is_of_decibels(unit):
                 return unit
     return ""

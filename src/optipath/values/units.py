@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from optipath.errors import UnitError, shown
 from optipath.values.commas import comma_cure
+from optipath.values.ratios import NUMBER, ratio_of, without_unit
 from optipath.values.unit_names import unit_meant
 
 
@@ -82,10 +83,8 @@ _BASE_UNITS = {
     "Verdet constant": "rad/(T m)",
 }
 
-# Written so that no text matches in two ways, and long ones take no longer than they are.
-_NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d{1,9})?"
-_QUANTITY = re.compile(rf"([-+]?{_NUMBER})\s*(.*)", re.ASCII)
-_COMPLEX = re.compile(rf"(?:[-+]?{_NUMBER}(?=[-+]))?[-+]?{_NUMBER}j", re.ASCII)
+_QUANTITY = re.compile(rf"([-+]?{NUMBER})\s*(.*)", re.ASCII)
+_COMPLEX = re.compile(rf"(?:[-+]?{NUMBER}(?=[-+]))?[-+]?{NUMBER}j", re.ASCII)
 _LIKE_A_UNIT = re.compile(r"(?:1/)?[^\W\d_][^:,;]*|[°%'\"]")
 _SIGN_BETWEEN = re.compile(r"(?<!\s)\s*([-+])\s*")
 _LONGEST = 2000
@@ -153,7 +152,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
     -------
     float or complex
         Radians, metres, what of them there is per metre, or a pure number, which may be
-        complex: ``"0.3+0.4j"``, with parentheses or without.
+        complex, ``"0.3+0.4j"``, with parentheses or without, or a ratio, ``"1000:1"``.
 
     Raises
     ------
@@ -170,7 +169,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
     text = text.strip()
     if len(text) > _LONGEST:
         raise UnitError(f"{shown(text)} has {len(text)} characters; no number needs as many")
-    if not dimension and (number := _complex(text)) is not None:
+    if not dimension and (number := _pure(text)) is not None:
         return number
     match = _QUANTITY.fullmatch(text)
     if match is None or (match[2] and not _LIKE_A_UNIT.fullmatch(match[2])):
@@ -183,7 +182,7 @@ def parse_quantity(text: str, dimension: str, default_unit: str = "") -> float |
     unit = match[2] or default_unit
     known = UNITS.get(unit) if unit else _NOTHING
     if known is None or known.dimension != dimension:
-        raise UnitError(_mismatch(text, unit, dimension))
+        raise UnitError(_mismatch(text, match[1], unit, dimension))
     return _in_base_units(match[1], known)
 
 
@@ -280,6 +279,11 @@ def _plainly(number: Decimal) -> str:
     return repr(float(number)).removesuffix(".0")
 
 
+def _pure(text: str) -> float | complex | None:
+    """Return the ratio or the complex number that a text stands for; None where it is neither."""
+    return _complex(text) if (ratio := ratio_of(text)) is None else ratio
+
+
 def _complex(text: str) -> complex | None:
     """Return the complex number that a text stands for; None where it is none."""
     number = text[1:-1].strip() if text.startswith("(") and text.endswith(")") else text
@@ -302,10 +306,11 @@ def _per_length(text: str) -> str:
     return f"{number} {unit}" if unit in UNITS and match and not match[2] else ""
 
 
-def _mismatch(text: str, unit: str, dimension: str) -> str:
+def _mismatch(text: str, number: str, unit: str, dimension: str) -> str:
     """Return the sentence for a unit that is missing, unknown, or of another dimension."""
     if not dimension:
-        return f"'{text}' has the unit '{unit}', but a pure number is asked for; leave it out"
+        cure = without_unit(number, unit)
+        return f"'{text}' has the unit '{unit}', but a pure number is asked for; {cure}"
     units = units_of(dimension)
     if not unit:
         asked = with_article(dimension)

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
     """Return what is given for a parameter, with angles for names of axes if it stands as one.
 
+    It is the angle of the parameter itself that has the name, where its negative is the axis: on
+    the way back, an axis stands at ``-a``.
+
     Parameters
     ----------
     name : str
@@ -42,7 +45,7 @@ def axes_for(name: str, value: Any, uses: Iterable[Use]) -> Any:
     for use in uses:
         if not isinstance(use.domain, AxisDomain) or not isinstance(use.value, Parameter):
             continue
-        if use.value.formula == name:
+        if use.value.name == name and use.value.is_signed:
             if isinstance(value, str):
                 return _angle_of(value, use.value)
             # One row of them; a list of lists may be anything, even a part of itself.

@@ -43,6 +43,7 @@ class Domain:
     """
 
     complex_parts: ClassVar[tuple[str, ...]] = ()
+    of_numbers: ClassVar[str] = "finite"
     masks = False  # Whether light of what is not allowed is NaN, and nothing is refused.
 
     name: str
@@ -90,10 +91,9 @@ class Domain:
         if array.dtype.kind not in "fc":
             raise ValueFault(f"{owner} {self._no_number(value, array)}")
         self._check_shape(owner, array.shape)
-        if not np.all(self.are_numbers(array)):
-            bad = ~self.are_numbers(array)
+        if np.any(bad := ~self.are_numbers(array)):
             found = f"{array[bad].ravel()[0]}{first_place(bad)}"
-            raise ValueFault(f"{owner} is {found}; give a finite {self.name}")
+            raise ValueFault(f"{owner} is {found}; give a {self.of_numbers} {self.name}")
         self._check_numbers(owner, array, rounding_of(given))
         return array
 

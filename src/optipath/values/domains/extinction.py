@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
-from optipath.errors import ValueFault
 from optipath.values.arrays.jax_values import namespace
 from optipath.values.domains.domain import Domain
 
@@ -18,17 +17,10 @@ class ExtinctionDomain(Domain):
     1000.0
     """
 
+    of_numbers: ClassVar[str] = "finite or infinite"
+
     def are_numbers(self, numbers: Any) -> Any:
         return ~namespace(numbers).isnan(numbers)
-
-    def parse(self, text: str) -> Any:
-        wanted, colon, other = text.partition(":")
-        if not colon:
-            return super().parse(text)
-        divisor = super().parse(other)
-        if divisor == 0.0:
-            raise ValueFault(f"'{text}' is no ratio of two numbers; write '1000:1', or inf")
-        return super().parse(wanted) / divisor
 
     def described(self) -> str:
         return (
