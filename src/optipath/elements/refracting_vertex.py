@@ -12,7 +12,7 @@ from optipath.elements.vertices.place import PlaceInChain
 from optipath.elements.vertices.snell_at_vertex import SnellAtVertex
 from optipath.elements.vertices.vertex_domain import Bad, Vertices
 from optipath.errors import PathError
-from optipath.kernels.catalogue import REFRACTION, TRANSMISSION
+from optipath.kernels.catalogue import REFRACTION, TRANSMISSION_AT_VERTEX
 from optipath.values.domains.quantities import ClearIndex, OutsideIndex, Whole
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import is_checked_later, refuse
@@ -92,7 +92,7 @@ class RefractingVertex(ChainVertex, kind="refracting-vertex"):
         """Return the refraction from ``in`` to ``transmitted``."""
         points = self.in_chain.points_around()
         rarer, denser, *cos_sin = points.given_to(REFRACTION, self.front, self._behind).results(4)
-        operation = Operation(TRANSMISSION, (rarer, denser, 0.0, *cos_sin))
+        operation = Operation(TRANSMISSION_AT_VERTEX, (rarer, denser, 0.0, *cos_sin))
         return (Coupling("in", "transmitted", (operation,)),)
 
     def reversed(self) -> Self:

@@ -23,6 +23,7 @@ from optipath.kernels.fresnel import (
     stable,
     textbook,
 )
+from optipath.kernels.fresnel.at_angle import AtAngle
 from optipath.kernels.fresnel.at_event import AtEvent
 from optipath.kernels.fresnel.compensated import Compensated
 from optipath.kernels.fresnel.layers import Stack
@@ -102,6 +103,16 @@ def _at_event(method: str) -> Kernel:
     return Kernel(f"{name})", BLOCK, AtEvent(*both), cheaper)
 
 
+def _at_angle(kernel: Kernel) -> Kernel:
+    """Return a kernel whose numbers are NaN where its angle is none."""
+    without = kernel.without and (kernel.without[0], _at_angle(kernel.without[1]))
+    return Kernel(f"{kernel.name} at a vertex", kernel.structure, AtAngle(kernel.factory), without)
+
+
+TRANSMISSION_AT_VERTEX = KernelFamily(
+    "Fresnel transmission at a vertex",
+    {method: _at_angle(kernel) for method, kernel in TRANSMISSION.methods.items()},
+)
 AT_EVENT = KernelFamily(
     "Fresnel reflection or transmission", {method: _at_event(method) for method in METHODS}
 )

@@ -149,3 +149,35 @@ def test_what_cannot_be_is_refused_where_nobody_asks_for_a_mask():
     plan = op.path_from_vertices(op.Parameter("points"), [GLASS]).compose()
     with pytest.raises(op.ParameterError, match="finite"):
         plan.run(points=np.full((3, 3), np.nan))
+
+
+TURNED = [[0.0, 0, 3], [0, 0, 0], [0, 1, -1], [0, 2, -2]]
+NO_LEG = [[0.0, 0, 3], [0, 0, 3], [0, 0, 0], [0, 0, -1]]
+
+
+@pytest.mark.parametrize("method", ["stable", "compensated", "amplitude", "textbook"])
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@pytest.mark.parametrize("reading", ["full", "intensity"])
+@pytest.mark.parametrize("events", ["TT", "TR", "RR", "RT"])
+def test_a_chain_that_cannot_be_gives_no_light_whatever_is_read(events, reading, composing, method):
+    points = NO_LEG if events[0] == "R" else TURNED
+    path = op.path_from_vertices(points, [1.2, 1.2], events=events, bad="mask")
+    path = path if reading == "full" else path.reading(reading)
+    light = op.Composer(method=method, composing=composing).compose(path).run()
+    assert np.isnan(light.intensity)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_batches_of_chains_that_cannot_be_give_no_light_whatever_is_read(engine):
+    points = np.array([TURNED] * 300)[:, :3]
+    path = op.path_from_vertices(points, [1.0], events="T", bad="mask").reading("intensity")
+    assert np.all(np.isnan(op.Composer(engine=engine).compose(path).run().intensity))
+
+
+@pytest.mark.parametrize("composing", ["stokes", "jones"])
+@pytest.mark.parametrize("index", [1.0, 1.2])
+def test_points_that_come_with_the_run_and_turn_light_too_far_are_refused(index, composing):
+    path = op.path_from_vertices(op.Parameter("points"), [index], events="T")
+    plan = op.Composer(composing=composing).compose(path.reading("intensity"))
+    with pytest.raises(op.OptipathError, match="light is turned by 45 deg at 'vertex1'"):
+        plan.run(points=TURNED[:3])

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.carriers.structures import BLOCK
+from optipath.kernels.fresnel.at_angle import numbers_at
 from optipath.kernels.geometry.events import Event
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class AtEvent:
     """Makes ``(event, n1, n, [k,] cos, sin) -> (Fs, Fp, B, C, S)`` for an `Event`.
+
+    All of them are NaN where the cosine is.
 
     Attributes
     ----------
@@ -36,6 +39,7 @@ class AtEvent:
             # Of the same media at the same angle, the two have most of their terms in common.
             pairs = zip(through(*media_and_angle), back(*media_and_angle), strict=True)
             numbers = [where(refracts, one, other) for one, other in pairs]
+            numbers = numbers_at(xp, media_and_angle[-2], numbers)
             as_it_is = zip(BLOCK.identity, numbers, strict=True)
             return tuple(where(is_behind, one, number) for one, number in as_it_is)
 

@@ -102,10 +102,11 @@ def _first(xp: Primitives) -> Callable[[Boundary], tuple[Any, Any]]:
     def first(at: Boundary) -> tuple[Any, Any]:
         """Return Fs and Ts."""
         P = front(at)
-        # P vanishes only at grazing incidence on an equal medium, which is no interface.
-        there = P > 0.0
-        P = where(there, P, 1.0)
-        Ts = where(there, 4.0 * at.p / P * at.a, 1.0)
+        # P vanishes only at grazing incidence on an equal medium, which is no interface. Asked so
+        # that NaN stays NaN.
+        vanishes = P <= 0.0
+        P = where(vanishes, 1.0, P)
+        Ts = where(vanishes, 1.0, 4.0 * at.p / P * at.a)
         re, im = at.D / P, at.v / P
         small = re * re + im * im
         # The smaller of the two carries the digits of both.

@@ -49,7 +49,7 @@ def textbook_transmission(xp: Primitives) -> KernelFunction:
 
 
 def _printed(xp: Primitives) -> KernelFunction:
-    sqrt, maximum, absolute = xp.sqrt, xp.maximum, xp.absolute
+    sqrt, where, maximum, absolute = xp.sqrt, xp.where, xp.maximum, xp.absolute
 
     def printed(n1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, ...]:
         """Return the relative n and k, a and b, and F_s and F_p."""
@@ -63,7 +63,10 @@ def _printed(xp: Primitives) -> KernelFunction:
         # The printed form divides by cos; the floor keeps tan finite at 90 degrees.
         st = s * (s / maximum(c, 1e-18))
         # On an equal medium at 90 degrees both fractions are 0/0; the floors make them 0.
-        Fs = maximum(ab - 2.0 * a * c + c * c, 0.0) / maximum(ab + 2.0 * a * c + c * c, 1e-37)
+        squared = ab - 2.0 * a * c + c * c
+        # Some engines' maximum would make a number of an angle that is none.
+        squared = where(squared < 0.0, 0.0, squared)
+        Fs = squared / maximum(ab + 2.0 * a * c + c * c, 1e-37)
         ratio = maximum(ab - 2.0 * a * st + st * st, 0.0) / maximum(
             ab + 2.0 * a * st + st * st, 1e-37
         )
