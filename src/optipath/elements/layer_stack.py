@@ -111,7 +111,17 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
             yield from narrowed.get(name, domain).parts(name, getattr(self, name))
 
     def uses_entered(self, owner: str, port: str) -> list[Use]:
-        """Return the substrate, which must not absorb where light comes from there."""
+        """Return the substrate, which must not absorb where light comes from there.
+
+        Parameters
+        ----------
+        owner, port : str
+            What sentences call the stack, and the in-port.
+
+        Returns
+        -------
+        list of Use
+        """
         last = f"indices[{len(self._media) - 1}]"
         return [
             Use(f"{owner}.{name}", value, domain)
