@@ -28,7 +28,8 @@ def drawn(rng, *, thick):
     substrate = complex(rng.uniform(0.9, 2.5), rng.uniform(0, 3) * (rng.random() < 0.5))
     first = float(rng.uniform(1.0, 1.3))
     wavelength = float(10.0 ** rng.uniform(-6.6, -5.0))
-    lengths = 10.0 ** rng.uniform(np.log10(wavelength) if thick else -9, 0, count)
+    least = wavelength * (1.0 if thick else 0.2)
+    lengths = 10.0 ** rng.uniform(np.log10(least), 0, count)
     media = [n.real if n.imag == 0 else n for n in layers]
     return [first, *media, substrate], lengths.tolist(), wavelength, float(rng.uniform(0, 1.5))
 
@@ -317,7 +318,7 @@ def test_a_layer_behind_total_reflection_must_be_opaque():
     def stack(length):
         return op.LayerStack([1.5, 1.2 + 1e-3j, 1.5], 1.2, lengths=[length], wavelength=500e-9)
 
-    with pytest.raises(op.PathError, match=r"fades along the normal.*least ([0-9.]+) nm") as told:
+    with pytest.raises(op.PathError, match=r"light would gain in.*least ([0-9.]+) nm") as told:
         stack(2e-8).mueller()
     least = float(re.search(r"at least ([0-9.]+) nm", str(told.value))[1])
     for sign in (1.0, -1.0):
@@ -334,6 +335,72 @@ def test_a_layer_behind_total_reflection_must_be_opaque():
     assert path.trace(d=1e-5).intensity < 1.0
 
 
+# Media, incidence in degrees, and length in wavelengths: surface plasmons at a face, and waves
+# that hardly go on.
+GAINS = [
+    ([1.515, 0.06 + 4.2j, 1.0], 42.812, 60 / 633),
+    ([1.515, 0.06 + 4.2j, 1.0], 42.812, 58.42 / 633),
+    ([2.803, 1.0902 + 0.0046986j, 2.0616 + 9.4379j], 23.067, 1.23),
+    ([1.4985, 0.37707 + 0.0005011j, 1.8664 + 3.6961j], 14.663, 5.675),
+    ([1.6547, 0.065035 + 0.00021363j, 2.2167 + 0.0582j], 2.2516, 1.0),
+]
+
+
+@pytest.mark.parametrize(("media", "degrees", "length"), GAINS)
+def test_no_light_comes_from_nothing_at_the_length_that_is_told(media, degrees, length):
+    def stack(length):
+        theta = np.radians(degrees)
+        return op.LayerStack(media, theta, lengths=[length], wavelength=1e-6)
+
+    with pytest.raises(op.PathError, match=r"R \+ T is above 1 by .*least ([0-9.]+) nm") as told:
+        stack(length * 1e-6).mueller()
+    least = float(re.search(r"at least ([0-9.]+) nm", str(told.value))[1]) * 1e-9
+    with pytest.raises(op.PathError, match="light would gain"):
+        stack(0.99 * least).mueller()
+    exact = exact_stack(media, [least], 1e-6, np.radians(degrees))
+    assert min(float(share) for share in exact.absorbed[0]) >= 0.0
+    for s_or_p in range(2):
+        shares = exact.reflected[s_or_p], exact.transmitted[s_or_p]
+        assert all(0.0 <= float(share) <= 1.0 for share in shares)
+    assert 0.0 <= stack(least).absorbed()[0] <= 1.0
+
+
+@settings(max_examples=12, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1))
+def test_a_length_of_one_wave_along_the_normal_over_2_pi_is_always_enough(seed):
+    rng = np.random.default_rng(seed)
+    m, behind = (
+        complex(10.0 ** rng.uniform(-2, 0.5), 10.0 ** rng.uniform(-6, 1)) for _ in range(2)
+    )
+    first, theta = float(rng.uniform(1, 4)), float(rng.uniform(0, 1.57))
+    goes_on = np.sqrt(m * m - (first * np.sin(theta)) ** 2).real
+    length = 1.0001 * 1e-6 / (2.0 * np.pi * goes_on)
+    stack = op.LayerStack([first, m, behind], theta, lengths=[length], wavelength=1e-6)
+    for sign in (1.0, -1.0):
+        light = op.Light([1.0, sign, 0.0, 0.0])
+        assert (stack.mueller() @ light).intensity <= 1.0 + 1e-12
+        assert stack.absorbed(light)[0] >= -1e-12
+
+
+@pytest.mark.parametrize("media", [[1.0, 1.5 + 1e-5j, 1.3], [1.0, 1.5 + 1e-10j, 0.05 + 4j]])
+def test_a_layer_that_is_next_to_lossless_may_have_no_length(media):
+    thin = op.LayerStack(media, 0.9, lengths=[0.0], **WAVE)
+    clear = op.LayerStack([media[0], media[1].real, media[2]], 0.9)
+    found, expected = (stack.mueller().matrix[0] for stack in (thin, clear))
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-9)
+    np.testing.assert_allclose(thin.absorbed(), 0.0, atol=1e-9)
+
+
+def test_a_layer_that_is_too_thin_is_told_once_with_its_parameters():
+    n, k, d = map(op.Parameter, "nkd")
+    stack = op.LayerStack([1.0, op.Material(n, k), 1.0], 0.5, lengths=[d], **WAVE)
+    path = op.Source() >> stack >> op.Detector()
+    with pytest.raises(op.OptipathError) as told:
+        path.trace(n=0.2, k=3.0, d=1e-8)
+    words = "n = 0.2 (parameter 'n') and k = 3 (parameter 'k'), at a length of 10 nm (parameter"
+    assert str(told.value).count("light would gain") == str(told.value).count(words) == 1
+
+
 def test_what_is_absorbed_is_asked_with_words():
     stack = op.LayerStack([1.0, op.Parameter("m"), 1.0], 0.5, **OF_PANE)
     with pytest.raises(op.PathError, match="parameter 'm' of layer-stack has no value yet"):
@@ -343,6 +410,23 @@ def test_what_is_absorbed_is_asked_with_words():
         known.absorbed(enters="reflected")
     with pytest.raises(op.OptipathError, match="polarised by 200 %"):
         known.absorbed([1, 2, 0, 0])
+
+
+def test_lights_that_do_not_fit_to_the_incidences_are_told():
+    stack = op.LayerStack([1.0, 1.5 + 1e-6j, 1.0], [0.1, 0.2], **OF_PANE)
+    with pytest.raises(op.ShapeError, match=r"layer-stack \(2,\), the light \(3,\)"):
+        stack.absorbed(np.ones((3, 4)) * [1, 0, 0, 0])
+    assert stack.absorbed(np.ones((3, 1, 4)) * [1, 0, 0, 0]).shape == (3, 2, 1)
+
+
+@pytest.mark.parametrize(
+    "indices", [[1, op.FOLLOWS, 1.5], [1, (1.5, 1e-6), 1], op.Parameter("d"), [1.5]]
+)
+def test_what_is_wrong_with_indices_is_all_that_is_told(indices):
+    with pytest.raises(op.ValueFault) as told:
+        op.LayerStack(indices, 0.3, lengths=["1 mm"], wavelength=5e-7)
+    assert "indices" in str(told.value)
+    assert "lengths has" not in str(told.value)
 
 
 def test_what_is_absorbed_is_that_of_light_in_its_own_frame():

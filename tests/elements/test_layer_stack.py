@@ -118,7 +118,7 @@ def test_media_that_make_no_stack_are_refused(indices, message):
 
 
 def test_light_from_behind_refuses_a_substrate_that_absorbs():
-    with pytest.raises(op.PathError, match=r"stack\.index is complex.*by port 'back'"):
+    with pytest.raises(op.PathError, match=r"stack\.indices\[1\] is complex.*by port 'back'"):
         path_of(op.LayerStack([1.0, 0.6 + 2j], 0.5), "back", "reflected").check()
 
 

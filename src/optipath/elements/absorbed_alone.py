@@ -12,6 +12,7 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.light.mueller.matrix import Mueller
+from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.operands import operand_of
 
 if TYPE_CHECKING:
@@ -48,6 +49,8 @@ def absorbed_alone(
         With all faults of the stack at once, or if there is no such port.
     LightError
         If what is given is no light.
+    ShapeError
+        If it does not broadcast with the values of the stack.
     """
     if enters not in stack.inputs:
         raise PathError(
@@ -64,6 +67,7 @@ def absorbed_alone(
         along: Any = 0.0
         if light is not None:
             arriving = light if isinstance(light, Light) else Light(light)
+            check_broadcast({stack.kind: batch, "the light": arriving.stokes.shape[:-1]})
             frame = turned_alone(stack, enters, arriving.frame)
             stokes = (Mueller.of(np.eye(4), frame, Frame()) @ arriving).stokes
             along = (stokes[..., 1] / stokes[..., 0])[..., np.newaxis]

@@ -28,6 +28,7 @@ from optipath.values.domains.thick_layers import LENGTHS, LOSSY
 from optipath.values.follows import FOLLOWS
 from optipath.values.made import not_known_sound
 from optipath.values.operands import Operand, operand_of
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -66,7 +67,8 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         absorb need them: down once through a layer the intensity falls by
         exp(-4 pi Im(g) length / wavelength), g = sqrt(m^2 - (n0 sin(incidence))^2), along the
         slanted way that light takes in it (Byrnes, arXiv:1603.02720). Others take no notice.
-        A layer in which light fades faster than it goes on must be all but opaque.
+        A length of wavelength / (2 pi Re(g)) is always enough; shorter ones are refused where light
+        would gain, by the interference that sums of intensities leave out.
     wavelength : float, array_like or Parameter, optional
         The wavelength in vacuum, in metres, 1e-12 to 1e-3; needed where a layer absorbs.
 
@@ -99,12 +101,33 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         """Yield every value; layers may absorb where lengths and a wavelength are given."""
         missing = [text for name, text in _NEEDED.items() if getattr(self, name) is None]
         inner = InnerDomain.without(" and ".join(missing)) if missing else LOSSY
+        # Of indices that are no list, nobody knows how many layers are meant.
+        layers = len(self._media) - 2 if self._media is self.indices else None
         narrowed = {
             "indices": replace(INDICES, inner=inner),
-            "lengths": replace(LENGTHS, layers=len(self._media) - 2),
+            "lengths": replace(LENGTHS, layers=layers),
         }
         for name, domain in self.domains().items():
             yield from narrowed.get(name, domain).parts(name, getattr(self, name))
+
+    def uses_entered(self, owner: str, port: str) -> list[Use]:
+        """Return the substrate, which must not absorb where light comes from there.
+
+        Parameters
+        ----------
+        owner, port : str
+            What sentences call the stack, and the in-port.
+
+        Returns
+        -------
+        list of Use
+        """
+        last = f"indices[{len(self._media) - 1}]"
+        return [
+            Use(f"{owner}.{name}", value, domain)
+            for limits in self.domains_entered(port).values()
+            for name, value, domain in limits.parts(last, self.index)
+        ]
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return what is reflected and what is let through, from either side."""
@@ -147,6 +170,8 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
             As `mueller` does.
         LightError
             If no light can have the Stokes vector.
+        ShapeError
+            If the light does not broadcast with the values of the stack.
 
         Examples
         --------
@@ -160,13 +185,14 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
     def agreements(self, owner: str) -> Iterator[FadingLayer]:
         """Yield what must hold of the layers that may absorb."""
         incidence, measured = self.measured
-        if incidence is FOLLOWS or measured is FOLLOWS:
+        if any(value is FOLLOWS for value in (incidence, measured, self.outside)):
             return  # What it takes over is looked at.
         n0, lengths = numbers_of(measured, INDEX)[0], self.lengths
         pairs = [numbers_of(index, INDEX) for index in self._media]
         for place in self._absorbing(pairs):
             assert lengths is not None  # noqa: S101 - without, none is known to absorb
-            given = (*pairs[place], lengths[place - 1], self.wavelength, n0, incidence)
+            beside = [number for pair in pairs[place - 1 : place + 2] for number in pair]
+            given = (*beside, lengths[place - 1], self.wavelength, n0, incidence)
             yield FadingLayer(tuple(map(operand_of, given)), f"{owner}.indices[{place}]")
 
     def _operation(self, wanted: str, enters: str) -> Operation:
