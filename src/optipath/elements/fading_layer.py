@@ -47,16 +47,24 @@ class FadingLayer(Agreement):
     layer: str
 
     def fits(self, xp: Any, *numbers: Any) -> Any:
+        k, length, wavelength = numbers[3], *numbers[6:8]
+        if xp is np:
+            goes_on, _ = self._wave(*numbers)
+            enough = (2.0 * math.pi * length * goes_on >= wavelength) | (k == 0.0)
+            # Most are far thicker, and nobody need look at their faces.
+            if np.all(enough):
+                return enough
         left, lost = self._passing(xp, *numbers)
         kept = [lost + left * share for share in self._beside(xp, *numbers)]
         gains = [share < -_ROUNDING for share in kept]
-        return ~((numbers[3] > 0.0) & (gains[0] | gains[1] | gains[2] | gains[3]))
+        return ~((k > 0.0) & (gains[0] | gains[1] | gains[2] | gains[3]))
 
     def sentence(self, *numbers: float, varying: Collection[int] = ()) -> str:
         del varying
         *_, n, k, _, _, length, wavelength, _, _ = numbers
         more = -min(float(share) for share in self._beside(np, *numbers))
-        least = math.log1p(more) * wavelength / (4.0 * math.pi * self._fading(*numbers))
+        fades = float(self._wave(*numbers)[1])
+        least = math.log1p(more) * wavelength / (4.0 * math.pi * fades)
         _, _, of_n, of_k, _, _, of_length, of_wavelength, *_ = self.operands
         return (
             f"light would gain in '{self.layer}', of n = {text_of(of_n, n)} and k = "
@@ -88,9 +96,10 @@ class FadingLayer(Agreement):
             return *beside(*above, n, k, *given)[2:], *beside(n, k, *below, *given)[:2]
 
     @staticmethod
-    def _fading(*numbers: float) -> float:
-        """Return Im g."""
+    def _wave(*numbers: Any) -> tuple[Any, Any]:
+        """Return the real and the imaginary part of g."""
         *_, n, k, _, _, _, _, n0, angle = numbers
-        given = n, k, n, k, n0, np.cos(angle), np.sin(angle)
-        at = inhomogeneous_boundary(of_module(np))(*given)
-        return float(at.fades / at.n1 * n)
+        with np.errstate(all="ignore"):
+            given = n, k, n, k, n0, np.cos(angle), np.sin(angle)
+            at = inhomogeneous_boundary(of_module(np))(*given)
+            return at.p / at.n1 * n, at.fades / at.n1 * n
