@@ -316,3 +316,13 @@ def test_light_goes_straight_on_between_equal_media_in_any_precision(dtype):
     path = op.path_from_vertices(points, [1.0], events="T")
     light = op.Composer(dtype=dtype).compose(path).run()
     np.testing.assert_array_equal(light.intensity, 1.0)
+
+
+def test_in_singles_x_is_kept_between_equal_media_as_the_frame_has_it():
+    rng = np.random.default_rng(3)
+    source, start, along = rng.normal(size=(3, 50, 3))
+    points = np.stack([source, start, start + along, start + 2.3 * along], axis=1)
+    expected = op.path_from_vertices(points[:, :3], [1.5], events="R").trace()
+    path = op.path_from_vertices(points, [1.5, 1.0], events="RT")
+    light = op.Composer(dtype="float32").compose(path).run().in_frame(expected.frame)
+    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=0, atol=1e-6)
