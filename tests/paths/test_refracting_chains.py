@@ -284,3 +284,45 @@ def test_a_chain_that_refracts_goes_to_toml_and_back(tmp_path):
     assert 'kind = "refracting-vertex"' in file.read_text("utf-8")
     assert op.load_preset(file) == path
     assert op.load_preset(file).trace() == path.trace()
+
+
+DOWN = [[0.0, 0, 3], [0, 0, 0], [0, 0, -1]]
+
+
+@pytest.mark.parametrize("given", [{"outside": (1.0, 0.1)}, {"materials": [(1.5, 0.1)]}])
+def test_two_numbers_for_a_medium_are_asked_about(given):
+    with pytest.raises(op.PathError, match="may be n and k, or the indices of two paths"):
+        op.path_from_vertices(DOWN, **{"materials": [1.5], "events": "T"} | given)
+
+
+@pytest.mark.parametrize("media", [np.array([1.5, 0.2 + 3.4j, 1.0]), [1.5 + 0j, 0.2 + 3.4j, 1]])
+def test_media_that_an_array_made_complex_are_the_real_ones_that_they_are(media):
+    points = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 2], [0, 0, 3]]
+    expected = op.path_from_vertices(points, [1.5, 0.2 + 3.4j, 1.0], events="TRT").trace()
+    assert op.path_from_vertices(points, media, events="TRT").trace() == expected
+
+
+def test_events_are_not_counted_against_materials_that_are_none():
+    with pytest.raises(op.PathError) as told:
+        op.path_from_vertices(DOWN, 1.5, events="T")
+    assert len(told.value.faults) == 1
+
+
+@pytest.mark.parametrize("dtype", ["float32", "float64"])
+def test_light_goes_straight_on_between_equal_media_in_any_precision(dtype):
+    rng = np.random.default_rng(5)
+    start, along = rng.normal(size=(2, 50, 3))
+    points = np.stack([start, start + along, start + 2.3 * along], axis=1)
+    path = op.path_from_vertices(points, [1.0], events="T")
+    light = op.Composer(dtype=dtype).compose(path).run()
+    np.testing.assert_array_equal(light.intensity, 1.0)
+
+
+def test_in_singles_x_is_kept_between_equal_media_as_the_frame_has_it():
+    rng = np.random.default_rng(3)
+    source, start, along = rng.normal(size=(3, 50, 3))
+    points = np.stack([source, start, start + along, start + 2.3 * along], axis=1)
+    expected = op.path_from_vertices(points[:, :3], [1.5], events="R").trace()
+    path = op.path_from_vertices(points, [1.5, 1.0], events="RT")
+    light = op.Composer(dtype="float32").compose(path).run().in_frame(expected.frame)
+    np.testing.assert_allclose(light.stokes, expected.stokes, rtol=0, atol=1e-6)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, shown
-from optipath.values.domains.indices import CLEAR
+from optipath.values.domains.indices import CLEAR, INDEX
 from optipath.values.made import faults_of, kept_value
 from optipath.values.use import Use
 
@@ -95,6 +95,8 @@ def medium_faults(owner: str, medium: Any, domain: Domain = CLEAR) -> list[str]:
     -------
     list of str
     """
+    if doubt := INDEX.doubt(owner, medium):
+        return [doubt]
     try:
         kept = kept_value(owner, medium, domain)
     except ValueFault as fault:

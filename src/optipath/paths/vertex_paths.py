@@ -206,8 +206,17 @@ def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
         several = entries_of("materials", "one for each vertex", materials)
     except ValueFault as fault:
         return (), list(fault.faults)
+    several = tuple(_plain(medium) for medium in several)
     none = "materials must be a sequence of one for each vertex, and there is none"
     return several, [none] * (not several)
+
+
+def _plain(medium: Any) -> Any:
+    """Return a medium that an array with others has made complex as the real one that it is."""
+    is_complex = isinstance(medium, complex) or getattr(medium, "dtype", None) == np.complex128
+    return (
+        medium.real if is_complex and not is_traced(medium) and not np.any(medium.imag) else medium
+    )
 
 
 def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 STRAIGHT = 1e-6
 """The deviation between equal media, in radians, up to which light goes straight on."""
 
+_STRAIGHT_IN_SINGLES, _BELOW_SINGLES = 5e-4, 1e-9
+"""The same in single precision, thousands of roundings; and what such a 1 does not notice."""
+
 _ROUNDINGS = 2.0**-10
 """One over how many roundings a cosine may be below 0, where light grazes the surface."""
 
@@ -58,6 +61,7 @@ def refracted(xp: Primitives) -> Callable[[Any, Any, Leg, Leg], tuple[Any, Any, 
     over the denser index, cos |N| = 1 - rarer / denser - d^2 / 2 and sin |N| = |k_in x k_out|.
     """
     sqrt, where, maximum, minimum = xp.sqrt, xp.where, xp.maximum, xp.minimum
+    below_rounding = xp.below_rounding
 
     def met(n1: Any, n2: Any, before: Leg, behind: Leg) -> tuple[Any, Any, Any, Any]:
         rarer, denser = minimum(n1, n2), maximum(n1, n2)
@@ -77,7 +81,10 @@ def refracted(xp: Primitives) -> Callable[[Any, Any, Leg, Leg], tuple[Any, Any, 
         # Of equal media the surface may stand anyhow.
         grazes = 1.0 + _ROUNDINGS * cos >= 1.0
         cos = where(grazes, maximum(cos, 0.0), nan)
-        straight = where(squared <= STRAIGHT * STRAIGHT, 1.0, nan)
+        one = dot(before.unit, before.unit)
+        singles = below_rounding(one, _BELOW_SINGLES * one)
+        limit = where(singles, _STRAIGHT_IN_SINGLES**2, STRAIGHT * STRAIGHT)
+        straight = where(squared <= limit, 1.0, nan)
         return rarer, denser, where(are_equal, straight, cos), where(are_equal, 0.0, sin)
 
     return met

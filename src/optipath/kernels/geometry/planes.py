@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 _PARALLEL = 2.0**-50
 """The sine of twice an incidence below which it is the rounding of the points."""
 
+_PARALLEL_IN_SINGLES, _BELOW_SINGLES = 2.0**-19, 1e-9
+"""The same in single precision; and what a 1 does not notice there."""
+
 _NEARLY = 2.0**-26
 """The same below which half of the digits are, so that other knowledge of a plane is better."""
 
@@ -132,7 +135,7 @@ def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vec
     sqrt, where, chosen = xp.sqrt, xp.where, choice(xp)
 
     def planes(several: Sequence[Leg], known: Sequence[Vector]) -> list[Vector]:
-        least = _NEARLY if known else _PARALLEL
+        least = _NEARLY if known else parallel(several[0].unit)
         found, x = [], (0.0, 0.0, 0.0) if known else perpendicular(several[0].unit)
         for vertex, (before, behind) in enumerate(pairwise(several)):
             # Of the points' differences: what is parallel in them comes to 0.
@@ -143,6 +146,12 @@ def axes(xp: Primitives) -> Callable[[Sequence[Leg], Sequence[Vector]], list[Vec
             x = chosen(has_plane, own, known[vertex] if known else x)
             found.append(x)
         return found
+
+    def parallel(k: Vector) -> Any:
+        # By what the rounding of a direction is, the sine that is none.
+        one = dot(k, k)
+        singles = xp.below_rounding(one, _BELOW_SINGLES * one)
+        return where(singles, _PARALLEL_IN_SINGLES, _PARALLEL)
 
     def perpendicular(k: Vector) -> Vector:
         # What world x leaves of itself across the light, or world y where light goes along x.

@@ -86,7 +86,8 @@ def histories(
     letters = None
     of_text = event_faults(events, count) if isinstance(events, str) and lengths is None else []
     faults += of_text
-    if not of_text and not (events is None and lengths is None):
+    # Without materials nothing is known of how many there should be.
+    if count and not of_text and not (events is None and lengths is None):
         letters = attempt(letters_given, REFLECTS * count if events is None else events, count)
     batches = {"vertices": batch, "ids": None if chosen is None else chosen.shape[:-1]}
     batches |= {"lengths": getattr(told, "shape", None)}
