@@ -58,8 +58,8 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: 
     if not told:
         return ""
     return (
-        f"{told}; say which, events={REFLECTS * len(events)!r} where it is reflected, "
-        f"events={events!r} where it goes through"
+        f"{told}; say which, events='{REFLECTS * len(events)}' where it is reflected, "
+        f"events='{events}' where it goes through"
     )
 
 
