@@ -9,7 +9,6 @@ import numpy as np
 
 from optipath.elements.vertices.naming import of_chain, pieces_of
 from optipath.elements.vertices.snell_at_vertex import deviation
-from optipath.errors import shown
 from optipath.kernels.catalogue import REFRACTION
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.paths.known_media import known, known_index
@@ -59,8 +58,8 @@ def doubtful_vertex(chains: Any, materials: Sequence[Any], outside: Any, there: 
     if not told:
         return ""
     return (
-        f"{told}; say which, events={shown(REFLECTS * len(events))} where it is reflected, "
-        f"events={shown(events)} where it goes through"
+        f"{told}; say which, events='{REFLECTS * len(events)}' where it is reflected, "
+        f"events='{events}' where it goes through"
     )
 
 

@@ -69,13 +69,15 @@ def without_unit(number: str, unit: str) -> str:
     Examples
     --------
     >>> without_unit("30", "dB")
-    'write 1000, which is 10 ** (30 / 10), for a ratio of intensities'
+    'write 1000, which is 10 ** (30 / 10), for a ratio of intensities (0.001 for a loss of as much)'
     >>> without_unit("30", "mm")
     'leave it out'
     """
     if not is_of_decibels(unit) or not abs(power := float(number) / 10.0) < _LARGEST:
         return "leave it out"
-    return f"write {10.0**power:.10g}, which is 10 ** ({number} / 10), for a ratio of intensities"
+    loss = f" ({10.0**-power:.10g} for a loss of as much)" if power > 0.0 else ""
+    ratio = f"write {10.0**power:.10g}, which is 10 ** ({number} / 10), for a ratio of intensities"
+    return ratio + loss
 
 
 def is_of_decibels(unit: str) -> bool:

@@ -102,7 +102,7 @@ def events_of(letters: Letters, lengths: npt.NDArray[np.int64] | None) -> Floats
         bad = ~told
         chain, place = (int(found[0]) for found in np.nonzero(bad.reshape(-1, bad.shape[-1])))
         letter = np.broadcast_to(letters, codes.shape).reshape(-1, bad.shape[-1])[chain, place]
-        found = f"is {chr(letter)!r}" if letter else "is missing"
+        found = f"is {shown(chr(letter))}" if letter else "is missing"
         where = of_chain(chain, codes.shape[:-1])
         raise ValueFault(f"events: letter {place + 1}{where} {found}; {_CURE}")
     return codes
