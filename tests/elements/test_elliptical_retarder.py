@@ -105,12 +105,12 @@ def test_an_angle_in_degrees_is_warned_of():
 
 def test_it_has_no_jones_matrix_where_its_axis_is_none_of_the_frame():
     path = chain([op.EllipticalRetarder(0.1, 0.2, 0.3)], STATE)
-    with pytest.raises(op.ComposerError, match="whole Mueller matrix, and has no Jones matrix"):
+    with pytest.raises(op.ComposerError, match="and has no Jones matrix here"):
         op.Composer(composing="jones").compose(path)
 
 
 def test_an_angle_that_floats_cannot_tell_is_refused():
-    with pytest.raises(op.ValueFault, match="s1 is 1.7e\\+308"):
+    with pytest.raises(op.ValueFault, match=r"s1 is 1.7e\+308"):
         op.EllipticalRetarder(1.7e308, 1.7e308, 1.7e308)
 
 
