@@ -105,5 +105,15 @@ def test_an_angle_in_degrees_is_warned_of():
 
 def test_it_has_no_jones_matrix_where_its_axis_is_none_of_the_frame():
     path = chain([op.EllipticalRetarder(0.1, 0.2, 0.3)], STATE)
-    with pytest.raises(op.ComposerError, match="compose with composing='stokes'"):
+    with pytest.raises(op.ComposerError, match="and has no Jones matrix here"):
         op.Composer(composing="jones").compose(path)
+
+
+def test_an_angle_that_floats_cannot_tell_is_refused():
+    with pytest.raises(op.ValueFault, match=r"s1 is 1.7e\+308"):
+        op.EllipticalRetarder(1.7e308, 1.7e308, 1.7e308)
+
+
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_the_largest_angles_give_numbers():
+    assert np.all(np.isfinite(op.EllipticalRetarder(1e15, 1e15, -1e15).mueller().matrix))

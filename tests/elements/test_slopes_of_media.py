@@ -1,4 +1,6 @@
-"""Slopes of media that do everything at once, against exact ones of the matrix exponential."""
+"""Slopes of media, against exact ones of the matrix exponential."""
+
+import os
 
 import mpmath
 import numpy as np
@@ -75,3 +77,57 @@ def test_slopes_are_those_of_the_exponential(point, depolarization):
     slopes = np.array(jax.jacfwd(light, argnums=tuple(range(len(values))))(*values)).T
     wanted = exact_slopes(values, 0.3)
     np.testing.assert_allclose(slopes, wanted, rtol=0, atol=2e-13 * np.max(np.abs(wanted)))
+
+
+LONG = pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="JAX compiles for long")
+AT_ZERO = {
+    "linear": {"absorption": 1.0, "dichroism": "d"},
+    "linear, retarding": {"absorption": 1.0, "dichroism": "d", "retardance": 2.0},
+    "circular": {"absorption": 1.0, "circular_dichroism": "d"},
+    "circular, rotating": {"absorption": 1.0, "circular_dichroism": "d", "rotation": 0.7},
+    "two axes": {"absorption": 1.0, "dichroism": "d", "retardance": 2.0, "dichroic_angle": 0.3},
+    "rotating": {"absorption": 1.0, "dichroism": "d", "rotation": 0.7},
+    "linear, depolarising": {"absorption": 1.0, "dichroism": "d", "depolarization": 0.4},
+    "circular, depolarising": {"absorption": 1.0, "circular_dichroism": "d", "depolarization": 0.4},
+    "far": {"absorption": 60.0, "dichroism": "d", "rotation": 0.7},
+}
+
+CASES = [
+    pytest.param(kind, marks=LONG if "depolarization" in given or "rotation" in given else ())
+    for kind, given in AT_ZERO.items()
+]
+
+
+def exact_light(rates, length):
+    rates = {**dict.fromkeys((*NAMES, "depolarization"), 0.0), **rates}
+    whole = generator([rates[name] for name in (*NAMES, "depolarization")], rates["dichroic_angle"])
+    return mpmath.expm(whole * length, method="taylor") * mpmath.matrix(STATE)
+
+
+def exact_slope(light, at):
+    """By central differences in 60 digits."""
+    step = mpmath.mpf(10) ** -20
+    found = (light(at + step) - light(at - step)) / (2 * step)
+    return [float(part) for part in found]
+
+
+@pytest.mark.parametrize("kind", CASES)
+def test_slopes_at_no_dichroism_and_no_length_are_right(kind):
+    rates = {"dichroic_angle": 0.0, **AT_ZERO[kind]}
+    given = {k: op.Parameter("d") if v == "d" else v for k, v in rates.items()}
+    plan = chain([op.Medium(op.Parameter("L"), **given)], STATE).compose()
+
+    def light(d, length):
+        return plan.run(d=d, L=length).stokes
+
+    def exact(d, length):
+        return exact_light({k: d if v == "d" else v for k, v in rates.items()}, length)
+
+    points = np.array([[0.0, 1.0], [0.0, 0.0], [0.8, 0.0], [-0.8, 0.0], [-0.8, 1.0]])
+    found = jax.vmap(jax.jacfwd(light, argnums=(0, 1)))(*points.T)
+    with mpmath.workdps(60):
+        wanted = [
+            [exact_slope(lambda x, length=length: exact(x, length), d) for d, length in points],
+            [exact_slope(lambda x, d=d: exact(d, x), length) for d, length in points],
+        ]
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-13 * max(1.0, np.abs(wanted).max()))

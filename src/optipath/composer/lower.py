@@ -13,6 +13,7 @@ from optipath.composer.wiring import link_text
 from optipath.elements.coupling import Operation, ResultOf
 from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
+from optipath.kernels.catalogue import DICHROISM_AND_RETARDANCE_ALONG, ELLIPTICAL_RETARDER
 from optipath.light.frames import Frame
 from optipath.values.operands import Operand, operand_of
 from optipath.values.parameters import Parameter
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
 _FEW = 8
 
 _UNIT = Frame()
+
+_WHOLE_BUT_PURE = (ELLIPTICAL_RETARDER, DICHROISM_AND_RETARDANCE_ALONG)
+"""What never depolarises, and still has no Jones matrix that columns could pass."""
 
 _COMPONENTS = {"stokes": 4, "linear": 3, "intensity": 1}
 
@@ -53,20 +57,25 @@ def lower(wiring: Wiring, method: str) -> Program:
 
 
 def refuse_depolarizers(program: Program) -> None:
-    """Refuse elements that Jones columns cannot pass.
+    """Refuse elements that Jones columns cannot pass, and say of each whether it may depolarise.
 
     Raises
     ------
     ComposerError
         Naming each of them.
     """
-    structures = [evaluation.kernel.structure for evaluation in program.evaluations]
-    no_jones = {i for i, structure in enumerate(structures) if structure and not structure.jones}
+    kernels = [evaluation.kernel for evaluation in program.evaluations]
+    why = {
+        i: "is computed as a whole Mueller matrix, and has no Jones matrix here"
+        if kernel in _WHOLE_BUT_PURE
+        else "has a whole Mueller matrix, which may depolarise, and so no Jones matrix"
+        for i, kernel in enumerate(kernels)
+        if kernel.structure and not kernel.structure.jones
+    }
     faults = [
-        f"'{step.label}' has a whole Mueller matrix, which may depolarise, and so no Jones "
-        f"matrix; compose with composing='stokes'"
+        f"'{step.label}' {why[step.evaluation]}; compose with composing='stokes'"
         for step in program.steps
-        if step.evaluation in no_jones
+        if step.evaluation in why
     ]
     if faults:
         raise ComposerError(*faults)

@@ -8,7 +8,7 @@ from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalogue import ELLIPTICAL_RETARDER, RETARDER, ROTATION_ALONG
-from optipath.values.domains.quantities import Angle
+from optipath.values.domains.quantities import Angle, RotationAngle
 
 
 class EllipticalRetarder(Element, kind="elliptical-retarder"):
@@ -26,7 +26,8 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
     ----------
     s1, s2, s3 : float, array_like or Parameter, optional
         By how many radians light along y falls behind that along x, light at -45 degrees behind
-        that at 45, and light of S3 < 0 behind that of S3 > 0.
+        that at 45, and light of S3 < 0 behind that of S3 > 0; up to 1e15, beyond which floats
+        are more than an eighth of a radian apart.
     azimuth : float, array_like or Parameter, optional
         The turn of its frame against the frame of the port before it, in radians.
 
@@ -39,9 +40,9 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
 
     mirrored: ClassVar[tuple[str, ...]] = ("s2",)
 
-    s1: Angle = 0.0
-    s2: Angle = 0.0
-    s3: Angle = 0.0
+    s1: RotationAngle = 0.0
+    s2: RotationAngle = 0.0
+    s3: RotationAngle = 0.0
     azimuth: Angle = 0.0
 
     def couplings(self) -> tuple[Coupling, ...]:

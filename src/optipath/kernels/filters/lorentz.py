@@ -17,7 +17,7 @@ from optipath.kernels.geometry.vectors import cross, dot, plus, times
 from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.complex_pairs import hypotenuse
 from optipath.kernels.numbers.hyperbolic import scaled_hyperbolic
-from optipath.kernels.numbers.norms import common_size, norm
+from optipath.kernels.numbers.norms import common_size
 from optipath.kernels.numbers.vanishing import products
 
 if TYPE_CHECKING:
@@ -35,12 +35,12 @@ _SINHC = (6.0, 20.0, 42.0, 72.0, 110.0, 156.0, 210.0, 272.0)
 
 
 def lorentz(xp: Primitives) -> KernelFunction:
-    """Make ``(p1, p2, p3, q1, q2, q3) ->`` the sixteen numbers of exp(F) exp(-|p|).
+    """Make ``(p1, p2, p3, q1, q2, q3, shift) ->`` the sixteen numbers of exp(F) exp(-shift).
 
-    So scaled, it lets all through of one state of light at most.
+    With a shift of |p|, it lets all through of one state of light at most.
     """
     parts, matrix = xp.apart(_parts(xp)), xp.apart(_mueller)
-    return lambda *generator: matrix(*parts(*generator))
+    return lambda *generator_and_shift: matrix(*parts(*generator_and_shift))
 
 
 def retardance(xp: Primitives) -> KernelFunction:
@@ -49,7 +49,7 @@ def retardance(xp: Primitives) -> KernelFunction:
 
     def rotate(q1: Any, q2: Any, q3: Any) -> tuple[Any, ...]:
         # No light is lost, not even by a rounding.
-        _, *rest = exponential(0.0, 0.0, 0.0, q1, q2, q3)
+        _, *rest = exponential(0.0, 0.0, 0.0, q1, q2, q3, 0.0)
         return 1.0, *rest
 
     return rotate
@@ -57,18 +57,18 @@ def retardance(xp: Primitives) -> KernelFunction:
 
 def _parts(xp: Primitives) -> KernelFunction:
     """Make what `_mueller` takes of the generator."""
-    near, far, size_of, length = _near(xp), _far(xp), common_size(xp), norm(xp)
+    near, far, size_of = _near(xp), _far(xp), common_size(xp)
     where, absolute, sqrt = xp.where, xp.absolute, xp.sqrt
 
-    def numbers(*generator: Any) -> tuple[Any, ...]:
+    def numbers(*generator_and_shift: Any) -> tuple[Any, ...]:
+        *generator, shift = generator_and_shift
         size = size_of(*generator)
         near_one = tuple(part / size for part in generator)
         n, m = near_one[:3], near_one[3:]
         # T = size / 2 sqrt(a + 2ib).
         a, b = dot(n, n) - dot(m, m), -dot(n, m)
         small = sqrt(absolute(a) + 2.0 * absolute(b)) * size < 1.0
-        faint = length(*generator[:3])
-        pairs = zip(near(a, b, size, faint, small), far(a, b, size, faint, small), strict=True)
+        pairs = zip(near(a, b, size, shift, small), far(a, b, size, shift, small), strict=True)
         return *near_one, *(where(small, one, other) for one, other in pairs)
 
     return numbers
@@ -87,12 +87,12 @@ def _near(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
             )
         return real, imaginary
 
-    def numbers(a: Any, b: Any, size: Any, faint: Any, small: Any) -> tuple[Any, Any, Any, Any]:
+    def numbers(a: Any, b: Any, size: Any, shift: Any, small: Any) -> tuple[Any, Any, Any, Any]:
         half = minimum(0.5 * size, _FAR)
         square = half * half
         x, y = where(small, square * a, 0.0), where(small, 2.0 * square * b, 0.0)
         (ur, ui), (kr, ki) = series(x, y, _COSH), series(x, y, _SINHC)
-        left = exp(-faint)
+        left = exp(-shift)
         along, across = ur * kr + ui * ki, ur * ki - ui * kr
         u, k = ur * ur + ui * ui, square * (kr * kr + ki * ki)
         return left * u, left * k, left * half * along, left * half * across
@@ -106,7 +106,7 @@ def _far(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
     hyperbolic, sin, cos = scaled_hyperbolic(xp), sine(xp), cosine(xp)
     length = hypotenuse(xp)
 
-    def numbers(a: Any, b: Any, size: Any, faint: Any, small: Any) -> tuple[Any, Any, Any, Any]:
+    def numbers(a: Any, b: Any, size: Any, shift: Any, small: Any) -> tuple[Any, Any, Any, Any]:
         a, b = where(small, 1.0, a), where(small, 0.0, b)
         forward = a >= 0.0
         absolute_a = where(forward, a, -a)
@@ -115,8 +115,8 @@ def _far(xp: Primitives) -> Callable[..., tuple[Any, Any, Any, Any]]:
         smaller = b / larger
         x, y = where(forward, larger, smaller), where(forward, smaller, larger)
         limited = where(small, 0.0, size)
-        ch, sh = hyperbolic(limited * x, where(small, 0.0, faint))
-        left = where(small, 1.0, exp(-faint))
+        ch, sh = hyperbolic(limited * x, where(small, 0.0, shift))
+        left = where(small, 1.0, exp(-shift))
         c, s = left * cos(limited * y), left * sin(limited * y)
         half = 0.5 / square
         return 0.5 * (ch + c), half * (ch - c), half * (sh * x + s * y), half * (s * x - sh * y)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from optipath.kernels.geometry.vectors import dot
-from optipath.kernels.numbers.norms import common_size, norm
+from optipath.kernels.numbers.norms import common_size
 from optipath.kernels.numbers.vanishing import products
 
 if TYPE_CHECKING:
@@ -30,15 +30,16 @@ _SQUARINGS, _TERMS = 10, 12
 
 
 def depolarizing_lorentz(xp: Primitives) -> KernelFunction:
-    """Make ``(p1, p2, p3, q1, q2, q3, d) ->`` the sixteen numbers of an exponential.
+    """Make ``(p1, p2, p3, q1, q2, q3, d, shift) ->`` the sixteen numbers of an exponential.
 
-    It is that of F - diag(0, d, d, d) - |p|, with the F of `lorentz`; |p| + |q| + d is to be at
+    It is that of F - diag(0, d, d, d) - shift, with the F of `lorentz`; |p| + |q| + d is to be at
     most `LARGEST`.
     """
-    size_of, length, exp = common_size(xp), norm(xp), xp.exp
+    size_of, exp = common_size(xp), xp.exp
     polynomial, times = xp.apart(_polynomial), xp.apart(_times)
 
-    def exponential(*generator: Any) -> tuple[Any, ...]:
+    def exponential(*generator_and_shift: Any) -> tuple[Any, ...]:
+        *generator, shift = generator_and_shift
         size = size_of(*generator)
         p1, p2, p3, q1, q2, q3, d = (number / size for number in generator)
         x = (0.0, p1, p2, p3, p1, -d, -q3, q2, p2, q3, -d, -q1, p3, -q2, q1, -d)
@@ -47,7 +48,7 @@ def depolarizing_lorentz(xp: Primitives) -> KernelFunction:
         p, q = (p1, p2, p3), (q1, q2, q3)
         P, Q = dot(p, p), dot(q, q)
         less_one, a, b, c = polynomial(size, P, Q, dot(p, q), d)
-        left = exp(-length(*generator[:3]))
+        left = exp(-shift)
         found = (
             products((a, one), (b, two), (c, three + (Q - P) * one))
             for one, two, three in zip(x, square, cube, strict=True)

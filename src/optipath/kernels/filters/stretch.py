@@ -54,7 +54,7 @@ def absorption_beside_dichroism(xp: Primitives) -> KernelFunction:
     """Make ``(absorption, dichroism, circular dichroism, length) -> (t,)``.
 
     It is what the least absorbed of all states keeps; what dichroism does besides takes nothing
-    from that one.
+    from that one. By how much less it is absorbed, `_excess`, has no slope in either.
     """
     return _least_attenuation(xp, 1.0)
 
@@ -65,14 +65,24 @@ def third_of_absorption_beside_dichroism(xp: Primitives) -> KernelFunction:
 
 
 def _least_attenuation(xp: Primitives, share: float) -> KernelFunction:
-    attenuate, size, where, fixed = _attenuation(xp, share), norm(xp), xp.where, xp.fixed
+    attenuate, excess, where, fixed = _attenuation(xp, share), _excess(xp), xp.where, xp.fixed
 
     def attenuate_least(absorption: Any, linear: Any, circular: Any, length: Any) -> tuple[Any]:
-        least = absorption - size(linear, circular)
+        least = absorption - excess(linear, circular)
         # A rounding below 0 is taken away from itself, so that its slope stays.
         return attenuate(least - where(least < 0.0, fixed(least), 0.0), length)
 
     return attenuate_least
+
+
+def _excess(xp: Primitives) -> Callable[..., Any]:
+    """Make ``(dichroism, ...) ->`` by how much the mean of all states is absorbed more per metre.
+
+    It is taken out of the absorption and put back with the dichroism, which scales both by what
+    cancels: a constant for slopes, as its own has a jump where there is no dichroism.
+    """
+    size, fixed = norm(xp), xp.fixed
+    return lambda *dichroism: fixed(size(*dichroism))
 
 
 def rotation_along(xp: Primitives) -> KernelFunction:
@@ -98,11 +108,11 @@ def dichroism_along(xp: Primitives) -> KernelFunction:
 
     All are scaled, so that light along the axis that absorbs less keeps all.
     """
-    retard, hyperbolic, left, absolute = retarder(xp), scaled_hyperbolic(xp), _left(xp), xp.absolute
+    retard, hyperbolic, left, excess = retarder(xp), scaled_hyperbolic(xp), _left(xp), _excess(xp)
 
     def filtered(dichroism: Any, retardance: Any, length: Any) -> tuple[Any, ...]:
         along = dichroism * length
-        size = absolute(along)
+        size = excess(dichroism) * length
         half = left(size)
         _, _, _, c, s = retard(retardance * length)
         _, difference = hyperbolic(along, size)
@@ -126,18 +136,20 @@ def dichroism_and_retardance_along(xp: Primitives) -> KernelFunction:
     """Make the function of all that a pure medium does at once, the fast axis along x.
 
     It takes ``(dichroism, circular dichroism, retardance, rotation, dichroic angle, angle,
-    length)``, and returns the sixteen numbers, scaled as `lorentz` does.
+    length)``, and returns the sixteen numbers, scaled so that light absorbed least keeps all.
     """
-    generator, exponential = _generator(xp), lorentz(xp)
-    return lambda *rates: exponential(*generator(*rates))
+    generator, exponential, excess = _generator(xp), lorentz(xp), _excess(xp)
+    return lambda *rates: exponential(*generator(*rates), excess(*rates[:2]) * rates[-1])
 
 
 def depolarizing_dichroism_along(xp: Primitives) -> KernelFunction:
     """Make the same with the depolarisation as one more argument, the first."""
-    generator, exponential = _generator(xp), depolarizing_lorentz(xp)
+    generator, exponential, excess = _generator(xp), depolarizing_lorentz(xp), _excess(xp)
 
     def depolarize(depolarization: Any, *rates: Any) -> tuple[Any, ...]:
-        return exponential(*generator(*rates), depolarization * rates[-1])
+        length = rates[-1]
+        shift = excess(*rates[:2]) * length
+        return exponential(*generator(*rates), depolarization * length, shift)
 
     return depolarize
 

@@ -40,6 +40,9 @@ REAL = Domain("number")
 
 ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
+RotationAngle: TypeAlias = Annotated[
+    Quantity, Domain("component of a rotation vector", "angle", -1e15, 1e15)
+]
 Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
 OptionalAxis: TypeAlias = Annotated[Quantity, OptionalAxisDomain("angle", "angle")]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
