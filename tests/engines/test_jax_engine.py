@@ -21,8 +21,8 @@ def _double():
 
 # JAX takes long to compile a pile of plates, which is what a window is many times.
 PRESETS = {*op.preset_names()} - {"pile-of-plates", "absorbing-pile"}
-# Light that goes round, or through a stack, has no one Jones vector.
-WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window"}
+# Light that goes round, or through a stack, has no one Jones vector, and a sheet no Jones matrix.
+WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window", "dichroic-sheet"}
 
 
 @pytest.mark.parametrize(

@@ -298,8 +298,8 @@ def test_angles_rounded_as_their_numbers_are_pass_and_those_cut_short_do_not():
 
 
 def test_one_parameter_on_both_sides_needs_no_look_at_its_values():
-    # Of layers that may absorb one asks how much.
-    for preset in {*op.preset_names()} - {"absorbing-pile"}:
+    # Of layers that may absorb one asks how much, and of dichroism whether light is lost.
+    for preset in {*op.preset_names()} - {"absorbing-pile", "dichroic-sheet"}:
         assert op.load_preset(preset).compose().inputs.agreements == ()
     n, minus = op.Parameter("n"), -op.Parameter("theta")
     back = op.Interface(1.0, minus, outside=n, incidence_in=1.0)

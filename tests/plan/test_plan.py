@@ -87,7 +87,7 @@ def test_a_plan_is_composed_once_and_run_with_other_values():
 def test_equal_values_are_evaluated_once():
     path = op.load_preset("fresnel-rhomb")
     kernels = [e.kernel.name for e in path.compose().program.evaluations]
-    assert kernels.count("Fresnel reflection (stable, lossless)") == 1
+    assert len([name for name in kernels if name.startswith("Fresnel reflection")]) == 1
     assert len(path.compose().program.steps) > len(kernels)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from optipath.elements.vertices.by_angles import VerticesByAngles, counted
 from optipath.elements.vertices.vertex_domain import BAD, VERTICES, legs_fit
-from optipath.errors import PathError, ValueFault, shown, unknown
+from optipath.errors import OptipathError, PathError, ValueFault, shown, unknown
 from optipath.paths.grazing_or_through import doubtful_vertex
 from optipath.paths.histories.chain_histories import Histories, apart_where_absorbed, histories
 from optipath.paths.histories.normals_of_chains import normals_checked
@@ -190,8 +190,8 @@ def _batch_of(vertices: Any) -> tuple[int, ...]:
     if isinstance(vertices, (Parameter, VerticesByAngles)):
         return ()
     try:
-        shape: tuple[int, ...] = np.shape(vertices)
-    except (TypeError, ValueError):
+        shape: tuple[int, ...] = np.shape(as_given("the array of vertices", vertices))
+    except (TypeError, ValueError, OptipathError):
         return ()  # A fault of its own.
     return shape[:-2]
 
@@ -213,10 +213,9 @@ def _several(materials: Any) -> tuple[Sequence[Any], list[str]]:
 
 def _plain(medium: Any) -> Any:
     """Return a medium that an array with others has made complex as the real one that it is."""
-    is_complex = isinstance(medium, complex) or getattr(medium, "dtype", None) == np.complex128
-    return (
-        medium.real if is_complex and not is_traced(medium) and not np.any(medium.imag) else medium
-    )
+    of_numpy = isinstance(medium, (np.ndarray, np.generic)) and medium.dtype.kind == "c"
+    is_complex = isinstance(medium, complex) or of_numpy
+    return medium.real if is_complex and not np.any(medium.imag) else medium
 
 
 def _chain(vertices: Any, count: int) -> tuple[Any, list[str]]:

@@ -294,6 +294,7 @@ class Parameter(AffineArithmetic):
         value = self.parse(entry)
         return self.words.get(value) if isinstance(value, str) else value
 
+    @np.errstate(over="ignore")  # Of limits, which half precision may have no numbers for.
     def allows(self, numbers: Any) -> Any:
         """Return which numbers of an array, JAX's as well, are finite and within the range."""
         inside = namespace(numbers).isfinite(numbers)
@@ -304,8 +305,7 @@ class Parameter(AffineArithmetic):
     def _check_range(self, array: npt.NDArray[Any]) -> None:
         if array.dtype.kind == "c" and np.isfinite([self.minimum, self.maximum]).any():
             raise ParameterError(f"parameter '{self.name}' is complex but has a range of reals")
-        bad = ~self.allows(array)
-        if not np.any(bad):
+        if not np.any(bad := ~self.allows(array)):
             return
         if not np.isfinite(value := array[bad].ravel()[0]):
             place, wanted = first_place(~np.isfinite(array)), finite_number(value, self.unit)
