@@ -96,8 +96,8 @@ def test_what_has_no_formula_is_run_step_by_step_for_good():
 
 
 def test_formulas_that_are_too_long_for_numba_are_run_by_numpy():
-    assert auto().of(10**8, Paths(1501)) == "numpy"
-    assert EngineChoice("numba", floats=True).of(10, Paths(3001)) == "numpy"
+    assert auto().of(10**8, Paths(4001)) == "numpy"
+    assert EngineChoice("numba", floats=True).of(10, Paths(4001)) == "numpy"
 
 
 def test_numba_by_name_compiles_at_once():

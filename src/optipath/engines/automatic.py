@@ -200,7 +200,7 @@ def cost(operations: int, count: int) -> float:
 
 
 def most_operations(engine: str, dtype: str) -> float:
-    """Return how many operations are compiled: by name, as many as the engine can take.
+    """Return how many operations are compiled: as many as the engine can take.
 
     Parameters
     ----------
@@ -217,7 +217,7 @@ def most_operations(engine: str, dtype: str) -> float:
     limits = REGISTRY[COMPILER if engine == "auto" else engine]
     if engine == "numpy" or dtype not in limits.precisions:
         return -1
-    return 1500 if engine == "auto" else limits.longest
+    return limits.longest
 
 
 def batches(engine: str, operations: int | None, dtype: str) -> str:

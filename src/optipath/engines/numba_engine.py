@@ -41,7 +41,7 @@ class NumbaEngine(Engine["Formula", "ArrayPath"]):
     """Compiles a formula into machine code, which is kept for the next process."""
 
     name, extra = "numba", "fast"
-    longest = 3000
+    longest = 4000
 
     def compiled(self, formula: Formula) -> ArrayPath:
         """Return a function that does what a formula says, to arrays.
