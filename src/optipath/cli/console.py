@@ -27,7 +27,7 @@ DIGITS = click.Option(
 )
 
 _HANGING = " " * 4
-_NARROWEST, _WIDEST = 24, 1000
+_NARROWEST, _WIDEST = 20, 1000
 _COLUMN = 30
 """How wide a column that needs it is on the narrowest terminal."""
 
