@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from batches_of_chains import quickly, random_batch
+from batches_of_chains import FEWER, quickly, random_batch
 from chains import ENGINES, MATERIALS, random_chains
 from histories import coherency, stokes_in
 from optipath.lab.accuracy.path_reference import exact_batch
@@ -40,7 +40,7 @@ def test_histories_that_differ_equal_a_reference_without_frames(engine):
     np.testing.assert_allclose(light.intensity, expected[..., 0], rtol=1e-11)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", FEWER)
 def test_each_chain_of_a_batch_is_what_it_is_alone(engine):
     batch = random_batch(2, MOST[engine], several=8, each=2)
     with quickly(engine):
@@ -53,7 +53,7 @@ def test_each_chain_of_a_batch_is_what_it_is_alone(engine):
         np.testing.assert_array_equal(light.frame.z[chain], alone.frame.z)
 
 
-@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("engine", FEWER)
 def test_points_that_are_given_later_say_the_same(engine):
     batch = random_batch(3, 2)
     known = path_of(batch).trace()

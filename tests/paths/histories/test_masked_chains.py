@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from batches_of_chains import quickly, random_batch
+from batches_of_chains import FEWER, quickly, random_batch
 from chains import ENGINES
 
 GLASS, GOLD = 1.5, op.Material(0.2, 3.0)
@@ -25,8 +25,10 @@ def spoilt(batch):
     return points, ids, [1, 2, through, bent]
 
 
-@pytest.mark.parametrize("engine", ENGINES)
-@pytest.mark.parametrize("later", [False, True])
+@pytest.mark.parametrize(
+    ("engine", "later"),
+    [*((engine, True) for engine in ENGINES), *((engine, False) for engine in FEWER)],
+)
 def test_the_light_of_chains_that_cannot_be_is_not_a_number_and_all_other_is_as_it_was(
     engine, later
 ):
