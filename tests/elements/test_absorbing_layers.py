@@ -243,8 +243,15 @@ def test_engines_agree(engine):
     np.testing.assert_allclose(light.stokes, np.array(expected, float), rtol=0, atol=1e-14)
 
 
-def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque():
+@pytest.fixture
+def jax():
     jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
+    yield jax
+    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
+
+
+def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque(jax):
     plan = op.Composer(engine="jax").compose(path_of())
 
     @jax.jit
@@ -252,22 +259,19 @@ def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque():
         theta, d, wavelength = values
         return plan.run(m=1.5 + 1j * k, theta=theta, d=d, wavelength=wavelength).stokes
 
-    with jax.enable_x64(True):  # noqa: FBT003 - as JAX has it
-        slopes = jax.jit(jax.jacfwd(stokes))
-        assert np.isfinite(slopes(np.array([0.6, 1.0, 500e-9]), 0.1)).all()
-        for k in (1e-7, 1e-2):
-            at = [0.6, 1e-8 / k, 500e-9]
-            found = slopes(np.array(at), k)
-            with mpmath.workdps(60):
-                for place in range(3):
-                    step = mpmath.mpf(at[place]) * mpmath.mpf(10) ** -20
-                    ends = [[*at[:place], at[place] + d, *at[place + 1 :]] for d in (-step, step)]
-                    less, more = (exact_stokes(1.5 + 1j * k, *end) for end in ends)
-                    expected = np.array((more - less) / (2 * step), float)
-                    scale = np.abs(expected).max()
-                    np.testing.assert_allclose(
-                        found[:, place], expected, rtol=0, atol=1e-12 * scale
-                    )
+    slopes = jax.jit(jax.jacfwd(stokes))
+    assert np.isfinite(slopes(np.array([0.6, 1.0, 500e-9]), 0.1)).all()
+    for k in (1e-7, 1e-2):
+        at = [0.6, 1e-8 / k, 500e-9]
+        found = slopes(np.array(at), k)
+        with mpmath.workdps(60):
+            for place in range(3):
+                step = mpmath.mpf(at[place]) * mpmath.mpf(10) ** -20
+                ends = [[*at[:place], at[place] + d, *at[place + 1 :]] for d in (-step, step)]
+                less, more = (exact_stokes(1.5 + 1j * k, *end) for end in ends)
+                expected = np.array((more - less) / (2 * step), float)
+                scale = np.abs(expected).max()
+                np.testing.assert_allclose(found[:, place], expected, rtol=0, atol=1e-12 * scale)
 
 
 def test_a_thick_pile_of_30_layers_composes():
