@@ -18,3 +18,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 def rng(request):
     """Random numbers of a test's own, whichever tests run beside it."""
     return np.random.default_rng([*request.node.name.encode()])
+
+
+@pytest.fixture
+def jax():
+    """JAX that computes in doubles, where it is installed."""
+    jax = pytest.importorskip("jax")
+    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
+    yield jax
+    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto

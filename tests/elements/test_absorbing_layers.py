@@ -243,14 +243,6 @@ def test_engines_agree(engine):
     np.testing.assert_allclose(light.stokes, np.array(expected, float), rtol=0, atol=1e-14)
 
 
-@pytest.fixture
-def jax():
-    jax = pytest.importorskip("jax")
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
-    yield jax
-    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
-
-
 def test_slopes_are_those_of_50_digits_and_finite_where_a_layer_is_opaque(jax):
     plan = op.Composer(engine="jax").compose(path_of())
 

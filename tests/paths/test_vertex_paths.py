@@ -159,14 +159,6 @@ def test_a_chain_without_any_plane_takes_the_worlds_x():
     np.testing.assert_array_equal(along_x.frame.x, [0, 1, 0])
 
 
-@pytest.fixture
-def jax():
-    jax = pytest.importorskip("jax")
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
-    yield jax
-    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
-
-
 def test_gradients_with_respect_to_vertices_are_those_of_differences(jax):
     points = random_chains(11, 2)
     plan = op.path_from_vertices(op.Parameter("points"), MATERIALS[:2]).compose()

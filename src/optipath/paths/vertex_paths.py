@@ -10,12 +10,12 @@ import numpy as np
 from optipath.elements.vertices.by_angles import VerticesByAngles, counted
 from optipath.elements.vertices.vertex_domain import BAD, VERTICES, legs_fit
 from optipath.errors import OptipathError, PathError, ValueFault, shown, unknown
-from optipath.paths.grazing_or_through import doubtful_vertex
 from optipath.paths.histories.chain_histories import Histories, apart_where_absorbed, histories
+from optipath.paths.histories.grazing_or_through import doubtful_vertex
 from optipath.paths.histories.normals_of_chains import normals_checked
 from optipath.paths.histories.path_of_chains import path_of_chains
+from optipath.paths.histories.vertex_events import medium_faults, passable
 from optipath.paths.path_graph import PathGraph
-from optipath.paths.vertex_events import medium_faults, passable
 from optipath.values.arrays.array_likes import as_given, entries_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.domains.indices import OUTSIDE

@@ -207,14 +207,6 @@ def test_the_index_of_the_phase_is_that_of_kettelers_equations():
     assert PHASE_INDEX.made_for(FLOAT)(1.5, 0.0, 0.8, 0.6) == (1.5,)
 
 
-@pytest.fixture
-def jax():
-    found = pytest.importorskip("jax")
-    found.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
-    yield found
-    found.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
-
-
 @pytest.mark.parametrize("n0", [None, 1.3])
 @pytest.mark.parametrize("k1", [0.0, 1e-9, 0.05])
 def test_slopes_are_those_of_50_digits(jax, k1, n0):

@@ -16,14 +16,6 @@ MOST = {"numpy": 8, "numba": 8 if "OPTIPATH_SETS" in os.environ else 3, "jax": 3
 DOWN = [[0.0, 0, 3], [0, 0, 2], [0, 0, 1], [0, 0, 0]]
 
 
-@pytest.fixture
-def jax():
-    jax = pytest.importorskip("jax")
-    jax.config.update("jax_enable_x64", True)  # noqa: FBT003 - as JAX has it
-    yield jax
-    jax.config.update("jax_enable_x64", False)  # noqa: FBT003 - ditto
-
-
 def path_of(batch, points=None, **others):
     points = batch.points if points is None else points
     others = {"events": batch.texts, **others}

@@ -1,1 +1,1 @@
-"""Chains that differ in media, in lengths and in what happens along them, as they are given."""
+"""What is told of chains of points: media, lengths, and what happens at each vertex."""

@@ -12,7 +12,7 @@ from optipath.kernels.geometry.events import Event
 from optipath.paths.histories.chain_lengths import lengths_given
 from optipath.paths.histories.event_letters import events_of, letters_given
 from optipath.paths.histories.palette import ids_within, index_parts, media_by_ids, rows_of_ids
-from optipath.paths.vertex_events import REFLECTS, REFRACTS, event_faults
+from optipath.paths.histories.vertex_events import REFLECTS, REFRACTS, event_faults
 from optipath.values.arrays.shapes import broadcast_fault
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from optipath.elements.vertices.naming import of_chain
 from optipath.errors import ValueFault, shown
 from optipath.kernels.geometry.events import Event
 from optipath.paths.histories.chain_lengths import has_ended
-from optipath.paths.vertex_events import REFLECTS, REFRACTS
+from optipath.paths.histories.vertex_events import REFLECTS, REFRACTS
 from optipath.values.arrays.array_likes import as_given
 
 if TYPE_CHECKING:

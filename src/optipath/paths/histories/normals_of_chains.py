@@ -10,9 +10,9 @@ from optipath.elements.vertices.normals import are_off, normal_faults
 from optipath.errors import ValueFault
 from optipath.kernels.geometry.events import Event
 from optipath.paths.histories.chain_histories import Histories, masked
+from optipath.paths.histories.known_media import in_order, over_the_larger, sides_of
 from optipath.paths.histories.media_along import media_along
-from optipath.paths.known_media import sides_of
-from optipath.paths.vertex_events import REFLECTS
+from optipath.paths.histories.vertex_events import REFLECTS
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.materials import Material
 
@@ -67,12 +67,10 @@ def _sides(chains: Histories, outside: Any) -> Floats | None:
     found: list[Any] = []
     for place, (n1, behind) in enumerate(media_along(events, chains.materials, outside)):
         n2 = behind.n if isinstance(behind, Material) else behind
-        refracts = events[..., place] == Event.REFRACTS
-        larger = np.where(n1 == n2, np.inf, np.maximum(n1, n2))
-        one = np.where(events[..., place] == Event.BEHIND, 0.0, 1.0)
-        found += [np.where(refracts, n / larger, one) for n in (n1, n2)]
-    together = np.broadcast_arrays(*found)
-    return np.stack(together, axis=-1).reshape(*together[0].shape, chains.count, 2)
+        here = events[..., place]
+        otherwise = np.where(here == Event.BEHIND, 0.0, 1.0)
+        found.append(over_the_larger(n1, n2, here == Event.REFRACTS, otherwise))
+    return in_order(found)
 
 
 def _turned_back(points: Floats, ended: npt.NDArray[np.bool_]) -> Floats:

@@ -12,8 +12,8 @@ from optipath.elements.specular_vertex import SpecularVertex
 from optipath.elements.terminal import Detector
 from optipath.elements.vertex import Vertex
 from optipath.paths.histories.media_along import media_along
+from optipath.paths.histories.vertex_events import REFLECTS, media_in_front
 from optipath.paths.path_graph import PathGraph
-from optipath.paths.vertex_events import REFLECTS, media_in_front
 from optipath.values.arrays.read_only import locked
 
 if TYPE_CHECKING:

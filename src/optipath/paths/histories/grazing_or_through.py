@@ -11,8 +11,8 @@ from optipath.elements.vertices.naming import of_chain, pieces_of
 from optipath.elements.vertices.snell_at_vertex import deviation
 from optipath.kernels.catalogue import REFRACTION
 from optipath.kernels.numbers.primitives import NUMPY
-from optipath.paths.known_media import known, known_index
-from optipath.paths.vertex_events import REFLECTS, REFRACTS
+from optipath.paths.histories.known_media import known, known_index
+from optipath.paths.histories.vertex_events import REFLECTS, REFRACTS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError
-from optipath.paths.vertex_events import REFLECTS, media_in_front
+from optipath.paths.histories.vertex_events import REFLECTS, REFRACTS, media_in_front
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.domains.indices import INDEX
 from optipath.values.materials import Material
@@ -77,10 +77,46 @@ def sides_of(events: str, materials: Sequence[Any], outside: Any) -> Floats | No
         n1, n2 = (np.ones(()),) * 2 if event == REFLECTS else map(known_index, (before, behind))
         if n1 is None or n2 is None:
             return None
-        larger = np.where((n1 == n2) & (event != REFLECTS), np.inf, np.maximum(n1, n2))
-        found += [n1 / larger, n2 / larger]
+        found.append(over_the_larger(n1, n2, event == REFRACTS))
     try:
-        together = np.broadcast_arrays(*found)
+        return in_order(found)
     except ValueError:
         return None
-    return np.stack(together, axis=-1).reshape(*together[0].shape, len(events), 2)
+
+
+def over_the_larger(n1: Any, n2: Any, refracts: Any, otherwise: Any = 1.0) -> tuple[Any, Any]:
+    """Return the indices on both sides of a vertex as normals need them.
+
+    Parameters
+    ----------
+    n1, n2 : array_like
+        In front and behind.
+    refracts : array_like of bool
+        Where light is refracted.
+    otherwise : array_like, optional
+        What stands for both elsewhere.
+
+    Returns
+    -------
+    tuple of ndarray
+        Both over the larger; 0 between equal media.
+
+    Examples
+    --------
+    >>> [float(n) for n in over_the_larger(1.5, 3.0, True)]
+    [0.5, 1.0]
+    """
+    larger = np.where(n1 == n2, np.inf, np.maximum(n1, n2))
+    return np.where(refracts, n1 / larger, otherwise), np.where(refracts, n2 / larger, otherwise)
+
+
+def in_order(sides: Sequence[tuple[Any, Any]]) -> Floats:
+    """Return what stands on both sides of each vertex as one array, shape (..., m, 2).
+
+    Raises
+    ------
+    ValueError
+        If they do not broadcast.
+    """
+    together = np.broadcast_arrays(*[side for both in sides for side in both])
+    return np.stack(together, axis=-1).reshape(*together[0].shape, len(sides), 2)
