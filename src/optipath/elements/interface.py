@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
+from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalogue import (
     PHASE_INDEX,
     REFLECTION,
@@ -25,7 +24,7 @@ from optipath.values.domains.quantities import (
     OptionalLitIndex,
     YesOrNo,
 )
-from optipath.values.operands import Operand, operand_of
+from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -115,7 +114,7 @@ class Interface(BoundaryElement, kind="interface"):
         reflect, transmit = [_between(family, *given) for family in _FROM_FRONT]
         reflect_back = _between(_FROM_FRONT[0], *behind, *before, *angle)
         through_back = transmit
-        if not (_is_zero(first[1]) and _is_zero(second[1])):
+        if not (vanishes(first[1]) and vanishes(second[1])):
             numbers = (*first, *second, *before, *angle)
             through_back = Operation(TRANSMISSION_FROM_BEHIND, numbers)
         return self._ways((reflect, transmit), (reflect_back, through_back))
@@ -125,7 +124,7 @@ class Interface(BoundaryElement, kind="interface"):
         if self.incidence_in is None:
             return ()
         n, k = numbers_of(self.incidence_in, INDEX)
-        return (n,) if _is_zero(k) else Operation(PHASE_INDEX, (n, k, *angle)).results(1)
+        return (n,) if vanishes(k) else Operation(PHASE_INDEX, (n, k, *angle)).results(1)
 
 
 _FROM_FRONT = (
@@ -142,14 +141,6 @@ def _between(
 ) -> Operation:
     """Return the operation for light from the first of two media, of (n, k) each."""
     usual, from_absorbing = families
-    if _is_zero(first[1]):
+    if vanishes(first[1]):
         return Operation(usual, (first[0], *second, *angle))
     return Operation(from_absorbing, (*first, *second, *angle))
-
-
-def _is_zero(k: Any) -> bool:
-    """Tell whether an extinction coefficient is known to be 0."""
-    if type(k) is float:
-        return k == 0.0
-    operand = operand_of(k)
-    return operand.known and not operand.traced and not np.any(operand.numbers())

@@ -8,10 +8,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from optipath.values.domains.domain import Domain
+
+
+def bound_value(parameter: Parameter) -> Any:
+    """Return the value of a parameter that is bound; a multiple with its factor and offset.
+
+    Examples
+    --------
+    >>> float(bound_value(Parameter("a", 2.0, bound=True)))
+    2.0
+    """
+    return parameter.placed(parameter.resolve(parameter.default).value)
 
 
 def vanishes(value: Any) -> bool:
@@ -22,8 +34,11 @@ def vanishes(value: Any) -> bool:
     >>> vanishes(0.0), vanishes([0.0, 0.1]), vanishes(Parameter("a"))
     (True, False, False)
     """
-    if isinstance(value, Parameter):
-        return value.bound and vanishes(value.placed(value.resolve(value.default).value))
+    if type(value) is float:
+        return value == 0.0
+    operand = Operand(value) if isinstance(value, Parameter) else value
+    if isinstance(operand, Operand):
+        return operand.known and not operand.traced and not np.any(operand.numbers())
     return isinstance(value, (int, float, np.ndarray)) and not np.any(value)
 
 
@@ -38,7 +53,7 @@ def largest(value: Any) -> float:
     if isinstance(value, Parameter):
         if not value.bound:
             return value.span_of(value.minimum, value.maximum)[1]
-        value = value.placed(value.resolve(value.default).value)
+        value = bound_value(value)
     if type(value) is float:
         return abs(value)
     known = np.asarray(value) if isinstance(value, (int, float, np.ndarray)) else np.array(None)

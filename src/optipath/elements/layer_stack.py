@@ -5,12 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from optipath.elements.absorbed_alone import absorbed_alone
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.coupling import Operation, numbers_of
 from optipath.elements.fading_layer import FadingLayer
+from optipath.elements.known_sizes import vanishes
 from optipath.kernels.catalogue import stack
 from optipath.values.arrays.read_only import changed
 from optipath.values.domains.indices import INDEX, OPTIONAL_OUTSIDE
@@ -33,6 +32,7 @@ from optipath.values.use import Use
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    import numpy as np
     import numpy.typing as npt
 
     from optipath.elements.coupling import Coupling
@@ -225,7 +225,7 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         # What is missing, or does not fit, is told as a fault.
         if self.wavelength is None or not isinstance(lengths, tuple) or len(lengths) != len(inner):
             return []
-        return [place for place in inner if _may_be_more_than_0(pairs[place][1])]
+        return [place for place in inner if not vanishes(pairs[place][1])]
 
     def taking_over(self, **values: Any) -> LayerStack:
         """Return a stack like it with values of the boundary before in place of `FOLLOWS`."""
@@ -248,8 +248,3 @@ class LayerStack(BoundaryElement, kind="layer-stack"):
         """The indices; two of air where they are no list, which is told as a fault."""
         several: Any = self.indices
         return several if isinstance(several, tuple) and len(several) > 1 else (1.0, 1.0)
-
-
-def _may_be_more_than_0(k: Any) -> bool:
-    operand = operand_of(k)
-    return operand.traced or not operand.known or bool(np.any(operand.numbers()))

@@ -6,6 +6,7 @@ from typing import ClassVar, Self
 
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
+from optipath.elements.known_sizes import bound_value
 from optipath.elements.matrix_domain import ElementMatrix
 from optipath.elements.reversing import with_values
 from optipath.errors import PathError
@@ -63,5 +64,5 @@ class MuellerElement(Element, kind="mueller"):
                     f"on the way back, and no parameter stands for that; give the matrix, or "
                     f"bind it first, path.bind({matrix.name}=...)"
                 )
-            matrix = matrix.placed(matrix.resolve(matrix.default).value)
+            matrix = bound_value(matrix)
         return with_values(super().reversed(), matrix=reciprocal(matrix))

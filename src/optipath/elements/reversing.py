@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
-import numpy as np
-
+from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_couplings import is_own
 from optipath.errors import OptipathError, PathError, listed, unknown
 from optipath.values.arrays.read_only import changed, read_only
 from optipath.values.domains.axis import AxisDomain
 from optipath.values.made import not_known_sound
-from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -79,7 +77,7 @@ class Reversible:
         """
         mirrored = self._mirrored_fields()
         turn = getattr(self, "azimuth", 0.0)
-        is_turned = bool(np.any(Operand(turn).numbers())) if _is_known(turn) else True
+        is_turned = not vanishes(turn)
         if is_turned and not self._has_axes_alone(mirrored):
             raise PathError(
                 f"{self._called} has an azimuth, which belongs to the link before it on the way "
@@ -174,11 +172,6 @@ class Reversible:
                 f"{both} are values that make no one angle; reverse the path that the element "
                 f"stands in, path.reversed()"
             ) from None
-
-
-def _is_known(value: Any) -> bool:
-    operand = Operand(value)
-    return operand.known and not operand.traced
 
 
 def _opposite(value: Any) -> Any:

@@ -6,18 +6,16 @@ import re
 from itertools import count
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from optipath.composer.placement import is_zero
 from optipath.elements.azimuths import azimuth_at
 from optipath.elements.chaining import Chainable, begun
+from optipath.elements.known_sizes import vanishes
 from optipath.elements.own_couplings import couplings_of
 from optipath.errors import PathError, shown
 from optipath.paths.joining import name_by_kind
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.port_names import natural_of
 from optipath.values.follows import FOLLOWS
-from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -123,8 +121,7 @@ def _turning_faults(last: PathGraph) -> Iterator[str]:
             f"what else reflects by its natural way, as an Interface does"
         )
     incidence = getattr(element, "incidence", 0.0)
-    operand = Operand(incidence)
-    if incidence is FOLLOWS or not operand.known or operand.traced or np.any(operand.numbers()):
+    if incidence is FOLLOWS or not vanishes(incidence):
         given = (
             f"parameter '{incidence.name}'"
             if isinstance(incidence, Parameter)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from optipath.elements.element import Element
+from optipath.elements.known_sizes import vanishes
 from optipath.elements.source import Source
 from optipath.elements.terminal import Detector, Dump
 from optipath.errors import did_you_mean, shown, there_are
-from optipath.values.operands import Operand
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -39,7 +37,7 @@ def reversed_end(element: Element, source: Element | None = None) -> Element:
     (Detector(reads='stokes'), 0.0)
     """
     if not element.inputs:
-        return Dump() if _is_dark(element) else Detector()
+        return Dump() if vanishes(getattr(element, "intensity", 1.0)) else Detector()
     return source or Source(1.0 if element.detects else 0.0)
 
 
@@ -91,9 +89,3 @@ def _emits(one: Any) -> bool:
 
 def _near(name: Any, ends: Collection[str]) -> str:
     return did_you_mean(name, ends) if isinstance(name, str) else there_are([*ends])
-
-
-def _is_dark(element: Element) -> bool:
-    """Tell whether a source is known to give no light."""
-    operand = Operand(getattr(element, "intensity", 1.0))
-    return operand.known and not operand.traced and not np.any(operand.numbers())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+from optipath.elements.known_sizes import bound_value
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.errors import PathError
 from optipath.values.parameters import Parameter
@@ -44,5 +45,5 @@ def vertices_back(owner: str, vertices: Any) -> Any:
                 f"the other order on the way back; give the points, or bind them first, "
                 f"path.bind({vertices.name}=...)"
             )
-        vertices = vertices.placed(vertices.resolve(vertices.default).value)
+        vertices = bound_value(vertices)
     return vertices[..., ::-1, :]
