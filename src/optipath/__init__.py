@@ -91,6 +91,7 @@ if TYPE_CHECKING:
     from optipath.values.follows import FOLLOWS
     from optipath.values.materials import Material
     from optipath.values.parameters import Parameter
+    from optipath.values.wavelength import Wavelength
 
 __all__ = [  # noqa: RUF022 - as sorted() has it
     "Absorption",
@@ -163,6 +164,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "ValueFault",
     "Vertex",
     "VerticesByAngles",
+    "Wavelength",
     "Waveplate",
     "YesOrNo",
     "fresnel_reflection",
@@ -241,6 +243,7 @@ _HOMES = {
     "values.follows": ["FOLLOWS"],
     "values.materials": ["Material"],
     "values.parameters": ["Parameter"],
+    "values.wavelength": ["Wavelength"],
 }
 """Where the names are from; all are imported when the first of them is used (PEP 562)."""
 

@@ -13,6 +13,7 @@ from optipath.errors import ValueFault
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.inputs import Inputs
 from optipath.values.parameters import Parameter
@@ -56,6 +57,8 @@ class Values:
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
                 found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
+        if any(isinstance(use.value, CurveValue) for use in found):
+            found = [each for use in found for each in use.with_arguments()]
         if self.doubtful:
             return tuple(use for use in found if not self._is_doubtful(use.value))
         return tuple(found)
@@ -81,7 +84,7 @@ class Values:
         """The parameters by name: in declared order, then as they are met."""
         found: dict[str, Parameter] = {}
         for use in self.uses:
-            if isinstance(use.value, Parameter) and use.value.name not in found:
+            if use.is_given and use.value.name not in found:
                 found[use.value.name] = use.value.alone()
         declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
         return {name: found[name] for name in dict.fromkeys([*declared, *found])}
@@ -105,7 +108,14 @@ class Values:
             for name, p in self.parameters.items()
             if not p.bound and p.default is not None and not is_traced(p.default)
         }
-        return {name: r for name, r in found.items() if r.present.ndim == 0 and r.present}
+        found = {name: r for name, r in found.items() if r.present.ndim == 0 and r.present}
+        return found | {c.name: c.computed(found) for c in self._computed if c.follows(found)}
+
+    @cached_property
+    def _computed(self) -> tuple[CurveValue, ...]:
+        """What follows from parameters that are given when the path runs."""
+        open_ones = [use.value for use in self.uses if use.is_open and not use.is_given]
+        return tuple({value.name: value.alone() for value in open_ones}.values())
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
@@ -113,6 +123,7 @@ class Values:
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
             uses=tuple([use for use in self.uses if use.is_open]),
+            computed=self._computed,
             shapes=self.known_shapes,
             known=tuple([use for use in self.uses if use.is_traced]),
             choices=tuple(self.graph.graph.get("choices", ())),
@@ -156,7 +167,7 @@ class Values:
             if name in self.parameters:
                 yield f"'{name}' is a parameter and a choice; use two names"
         for use in self.uses:
-            if not isinstance(use.value, Parameter):
+            if not use.is_given:
                 continue
             name = use.value.name
             known = self.parameters[name]

@@ -18,8 +18,8 @@ from optipath.elements.reversing import Reversible
 from optipath.elements.rows import coupling_by_rows, rows_kernel
 from optipath.errors import PathError
 from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
+from optipath.values.curves.curve_value import parameters_among
 from optipath.values.made import faults_of, is_known_sound, make_sound, remember_sound
-from optipath.values.parameters import Parameter
 from optipath.values.use import Use
 
 if TYPE_CHECKING:
@@ -170,8 +170,8 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
         ]
 
     def parameters(self) -> Iterator[Parameter]:
-        """Yield the parameters among the values."""
-        return iter([value for _, value, _ in self.quantities() if isinstance(value, Parameter)])
+        """Yield the parameters among the values, and those that such follow from."""
+        return parameters_among([value for _, value, _ in self.quantities()])
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""

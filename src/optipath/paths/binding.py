@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.path_values import Values, value_faults
 from optipath.errors import OptipathError, ParameterError
 from optipath.values.arrays.read_only import changed
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.axis import axes_for
 from optipath.values.large_angles import LargeAngles
 from optipath.values.made import checked_later
@@ -90,6 +91,8 @@ def _with_bound_fields(whole: Any, bound: Mapping[str, Parameter]) -> Any:
 
 
 def _bound_value(value: Any, bound: Mapping[str, Parameter]) -> Any:
+    if isinstance(value, CurveValue):
+        return value.bound_to(bound)
     if isinstance(value, Parameter):
         parameter = bound.get(value.name)
         return value if parameter is None else parameter.like(value)

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
     from optipath.values.agreement import Agreement
+    from optipath.values.curves.curve_value import CurveValue
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 
@@ -55,6 +56,8 @@ class Inputs:
         Whether light of what cannot be is NaN, and is not refused.
     for_complex : tuple of Agreement
         What must fit together besides, once a complex number is given.
+    computed : tuple of CurveValue
+        What follows from open parameters, and stands where these might.
     """
 
     open: Mapping[str, Parameter]
@@ -66,6 +69,7 @@ class Inputs:
     agreements: tuple[Agreement, ...] = ()
     masks: bool = False
     for_complex: tuple[Agreement, ...] = ()
+    computed: tuple[CurveValue, ...] = ()
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
@@ -108,26 +112,28 @@ class Inputs:
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
                     faults += self._of_a_fit(fault.faults, name, value)
+        resolved |= {v.name: v.computed(resolved) for v in self.computed if v.follows(resolved)}
         found: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
         for use in self.distinct_uses:
             name = use.value.name
             # What is wrong in one place is mostly wrong in others, for the same reason.
-            if name not in resolved or name in refused:
+            if name not in resolved or (refused and use.rests_on(refused)):
                 continue
             numbers, present = resolved[name]
             try:
                 if name not in unchecked:
                     use.check_given(numbers, present)
             except OptipathError as fault:
-                value = given.get(name, self.open[name].default)
+                value = given.get(name, use.value.default)
                 faults += self._of_a_fit(fault.faults, name, value)
                 refused.add(name)
             else:
                 shape = getattr(numbers, "shape", ())
                 found[name] = shape[: len(shape) - len(use.domain.tail)]
-        # As they are given, so that a sentence names them in the order of whoever reads it.
-        shapes = {name: found[name] for name in (*given, *found) if name in found}
+        # As they are given, so that a sentence names them in the order of whoever reads it; what
+        # is computed of them has their shapes.
+        shapes = {name: found[name] for name in (*given, *self.open) if name in found}
         shapes = {**self.shapes, **shapes}
         lists = [name for name, value in given.items() if isinstance(value, (list, tuple))]
         media = [name for name, value in given.items() if isinstance(value, Material)]
@@ -215,7 +221,8 @@ class Inputs:
 
         That of a multiple with an offset stands beside it, by what `InputKey.quantity` says.
         """
-        found = Ranges({name: (p.minimum, p.maximum) for name, p in self.open.items()})
+        known = (*self.open.values(), *self.computed)
+        found = Ranges({p.name: (p.minimum, p.maximum) for p in known})
         for use in self.uses:
             name = use.value.name
             low, high = use.value.span_for(*use.domain.interval)

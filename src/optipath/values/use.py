@@ -12,6 +12,7 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.degrees import is_of_an_angle, meant_in_degrees
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE
@@ -19,7 +20,7 @@ from optipath.values.units import dimension_of
 from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     from optipath.values.domains.domain import Domain
     from optipath.values.resolved import Resolved
@@ -50,6 +51,25 @@ class Use:
     def is_open(self) -> bool:
         """Whether the value is a parameter that is given when the plan runs."""
         return isinstance(self.value, Parameter) and not self.value.bound
+
+    @property
+    def is_given(self) -> bool:
+        """Whether the value is a parameter that somebody gives; others follow from such."""
+        return isinstance(self.value, Parameter) and not isinstance(self.value, CurveValue)
+
+    def rests_on(self, names: Collection[str]) -> bool:
+        """Tell whether the value is one of some parameters, or follows from one of them."""
+        value = self.value
+        if value.name in names or self.is_given:
+            return value.name in names
+        return any(argument.name in names for argument in value.arguments)
+
+    def with_arguments(self) -> list[Use]:
+        """Return the parameters that the value is computed of, where these stand, and itself."""
+        value = self.value
+        if not isinstance(value, CurveValue):
+            return [self]
+        return [*[Use(*place) for place in value.argument_places(self.owner)], self]
 
     @property
     def is_traced(self) -> bool:

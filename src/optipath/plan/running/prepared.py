@@ -169,11 +169,13 @@ class Recipe:
                 self.ranges.append((key.name, *reader.inputs.limits[key.name]))
 
     @staticmethod
-    def holds(given: ResolvedInputs, parameters: Mapping[str, Any]) -> bool:
+    def holds(reader: InputReader, given: ResolvedInputs, parameters: Mapping[str, Any]) -> bool:
         """Tell whether what was read says as much of the next batch of the same shapes.
 
         Parameters
         ----------
+        reader : InputReader
+            What has read it.
         given : ResolvedInputs
             What was read.
         parameters : mapping of str to Any
@@ -186,6 +188,8 @@ class Recipe:
         """
         if not parameters.keys() <= {key.name for key in given.numbers}:
             return False  # What nothing needs is looked at each time.
+        if any(key.name not in reader.inputs.open for key in given.numbers):
+            return False  # As is what follows from others.
         return all(
             isinstance(number, np.ndarray)
             for key, number in given.numbers.items()

@@ -115,7 +115,8 @@ class InputReader:
         # An engine of doubles reads what it is given as doubles, where it stands.
         self._known_kinds = "fd?" if dtype == np.float32 else "d?"
         found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
-        self.keys = {name: [r for r in found if r.name == name] for name in inputs.open}
+        names = [*inputs.open, *[value.name for value in inputs.computed]]
+        self.keys = {name: [r for r in found if r.name == name] for name in names}
         affine = [key for key in found if key.is_affine]
         self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
         # A formula checks the range of a number that it reads, and of no other.

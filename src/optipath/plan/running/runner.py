@@ -159,7 +159,7 @@ class Runner(Answering):
         prepared = Prepared(self._kind(question, given, layout, floats=floats), layout, known)
         if not given.within(self.inputs.limits):
             self.inputs.resolve(parameters)
-        elif key is not None and Recipe.holds(given, parameters):
+        elif key is not None and Recipe.holds(self.reader, given, parameters):
             recipe = Recipe(prepared, self.reader, given, parameters)
             _kept(self._recipes, (question.key, key), recipe)
         numbers = {str(key): number for key, number in given.numbers.items()} | known

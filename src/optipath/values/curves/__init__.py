@@ -1,0 +1,1 @@
+"""What depends on the wavelength: curves, and the values of them that stand in a path."""

@@ -1,0 +1,117 @@
+"""Curve: numbers that depend on the wavelength, such as n and k of a metal."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from optipath.values.arrays.jax_values import is_traced, known, namespace
+from optipath.values.arrays.read_only import Unchanging
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Sequence
+
+    from optipath.values.domains.domain import Domain
+
+
+class Curve(Unchanging, ABC):
+    """Numbers by wavelength, elementwise, in vacuum and in metres.
+
+    A subclass says what its numbers are called, which wavelengths it knows and what it
+    comes to there. Two curves of the same content are equal.
+
+    Attributes
+    ----------
+    parts : tuple of str
+        What its numbers are called, such as ``("n", "k")``.
+    label : str
+        What sentences call it, such as ``"gold (Johnson and Christy 1972)"``.
+    span : tuple of float
+        The least and the largest wavelength that it may be asked for, in metres.
+    beyond : str
+        What else to do than to stay within these, as a sentence goes on behind "or".
+    """
+
+    parts: ClassVar[tuple[str, ...]] = ("value",)
+    label: str
+    span: tuple[float, float] = (0.0, np.inf)
+    beyond: str = ""
+
+    @property
+    @abstractmethod
+    def content(self) -> tuple[Hashable, ...]:
+        """All that its numbers are made of, the label included; texts, numbers and bytes."""
+
+    def arguments(self) -> Sequence[tuple[str, Any, Domain]]:
+        """Return what its numbers are made of besides the wavelength that may be a parameter.
+
+        Returns
+        -------
+        sequence of tuple
+            A name, a number or `Parameter`, and what it may be, in the order of `numbers`.
+        """
+        return ()
+
+    @abstractmethod
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        """Return its numbers, one for each part, elementwise and without checks.
+
+        Parameters
+        ----------
+        xp : module
+            ``numpy`` or ``jax.numpy``, by whose functions slopes are found.
+        wavelength : array_like
+            In metres.
+        *arguments : array_like
+            As `arguments` lists them; they broadcast with the wavelength.
+
+        Returns
+        -------
+        tuple of array_like
+        """
+
+    def evaluated(self, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        """Return its numbers as arrays of the broadcast shape of what is given.
+
+        A wavelength comes to the same numbers by itself and among others.
+
+        Parameters
+        ----------
+        wavelength : array_like
+            In metres.
+        *arguments : array_like
+            As `arguments` lists them.
+
+        Returns
+        -------
+        tuple of ndarray
+        """
+        given = [known(number) for number in (wavelength, *arguments)]
+        traced = [number for number in given if is_traced(number)]
+        if traced:
+            return self.numbers(namespace(traced[0]), *given)
+        several = np.broadcast_arrays(*[np.asarray(number, np.float64) for number in given])
+        shape = several[0].shape
+        # Functions of NumPy may do other things to arrays that are no row of numbers.
+        rows = [np.ascontiguousarray(number).reshape(-1) for number in several]
+        with np.errstate(all="ignore"):
+            found = self.numbers(np, *rows)
+        return tuple([np.broadcast_to(part, rows[0].shape).reshape(shape) for part in found])
+
+    @property
+    def digest(self) -> str:
+        """Some letters that equal curves share, and others do not."""
+        return blake2b(
+            repr((type(self).__name__, self.content)).encode(), digest_size=6
+        ).hexdigest()
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Curve):
+            return NotImplemented
+        return type(self) is type(other) and self.content == other.content
+
+    def __hash__(self) -> int:
+        return hash(self.content)

@@ -1,0 +1,190 @@
+"""CurveValue: a number that follows from the wavelength of a run, where it stands in a path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.arrays.read_only import changed
+from optipath.values.curves.wavelength_range import WavelengthRange
+from optipath.values.operands import Operand
+from optipath.values.parameters import Parameter
+from optipath.values.resolved import THERE, Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    from optipath.values.curves.curve import Curve
+    from optipath.values.domains.domain import Domain
+
+
+@dataclass(frozen=True, eq=False)
+class CurveValue(Parameter):
+    """A value that nobody gives: a part of a curve at a wavelength that is given.
+
+    It stands where a `Parameter` does, by a name of its own, and is computed of what is given
+    before anything else is done. Made by `curve_values`.
+
+    Attributes
+    ----------
+    curve : Curve
+        What gives it.
+    place : int
+        Which of its parts.
+    given_by : tuple
+        The wavelength, and the arguments of the curve: numbers and parameters.
+    """
+
+    curve: Any = field(default=None, repr=False)
+    place: int = 0
+    given_by: tuple[Any, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Take all as it is: nobody but this library makes one."""
+
+    @property
+    def arguments(self) -> tuple[Parameter, ...]:
+        """The parameters that it is computed of."""
+        return tuple([one for one in self.given_by if isinstance(one, Parameter)])
+
+    def argument_places(self, owner: str) -> list[tuple[str, Any, Domain]]:
+        """Return where the parameters stand that it is computed of, and what they may be.
+
+        Parameters
+        ----------
+        owner : str
+            What sentences call the place of the value.
+
+        Returns
+        -------
+        list of tuple
+            A place, a parameter and its domain for each.
+        """
+        domains = [
+            (owner, WavelengthRange.of(self.curve)),
+            *[(f"{owner}.{name}", domain) for name, _, domain in self.curve.arguments()],
+        ]
+        return [
+            (place, value, domain)
+            for value, (place, domain) in zip(self.given_by, domains, strict=True)
+            if isinstance(value, Parameter)
+        ]
+
+    def follows(self, given: Mapping[str, Resolved]) -> bool:
+        """Tell whether all is given that it is computed of."""
+        return all(one.bound or one.name in given for one in self.arguments)
+
+    def computed(self, given: Mapping[str, Resolved]) -> Resolved:
+        """Return its numbers, scale and offset aside.
+
+        Parameters
+        ----------
+        given : mapping of str to Resolved
+            At least the parameters that it is computed of.
+
+        Returns
+        -------
+        Resolved
+        """
+        numbers = [_number(one, given) for one in self.given_by]
+        return Resolved(self.curve.evaluated(*numbers)[self.place], THERE)
+
+    def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
+        """Return what it is once parameters that it is computed of have values.
+
+        Parameters
+        ----------
+        values : mapping of str to Parameter
+            Parameters with values, by name.
+
+        Returns
+        -------
+        CurveValue
+            The same one where it is computed of none of them.
+        """
+        if not any(one.name in values for one in self.arguments):
+            return self
+        given_by = tuple(
+            [
+                values[one.name].like(one) if getattr(one, "name", None) in values else one
+                for one in self.given_by
+            ]
+        )
+        return _of(self.curve, self.place, given_by).like(self)
+
+    def same_specification(self, other: Parameter) -> bool:
+        return isinstance(other, CurveValue) and self.name == other.name
+
+    def __eq__(self, other: object) -> bool:
+        return Parameter.__eq__(self, other)
+
+    def __hash__(self) -> int:
+        return hash(self.name)
+
+
+def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
+    """Return what stands for each part of a curve, at a wavelength that may be a parameter.
+
+    Parameters
+    ----------
+    curve : Curve
+        What depends on it.
+    wavelength : float, array_like or Parameter
+        In metres.
+
+    Returns
+    -------
+    tuple of CurveValue, or of ndarray
+        Numbers where all that it depends on is known.
+    """
+    given_by = (wavelength, *[value for _, value, _ in curve.arguments()])
+    if not any(isinstance(one, Parameter) for one in given_by):
+        return curve.evaluated(*given_by)
+    return tuple([_of(curve, place, given_by) for place in range(len(curve.parts))])
+
+
+def parameters_among(values: Iterable[Any]) -> Iterator[Parameter]:
+    """Yield the parameters among some values, and behind each those that it follows from."""
+    for value in values:
+        if isinstance(value, Parameter):
+            yield value
+        if isinstance(value, CurveValue):
+            yield from value.arguments
+
+
+def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
+    parameters = [one for one in given_by if isinstance(one, Parameter)]
+    bound = all(one.bound for one in parameters)
+    made = CurveValue(
+        _name(curve, place, given_by),
+        None,
+        bound=bound,
+        curve=curve,
+        place=place,
+        given_by=given_by,
+    )
+    known = {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
+    if not made.follows(known):
+        return made
+    default = made.computed(known).value
+    return changed(made, default=default if is_traced(default) or default.ndim else default.item())
+
+
+def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
+    """Return a name that nobody can give, and that equal values alone share."""
+    keys = [Operand(one).key() for one in given_by]
+    bound = [
+        np.asarray(p.default).tobytes() for p in given_by if isinstance(p, Parameter) and p.bound
+    ]
+    mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=4).hexdigest()
+    return f"{curve.parts[place]} of {curve.label} [{mark}]"
+
+
+def _number(one: Any, given: Mapping[str, Resolved]) -> Any:
+    operand = Operand(one)
+    return operand.evaluated(NUMPY, operand.raw(given))

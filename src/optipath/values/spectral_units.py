@@ -1,0 +1,65 @@
+"""Wavelengths in vacuum by what else names light: photon energy, wave number and frequency."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from optipath.errors import UnitError
+from optipath.values.ratios import NUMBER
+
+_SPEED = 299792458.0
+_ENERGY = 6.62607015e-34 * _SPEED / 1.602176634e-19
+"""h c / e, exact by the definitions of the SI (BIPM, 2019): electronvolts times metres."""
+
+_TIMES_WAVELENGTH = {
+    "meV": _ENERGY * 1e3,
+    "eV": _ENERGY,
+    "keV": _ENERGY / 1e3,
+    "1/um": 1e-6,
+    "1/mm": 1e-3,
+    "1/cm": 1e-2,
+    "cm^-1": 1e-2,
+    "cm-1": 1e-2,
+    "1/m": 1.0,
+    "GHz": _SPEED / 1e9,
+    "THz": _SPEED / 1e12,
+    "PHz": _SPEED / 1e15,
+    "Hz": _SPEED,
+}
+"""What a number in a unit and the wavelength in metres come to when they are multiplied."""
+
+_TEXT = re.compile(rf"([-+]?{NUMBER})\s*(\S+)", re.ASCII)
+
+
+def wavelength_of(text: str) -> float | None:
+    """Return the wavelength that a photon energy, a wave number or a frequency stands for.
+
+    Parameters
+    ----------
+    text : str
+        A number with one of the units eV, meV, keV, 1/cm (or ``cm^-1``), 1/um, 1/mm, 1/m, Hz, GHz,
+        THz, PHz.
+
+    Returns
+    -------
+    float or None
+        In vacuum, in metres; None for what has none of these units.
+
+    Raises
+    ------
+    UnitError
+        If the number is not above 0.
+
+    Examples
+    --------
+    >>> round(wavelength_of("2.4 eV") * 1e9, 3), wavelength_of("20000 1/cm")
+    (516.601, 5e-07)
+    """
+    match = _TEXT.fullmatch(text.strip())
+    if match is None or match[2] not in _TIMES_WAVELENGTH:
+        return None
+    number = float(match[1])
+    if not 0.0 < number < math.inf:
+        raise UnitError(f"'{text}' stands for no wavelength; give a number above 0")
+    return _TIMES_WAVELENGTH[match[2]] / number

@@ -1,0 +1,72 @@
+"""Wavelength: the parameter by which light of a run has its colour."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from optipath.errors import ParameterError
+from optipath.values.parameters import Parameter
+from optipath.values.spectral_units import wavelength_of
+
+_MOST_NANOMETRES = 1e6
+
+
+@dataclass(frozen=True, eq=False)
+class Wavelength(Parameter):
+    """The wavelength in vacuum, as a parameter that is given when a path is traced.
+
+    Materials, spectra and whatever else depends on it share the one that is called
+    ``wavelength``. Numbers are in metres, texts have a unit: ``"516 nm"``, or a photon energy
+    (``"2.4 eV"``), a wave number (``"19380 1/cm"``) or a frequency (``"581 THz"``).
+
+    Parameters
+    ----------
+    name : str, optional
+        The keyword that gives it.
+    unit : str, optional
+        The unit of length in which files and the command line give it.
+    minimum, maximum : float, optional
+        The range; from X-rays to millimetres.
+    help : str, optional
+        One line for the command line. All else, as the default, is that of a `Parameter`.
+
+    Raises
+    ------
+    ParameterError
+        As a `Parameter`.
+
+    Examples
+    --------
+    >>> float(Wavelength().resolve("2.4 eV").value).__round__(12)
+    5.16601e-07
+    """
+
+    name: str = "wavelength"
+    unit: str = "nm"
+    minimum: float = 1e-12
+    maximum: float = 1e-3
+    help: str = "wavelength in vacuum"
+
+    def __post_init__(self) -> None:
+        for field in ("default", "minimum", "maximum"):
+            given = getattr(self, field)
+            if isinstance(given, str) and (read := wavelength_of(given)) is not None:
+                object.__setattr__(self, field, read)
+        super().__post_init__()
+
+    def parse(self, text: str, default_unit: str = "") -> Any:
+        read = wavelength_of(text)
+        return super().parse(text, default_unit) if read is None else read
+
+    def _check_range(self, array: Any) -> None:
+        try:
+            super()._check_range(array)
+        except ParameterError as error:
+            first = array[~self.allows(array)].ravel()[0]
+            if array.dtype.kind == "c" or not 1.0 <= first <= _MOST_NANOMETRES:
+                raise
+            raise ParameterError(
+                f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
+                f"for nanometres write '{first:g} nm', or {first:g}e-9"
+            ) from error
