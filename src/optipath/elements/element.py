@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from optipath.light.frames import Frame
     from optipath.light.mueller.matrix import Mueller
     from optipath.values.domains.domain import Domain
+    from optipath.values.parameters import Parameter
 
 
 @dataclass_transform(frozen_default=True, eq_default=False)
