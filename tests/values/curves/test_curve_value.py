@@ -5,9 +5,9 @@ import pickle
 
 import numpy as np
 import pytest
-from fake_curves import Metal, metal
 
 import optipath as op
+from fake_curves import Metal, metal
 
 
 def mirror(*, slope=2e6, wavelength=None):
