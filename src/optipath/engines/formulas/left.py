@@ -6,6 +6,7 @@ both, the angle rounded and what is left of it.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -18,7 +19,16 @@ from optipath.kernels.numbers.trigonometry import DIGITS, from_axes, from_nearer
 FROM_NEARER, FROM_ANY = "left from the nearer axis", "left from axes"
 """Operations on an angle that is given: within 0 .. pi/2, or any."""
 
-LEFT = {FROM_NEARER: from_nearer_axis, FROM_ANY: from_axes}
+FROM_ANY_UNFUSED = "left from axes, unfused"
+"""The same of any angle, with the roundings that every engine has."""
+
+LEFT = {
+    FROM_NEARER: from_nearer_axis,
+    FROM_ANY: from_axes,
+    FROM_ANY_UNFUSED: lambda xp, digits: from_axes(
+        replace(xp, multiply_add=lambda a, b, c: a * b + c), digits
+    ),
+}
 DOUBLE = DIGITS["float64"]
 
 

@@ -119,7 +119,8 @@ class MatrixQuestion(Question):
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         kind, limits = maker.dtype.name, maker.limits
         ends = self.source, self.reading
-        return matrix_formula(self.program, *ends, kind, forms, limits, axes, masks=maker.masks)
+        how = {"masks": maker.masks, "reproducible": maker.reproducible}
+        return matrix_formula(self.program, *ends, kind, forms, limits, axes, **how)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.
