@@ -22,6 +22,8 @@ from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+_OF_PLAIN_NUMBERS = "where", "sqrt", "absolute", "maximum", "minimum", "ldexp"
+
 
 def reproducible(
     xp: Primitives, dtype: str, small_enough: Callable[[Any], Any] | None = None
@@ -41,7 +43,8 @@ def reproducible(
     -------
     Primitives
     """
-    xp = replace(xp, multiply_add=lambda a, b, c: a * b + c)
+    in_precision = {name: _in_precision(getattr(xp, name), dtype) for name in _OF_PLAIN_NUMBERS}
+    xp = replace(xp, multiply_add=lambda a, b, c: a * b + c, **in_precision)
     digits, where = DIGITS[dtype], xp.where
     polynomials = any_quadrant(xp, digits)
 
@@ -81,14 +84,7 @@ def reproducible_numpy(dtype: str) -> Primitives:
     >>> reproducible_numpy("float64").sin(np.array([0.5, 1e6]))
     array([ 0.47942554, -0.34999350])
     """
-    kind = np.dtype(dtype)
-
-    def where(condition: Any, yes: Any, no: Any) -> Any:
-        # Of plain numbers alone, NumPy makes doubles.
-        found = np.where(condition, yes, no)
-        return found.astype(kind, copy=False) if found.dtype == np.float64 else found
-
-    return reproducible(replace(NUMPY, where=where), dtype)
+    return reproducible(NUMPY, dtype)
 
 
 def _one_by_one(plain: Callable[[float], float], angles: Any) -> Any:
@@ -96,3 +92,17 @@ def _one_by_one(plain: Callable[[float], float], angles: Any) -> Any:
     numbers = np.asarray(angles)
     found = [plain(a) if math.isfinite(a) else math.nan for a in numbers.ravel().tolist()]
     return np.reshape(np.array(found, numbers.dtype), numbers.shape)
+
+
+def _in_precision(function: Callable[..., Any], dtype: str) -> Callable[..., Any]:
+    """Return a function that makes no doubles of plain numbers in a lower precision."""
+    if dtype == "float64":
+        return function
+    kind = np.dtype(dtype)
+
+    def rounded(*numbers: Any) -> Any:
+        found = function(*numbers)
+        is_double = getattr(found, "dtype", None) == np.float64
+        return found.astype(kind) if is_double else found
+
+    return rounded
