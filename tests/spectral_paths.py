@@ -1,11 +1,11 @@
 """Random paths in which values follow from the wavelength, and their light run by run."""
 
 import numpy as np
-from random_paths import Draw
 
 import optipath as op
 from optipath.values.curves.curve import Curve
 from optipath.values.curves.curve_value import curve_values
+from random_paths import Draw
 
 
 class Ramps(Curve):

@@ -43,6 +43,7 @@ def reproducible(
     -------
     Primitives
     """
+    in_precision: dict[str, Any]
     in_precision = {name: _in_precision(getattr(xp, name), dtype) for name in _OF_PLAIN_NUMBERS}
     xp = replace(xp, multiply_add=lambda a, b, c: a * b + c, **in_precision)
     digits, where = DIGITS[dtype], xp.where

@@ -129,7 +129,7 @@ class ReproducibleInterpreter(Interpreter):
             return super()._given(operand, given)
         if operand.part == "imag" and type(given.numbers[key]) is float:
             number = self.dtype.type(given.numbers[key])
-            return number if number == 0.0 else np.atleast_1d(number)  # type: ignore[no-any-return]
+            return number if number == 0.0 else np.atleast_1d(number)
         if operand.part in ("cos", "sin") and key in given.numbers:
             return self._circular(operand, np.atleast_1d(given.numbers[key]))
         raw = operand.given_in(given.numbers, lambda number: self._cast(np.atleast_1d(number)))

@@ -142,7 +142,7 @@ class Runner(Answering):
             As the class of the question says.
         """
         if self.first_values.ways:
-            kind = (given.forms(self.dtype, reproducible=self.options.reproducible), given.batch, *parameters)
+            kind = (given.forms(self.dtype), given.batch, *parameters)
             self.first_values.check(kind, lambda: given)
         floats = question.is_light and self.dtype == np.float64 and given.is_of_floats
         if floats and not given.batch:
