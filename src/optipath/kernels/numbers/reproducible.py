@@ -22,7 +22,7 @@ from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_OF_PLAIN_NUMBERS = "where", "sqrt", "absolute", "maximum", "minimum", "ldexp"
+_OF_PLAIN_NUMBERS = "where", "sqrt", "absolute", "maximum", "minimum", "ldexp", "two_product"
 
 
 def reproducible(
@@ -96,14 +96,8 @@ def _one_by_one(plain: Callable[[float], float], angles: Any) -> Any:
 
 
 def _in_precision(function: Callable[..., Any], dtype: str) -> Callable[..., Any]:
-    """Return a function that makes no doubles of plain numbers in a lower precision."""
+    """Return a function that takes plain numbers in the precision of a plan."""
     if dtype == "float64":
         return function
-    kind = np.dtype(dtype)
-
-    def rounded(*numbers: Any) -> Any:
-        found = function(*numbers)
-        is_double = getattr(found, "dtype", None) == np.float64
-        return found.astype(kind) if is_double else found
-
-    return rounded
+    kind = np.dtype(dtype).type
+    return lambda *numbers: function(*[kind(n) if type(n) is float else n for n in numbers])
