@@ -146,10 +146,11 @@ def _kind(formula: Formula, symbol: Symbol) -> str:
     if formula.place_of(symbol) == "one":
         return "float64"
     if symbol.kind != "float":
-        return "*uint8"
+        return "*uint8" if symbol.kind == "bool" else "*int64"
     return "*float64" if formula.name_of(symbol) in formula.wide else f"*{formula.dtype.name}"
 
 
+_LOADED = {"float": "t{0} = T({1})", "bool": "t{0} = {1} != 0", "int": "t{0} = {1}"}
 _STARTS = {"column": "x{0} = start + begin", "cell": "x{0} = first + begin"}
 
 
@@ -158,7 +159,7 @@ def _loads(formula: Formula) -> tuple[list[str], list[str], list[str], list[str]
     before, in_row, starts, inside = [], [], [], []
     for symbol in formula.inputs:
         n, place = symbol.index, formula.place_of(symbol)
-        form = "t{0} = T({1})" if symbol.kind == "float" else "t{0} = {1} != 0"
+        form = _LOADED[symbol.kind]
         if place == "one":
             before.append(form.format(n, f"a{n}"))
         elif place == "row":

@@ -46,6 +46,7 @@ OPERATIONS = {
     "floor_divide": About(np.floor_divide, "same", "{0} // {1}"),
     "greater": About(np.greater, "bool", "{0} > {1}"),
     "greater_equal": About(np.greater_equal, "bool", "{0} >= {1}"),
+    "integer": About(NUMPY.integer, "int", "int({0})"),
     "ldexp": About(np.ldexp, "float", "ldexp({0}, {1})"),
     "less": About(np.less, "bool", "{0} < {1}"),
     "less_equal": About(np.less_equal, "bool", "{0} <= {1}"),

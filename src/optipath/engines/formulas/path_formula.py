@@ -47,6 +47,7 @@ def lights_formula(
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     unreduced: bool = False,
     masks: bool = False,
+    reproducible: bool = False,
 ) -> Formula:
     """Return the formula of the light at every end.
 
@@ -75,6 +76,8 @@ def lights_formula(
         Whether nothing is left out.
     masks : bool, optional
         Whether light that is NaN is so on purpose, and the formula holds for it.
+    reproducible : bool, optional
+        Whether every engine that does the formula comes to the same bits.
 
     Returns
     -------
@@ -83,11 +86,17 @@ def lights_formula(
     recorder = Recorder(np.dtype(dtype))
     known = recorder.opaque if unreduced else None
     operands = SymbolicInputs(
-        recorder, forms, limits, polynomials=polynomials, axes=axes, known=known
+        recorder,
+        forms,
+        limits,
+        polynomials=polynomials,
+        axes=axes,
+        known=known,
+        reproducible=reproducible,
     )
     xp, tiny = operands.primitives, recorder.dtype.type(np.finfo(recorder.dtype).tiny)
     carried: Carrier = carrier(xp)
-    if carrier is StokesCarrier and program.for_powers is not None:
+    if carrier is StokesCarrier and program.for_powers is not None and not reproducible:
         program, carried = program.for_powers, IntensityCarrier(xp, tiny * _SPARE)
     solvers: list[LoopSolver] = []
     symbols = operands.of(program)
@@ -191,6 +200,7 @@ def matrix_formula(
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     *,
     masks: bool = False,
+    reproducible: bool = False,
 ) -> Formula:
     """Return the formula of the Mueller matrix from a source to a reading, row by row.
 
@@ -210,15 +220,17 @@ def matrix_formula(
         The range of each parameter.
     axes : mapping of str to frozenset of int, optional
         Along which axes of the batch each array differs.
-    masks : bool, optional
-        As `lights_formula` takes it.
+    masks, reproducible : bool, optional
+        As `lights_formula` takes them.
 
     Returns
     -------
     Formula
     """
     recorder = Recorder(np.dtype(dtype))
-    operands = SymbolicInputs(recorder, forms, limits, polynomials=True, axes=axes)
+    operands = SymbolicInputs(
+        recorder, forms, limits, polynomials=True, axes=axes, reproducible=reproducible
+    )
     symbols, carrier = operands.of(program), MatrixCarrier(operands.primitives)
     none, one = recorder.dtype.type(0.0), recorder.dtype.type(1.0)
     columns = []

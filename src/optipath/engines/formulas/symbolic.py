@@ -11,6 +11,7 @@ import numpy as np
 from optipath.engines.formulas.operations import OPERATIONS
 from optipath.engines.formulas.symbol import Symbol
 from optipath.kernels.numbers.primitives import Primitives, is_below_rounding
+from optipath.kernels.numbers.reproducible import reproducible
 from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 
 
@@ -71,7 +72,7 @@ SYMBOLIC = Primitives(
     **_recording("where", "sqrt", "absolute", "maximum", "minimum", "exp", "ldexp"),
     sin=partial(_circular, "sin"),
     cos=partial(_circular, "cos"),
-    **_recording("fixed", "multiply_add", atan2="arctan2", scaling="exponent"),
+    **_recording("fixed", "multiply_add", "integer", atan2="arctan2", scaling="exponent"),
     two_product=lambda a, b: (record("multiply", a, b), record("product_rest", a, b)),
     below_rounding=_below_rounding,
 )
@@ -97,3 +98,19 @@ def with_polynomials(dtype: str) -> Primitives:
     return replace(
         SYMBOLIC, sin=partial(sine_or_cosine, "sin", 0), cos=partial(sine_or_cosine, "cos", 1)
     )
+
+
+@cache
+def reproducible_symbolic(dtype: str) -> Primitives:
+    """Return primitives that record elementary functions as every engine does them alike.
+
+    Angles that are too large for them become a requirement of the record.
+    """
+
+    def small_enough(angle: Any) -> Any:
+        if isinstance(angle, Symbol):
+            angle.recorder.require(abs(angle) <= DIGITS[dtype].most)
+            return True
+        return abs(angle) <= DIGITS[dtype].most
+
+    return reproducible(replace(SYMBOLIC, below_rounding=is_below_rounding), dtype, small_enough)

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.formulas.left import FROM_ANY, FROM_NEARER
+from optipath.engines.formulas.left import FROM_ANY, FROM_ANY_UNFUSED, FROM_NEARER
+from optipath.engines.formulas.of_angles import is_in_first_quadrant, of_angle
 from optipath.engines.formulas.recorder import ONE_AXIS
 from optipath.engines.formulas.symbol import Symbol
-from optipath.engines.formulas.symbolic import SYMBOLIC, with_polynomials
-from optipath.kernels.numbers.circular import without_rounding
-from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant, first_quadrant
+from optipath.engines.formulas.symbolic import SYMBOLIC, reproducible_symbolic, with_polynomials
+from optipath.kernels.numbers.trigonometry import DIGITS
 from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO
 from optipath.values.precision import wide
 
@@ -48,6 +48,8 @@ class SymbolicInputs:
         only one where nothing is said.
     known : callable, optional
         What is done to each number that is known.
+    reproducible : bool, optional
+        Whether elementary functions are those that every engine does alike.
     """
 
     def __init__(
@@ -59,6 +61,7 @@ class SymbolicInputs:
         polynomials: bool,
         axes: Mapping[str, frozenset[int]],
         known: Callable[[Any], Any] | None = None,
+        reproducible: bool = False,
     ) -> None:
         self.recorder = recorder
         self.forms = forms
@@ -66,10 +69,13 @@ class SymbolicInputs:
         self.polynomials = polynomials
         self.axes = axes
         self.known = known
+        self.reproducible = reproducible
 
     @property
     def primitives(self) -> Primitives:
         """What kernels are to be made of."""
+        if self.reproducible:
+            return reproducible_symbolic(self.recorder.dtype.name)
         return with_polynomials(self.recorder.dtype.name) if self.polynomials else SYMBOLIC
 
     def of(self, program: Program) -> list[Any]:
@@ -101,9 +107,9 @@ class SymbolicInputs:
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
         given = self._given(key, form)
-        if operand.part in ("cos", "sin") and self.polynomials:
+        if operand.part in ("cos", "sin") and (self.polynomials or self.reproducible):
             return self._circular(operand, form, given)
-        return operand.evaluated(SYMBOLIC, given)
+        return operand.evaluated(self.primitives, given)
 
     def _input(self, name: str, form: str, kind: str = "float", left: str = "") -> Any:
         axes = frozenset[int]() if form == ONE else self.axes.get(name, ONE_AXIS)
@@ -135,6 +141,8 @@ class SymbolicInputs:
         self.recorder.require(abs(cos * cos + sin * sin - 1.0) <= _APART)
         if operand.part in ("cos", "sin"):
             return operand.evaluated(SYMBOLIC, (cos, sin))
+        if self.reproducible:
+            return operand.evaluated(self.primitives, (cos, sin))
         angle = SYMBOLIC.atan2(sin, cos)
         if isinstance(angle, Symbol):
             self.recorder.pairs[angle.index] = sin, cos
@@ -157,17 +165,15 @@ class SymbolicInputs:
         if negative:
             angle = -angle
         digits = DIGITS[kind.name]
-        low, high = self.limits[operand.input_key.quantity]
-        first = not negative and low >= 0.0 and high <= np.pi / 2
+        first = is_in_first_quadrant(operand, self.limits[operand.input_key.quantity])
         left = None
         if form in (ONE, WIDE) and kind != wide(kind):
             # Next to a right angle it is all that there is, and has more digits than the angle.
-            left = self._input(
-                str(operand.input_key), form, left=FROM_NEARER if first else FROM_ANY
-            )
+            from_any = FROM_ANY_UNFUSED if self.reproducible else FROM_ANY
+            name = str(operand.input_key)
+            left = self._input(name, form, left=FROM_NEARER if first else from_any)
             left = -left if negative else left
-        if first:
-            return first_quadrant(SYMBOLIC, digits)(angle, left)[operand.part == "cos"]
-        self.recorder.require(abs(angle) <= digits.most)
-        value = any_quadrant(SYMBOLIC, digits)(angle, left)[operand.part == "cos"]
-        return without_rounding(SYMBOLIC, lambda _: value)(angle) if left is None else value
+        if not first:
+            self.recorder.require(abs(angle) <= digits.most)
+        xp = self.primitives if self.reproducible else SYMBOLIC
+        return of_angle(xp, digits, operand, angle, left, first=first)

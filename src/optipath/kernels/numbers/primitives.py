@@ -47,6 +47,8 @@ class Primitives:
         A value without its slope, where an engine takes gradients; elsewhere the value itself.
     multiply_add : callable
         ``(a, b, c)`` to a b + c, rounded once where that costs no more than twice.
+    integer : callable
+        A whole number that is given as a float, as `ldexp` takes one.
     apart : callable
         A function that returns a tuple, as a piece of its own, where an engine compiles one large
         piece too slowly.
@@ -71,6 +73,7 @@ class Primitives:
     below_rounding: Callable[[Any, Any], Any]
     fixed: Callable[[Any], Any]
     multiply_add: Callable[[Any, Any, Any], Any] = lambda a, b, c: a * b + c
+    integer: Callable[[Any], Any] = int
     apart: Callable[[Any], Any] = lambda function: function
     within: float = 0.0
 
@@ -206,6 +209,7 @@ def of_module(xp: Any) -> Primitives:
         two_product=product_and_rest,
         below_rounding=is_below_rounding,
         fixed=_itself,
+        integer=lambda number: xp.asarray(number).astype(int),
     )
 
 

@@ -55,4 +55,5 @@ def twice(xp: Primitives) -> Primitives:
             high_and_low(larger)[0], high_and_low(number)[0]
         ),
         fixed=lambda number: number,
+        integer=lambda number: xp.integer(high_and_low(number)[0]),
     )

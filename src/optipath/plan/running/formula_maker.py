@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.engines.formulas.path_formula import lights_formula
 from optipath.values.operands import ONE, ZERO
 from optipath.values.precision import wide
@@ -12,11 +14,10 @@ from optipath.values.precision import wide
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    import numpy as np
-
     from optipath.engines.formulas.formula import Formula
     from optipath.engines.program.program import Program
     from optipath.kernels.carriers.carrier import Carrier
+    from optipath.plan.running.options import RunOptions
     from optipath.values.input_key import InputKey
     from optipath.values.inputs import Inputs
 
@@ -35,8 +36,8 @@ class FormulaMaker:
         What may be given.
     carrier : type
         How light is carried.
-    dtype : dtype
-        The precision.
+    options : RunOptions
+        How programs are run.
     unreduced : bool
         Whether everything is done for each path.
 
@@ -51,7 +52,7 @@ class FormulaMaker:
         program: Program,
         inputs: Inputs,
         carrier: type[Carrier],
-        dtype: np.dtype[Any],
+        options: RunOptions,
         *,
         unreduced: bool,
     ) -> None:
@@ -59,9 +60,10 @@ class FormulaMaker:
         self.limits = inputs.limits
         self.masks = inputs.masks
         self.carrier = carrier
-        self.dtype = dtype
+        self.dtype = np.dtype(options.dtype)
         self.unreduced = unreduced
-        self.may_make = len(program.steps) <= LONGEST and dtype.name in ("float64", "float32")
+        self.reproducible = options.reproducible
+        self.may_make = len(program.steps) <= LONGEST and options.dtype in ("float64", "float32")
 
     def attempt(self, make: Callable[[], Formula]) -> Formula | None:
         """Return what makes a formula gives; None where it cannot be made."""
@@ -97,7 +99,7 @@ class FormulaMaker:
             Of four components at every end, and of the exponents behind them.
         """
         kind, carrier = self.dtype.name, carrier or self.carrier
-        options["masks"] = self.masks
+        options |= {"masks": self.masks, "reproducible": self.reproducible}
         return lights_formula(self.program, carrier, kind, forms, self.limits, **options)
 
     def all_given_as(self, form: str) -> dict[InputKey, str]:

@@ -20,6 +20,8 @@ class RunOptions(NamedTuple):
         What is asked for, ``"auto"`` or the name of an engine.
     threads : int
         How many share a large batch.
+    reproducible : bool
+        Whether a path comes to the same bits alone and in any batch, by every engine but JAX.
     """
 
     method: str
@@ -27,3 +29,4 @@ class RunOptions(NamedTuple):
     dtype: str
     engine: str
     threads: int
+    reproducible: bool = False

@@ -24,6 +24,16 @@ if TYPE_CHECKING:
     from optipath.plan.running.scalar_runner import FloatFunction, ScalarRunner
     from optipath.values.input_key import InputKey
 
+MOST_KEPT = 64
+"""How many kinds of batches are kept prepared; the oldest goes first."""
+
+
+def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
+    """Keep a value with others, the oldest of which go."""
+    for oldest in list(store)[: max(0, len(store) - MOST_KEPT + 1)]:
+        store.pop(oldest, None)
+    store[key] = value
+
 
 class BatchKind:
     """Batches of one kind: one question, numbers of the same forms, the same axes.

@@ -119,7 +119,16 @@ class MatrixQuestion(Question):
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
         kind, limits = maker.dtype.name, maker.limits
         ends = self.source, self.reading
-        return matrix_formula(self.program, *ends, kind, forms, limits, axes, masks=maker.masks)
+        return matrix_formula(
+            self.program,
+            *ends,
+            kind,
+            forms,
+            limits,
+            axes,
+            masks=maker.masks,
+            reproducible=maker.reproducible,
+        )
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         del shared  # Each is needed in several columns.

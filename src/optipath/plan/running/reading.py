@@ -91,9 +91,26 @@ class ResolvedInputs(NamedTuple):
                 return False
         return True
 
-    def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[InputKey, str], ...]:
-        """Return in which form each number is given."""
-        return tuple([(key, _form(key, number, dtype)) for key, number in self.numbers.items()])
+    def forms(
+        self, dtype: np.dtype[Any], *, reproducible: bool = False
+    ) -> tuple[tuple[InputKey, str], ...]:
+        """Return in which form each number is given.
+
+        Parameters
+        ----------
+        dtype : dtype
+            The precision of the plan.
+        reproducible : bool, optional
+            Whether 0 is a number like others, but for what real numbers have no part of.
+
+        Returns
+        -------
+        tuple of (InputKey, str)
+        """
+        found = [(key, _form(key, number, dtype)) for key, number in self.numbers.items()]
+        if not reproducible:
+            return tuple(found)
+        return tuple([(k, ONE if f == ZERO and k.part != "imag" else f) for k, f in found])
 
 
 class InputReader:
@@ -107,13 +124,17 @@ class InputReader:
         What may be given.
     dtype : dtype
         The precision of the plan.
+    reproducible : bool, optional
+        Whether arrays are read as the numbers in them are read alone.
     """
 
-    def __init__(self, program: Program, inputs: Inputs, dtype: np.dtype[Any]) -> None:
+    def __init__(
+        self, program: Program, inputs: Inputs, dtype: np.dtype[Any], *, reproducible: bool = False
+    ) -> None:
         self.inputs = inputs
         self._widest = np.result_type(dtype, np.float64)
         # An engine of doubles reads what it is given as doubles, where it stands.
-        self._known_kinds = "fd?" if dtype == np.float32 else "d?"
+        self._known_kinds = "fd?" if dtype == np.float32 and not reproducible else "d?"
         found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         names = [*inputs.open, *[value.name for value in inputs.computed]]
         self.keys = {name: [r for r in found if r.name == name] for name in names}

@@ -15,10 +15,11 @@ from optipath.plan.running.batch_runner import Results
 from optipath.plan.running.first_values import FirstValues
 from optipath.plan.running.for_jax import ForJax
 from optipath.plan.running.formula_maker import FormulaMaker
-from optipath.plan.running.interpreter import Interpreter, carrier_of
+from optipath.plan.running.interpreter import carrier_of
 from optipath.plan.running.pieces import pieces
-from optipath.plan.running.prepared import BatchKind, Prepared, Recipe
+from optipath.plan.running.prepared import BatchKind, Prepared, Recipe, keep
 from optipath.plan.running.reading import InputReader
+from optipath.plan.running.reproducible_interpreter import interpreter_for
 from optipath.plan.running.scalar_runner import ScalarRunner
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.memory import CURE, enough_for
@@ -38,9 +39,6 @@ if TYPE_CHECKING:
 
 CACHED = 8192
 """How many paths are taken at once, step after step."""
-
-MOST_KEPT = 64
-"""How many kinds of batches are kept prepared; the oldest goes first."""
 
 _LITTLE = 1 << 20
 """How many bytes every machine has memory for."""
@@ -80,9 +78,9 @@ class Runner(Answering):
         self.dtype = np.dtype(options.dtype)
         self.carrier = carrier_of(program, options.composing)
         self.for_jax = ForJax(program, inputs, self.carrier, options)
-        self.reader = InputReader(program, inputs, self.dtype)
-        self.interpreter = Interpreter(program, self.carrier, self.dtype)
-        self.formulas = FormulaMaker(program, inputs, self.carrier, self.dtype, unreduced=unreduced)
+        self.reader = InputReader(program, inputs, self.dtype, reproducible=options.reproducible)
+        self.interpreter = interpreter_for(program, inputs, self.carrier, options)
+        self.formulas = FormulaMaker(program, inputs, self.carrier, options, unreduced=unreduced)
         self.single = ScalarRunner(program, inputs, self.interpreter, self.formulas, own_ways)
         self._ran = ""
         self._kinds: dict[Any, BatchKind] = {}
@@ -161,7 +159,7 @@ class Runner(Answering):
             self.inputs.resolve(parameters)
         elif key is not None and Recipe.holds(self.reader, given, parameters):
             recipe = Recipe(prepared, self.reader, given, parameters)
-            _kept(self._recipes, (question.key, key), recipe)
+            keep(self._recipes, (question.key, key), recipe)
         numbers = {str(key): number for key, number in given.numbers.items()} | known
         return self._run(question, prepared, numbers, parameters, given, ahead)
 
@@ -185,13 +183,13 @@ class Runner(Answering):
         self, question: Question, given: ResolvedInputs, layout: Layout, *, floats: bool
     ) -> BatchKind:
         """Return what this batch has in common with others."""
-        forms = given.forms(self.dtype)
+        forms = given.forms(self.dtype, reproducible=self.options.reproducible)
         key = question.key, forms, layout.key, floats
         found = self._kinds.get(key)
         if found is None:
             own = self.formulas, self.single, self.options
             found = BatchKind(question, dict(forms), layout, *own, floats=floats)
-            _kept(self._kinds, key, found)
+            keep(self._kinds, key, found)
         return found
 
     def _run(
@@ -310,10 +308,3 @@ class Runner(Answering):
                 f"too extreme{self.first_values.doubt}; give values nearer to 1"
                 + ("" if method == "stable" else ", or use method 'stable'")
             )
-
-
-def _kept(store: dict[Any, Any], key: Any, value: Any) -> None:
-    """Keep a value with others, the oldest of which go."""
-    for oldest in list(store)[: max(0, len(store) - MOST_KEPT + 1)]:
-        store.pop(oldest, None)
-    store[key] = value

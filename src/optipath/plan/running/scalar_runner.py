@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 import numpy as np
 
 from optipath.engines.float_engine import FLOAT_ENGINE
+from optipath.values.curves.following_floats import FollowingFloats
 from optipath.values.operands import ABSENT, ONE, ZERO
 from optipath.values.parameters import ABSENT as WORD
 
@@ -122,6 +123,7 @@ class ScalarRunner:
         self.functions: dict[frozenset[InputKey], FloatFunction | None] = {}
         self._looked_at: set[frozenset[InputKey]] = set()
         self._runs = 0
+        self.following = FollowingFloats(inputs) if inputs.computed else None
         self._default_call: tuple[Any, list[tuple[str, Any]], frozenset[str]] | None = None
 
     def fast_path(self, parameters: Mapping[str, Any]) -> Lights | None:
@@ -135,7 +137,10 @@ class ScalarRunner:
         for name, value in parameters.items():
             if type(value) is not float or name not in names:
                 return None
-        get = parameters.get
+        numbers = parameters if self.following is None else self.following.beside(parameters)
+        if numbers is None:
+            return None
+        get = numbers.get
         return _called(path, [get(name, default) for name, default in order])
 
     def lights(self, given: ResolvedInputs) -> Lights | None:
@@ -198,6 +203,8 @@ class ScalarRunner:
         # A plain float has no imaginary part, and the function has been made for none.
         parts = Counter(key.name for key in given.numbers if key.part not in ("present", "imag"))
         real = {name for name, p in self.inputs.open.items() if type(p.default) in _REAL}
+        following = self.following.defaults if self.following else {}
+        real |= {value.name for value in self.inputs.computed}
         if any(key.part == "imag" and key.name not in real for key in given.numbers):
             return None
         order = []
@@ -205,14 +212,15 @@ class ScalarRunner:
             # One number may be given to several kernels.
             if key.part not in ("value", "real") or key.is_affine or key.name not in real:
                 return None
-            order.append((key.name, self.inputs.open[key.name].default))
-        asked = {name for name, _ in order}
+            open_one = self.inputs.open.get(key.name)
+            order.append((key.name, None if open_one is None else open_one.default))
+        asked = {name for name, _ in order} | following.keys()
         if any(p.default is None for name, p in self.inputs.open.items() if name not in asked):
             return None  # What nothing needs must be given all the same.
         return (
             function.path,
             order,
-            frozenset(n for n, _ in order if n not in optional and parts[n] == 1),
+            frozenset(n for n in asked if n not in optional and parts[n] <= 1),
         )
 
 

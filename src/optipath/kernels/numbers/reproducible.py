@@ -1,0 +1,103 @@
+"""Elementary functions that every engine does alike, to the last bit.
+
+Libraries differ in the last bit of sines and exponentials, and so do products that are added
+rounded once or twice. Sums, products, quotients and roots are rounded alike by all, and of these
+alone the functions are made here.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.kernels.numbers.arc_tangent import arc_tangent
+from optipath.kernels.numbers.exponential import exponential
+from optipath.kernels.numbers.primitives import NUMPY, Primitives
+from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_OF_PLAIN_NUMBERS = "where", "sqrt", "absolute", "maximum", "minimum", "ldexp", "two_product"
+
+
+def reproducible(
+    xp: Primitives, dtype: str, small_enough: Callable[[Any], Any] | None = None
+) -> Primitives:
+    """Return primitives whose elementary functions are made of the others.
+
+    Parameters
+    ----------
+    xp : Primitives
+        The others.
+    dtype : str
+        The precision, ``"float64"`` or ``"float32"``.
+    small_enough : callable, optional
+        Tells which angles are: by their size, if not otherwise.
+
+    Returns
+    -------
+    Primitives
+    """
+    in_precision: dict[str, Any]
+    in_precision = {name: _in_precision(getattr(xp, name), dtype) for name in _OF_PLAIN_NUMBERS}
+    xp = replace(xp, multiply_add=lambda a, b, c: a * b + c, **in_precision)
+    digits, where = DIGITS[dtype], xp.where
+    polynomials = any_quadrant(xp, digits)
+
+    def in_size(angle: Any) -> Any:
+        return abs(angle) <= digits.most
+
+    small = small_enough or in_size
+
+    def circular(place: int, plain: Callable[[float], float]) -> Callable[[Any], Any]:
+        def value(angle: Any) -> Any:
+            if np.iscomplexobj(angle):
+                return getattr(np, plain.__name__)(angle)
+            known = small(angle)
+            if np.all(known):
+                return polynomials(angle)[place]
+            one_by_one = _one_by_one(plain, angle)
+            return where(known, polynomials(where(known, angle, 0.0))[place], one_by_one)
+
+        return value
+
+    exp = exponential(xp, dtype)
+    return replace(
+        xp,
+        sin=circular(0, math.sin),
+        cos=circular(1, math.cos),
+        exp=lambda x: np.exp(x) if np.iscomplexobj(x) else exp(x),
+        atan2=arc_tangent(xp),
+    )
+
+
+@cache
+def reproducible_numpy(dtype: str) -> Primitives:
+    """Return primitives of NumPy whose elementary functions every engine does alike.
+
+    Examples
+    --------
+    >>> reproducible_numpy("float64").sin(np.array([0.5, 1e6]))
+    array([ 0.47942554, -0.34999350])
+    """
+    return reproducible(NUMPY, dtype)
+
+
+def _one_by_one(plain: Callable[[float], float], angles: Any) -> Any:
+    """Return what a function of floats gives for each; NumPy's may depend on the neighbours."""
+    numbers = np.asarray(angles)
+    found = [plain(a) if math.isfinite(a) else math.nan for a in numbers.ravel().tolist()]
+    return np.reshape(np.array(found, numbers.dtype), numbers.shape)
+
+
+def _in_precision(function: Callable[..., Any], dtype: str) -> Callable[..., Any]:
+    """Return a function that takes plain numbers in the precision of a plan."""
+    if dtype == "float64":
+        return function
+    kind = np.dtype(dtype).type
+    return lambda *numbers: function(*[kind(n) if type(n) is float else n for n in numbers])

@@ -1,0 +1,58 @@
+"""FollowingFloats: what follows from plain floats that are given, found again for the same ones."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.values.resolved import THERE, Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.inputs import Inputs
+
+
+class FollowingFloats:
+    """Puts numbers that follow from the wavelength beside those that are given.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given, and what follows from it.
+
+    Attributes
+    ----------
+    defaults : dict of str to float or None
+        The parameters that something follows from, and what they are if they are not given.
+    """
+
+    def __init__(self, inputs: Inputs) -> None:
+        self.computed = inputs.computed
+        arguments = {one.name: one for value in self.computed for one in value.arguments}
+        self.defaults = {n: inputs.open[n].default for n in arguments if n in inputs.open}
+        self._ranges = [inputs.limits[name] for name in self.defaults]
+        self._last: tuple[tuple[Any, ...], dict[str, float]] = (), {}
+
+    def beside(self, given: Mapping[str, float]) -> Mapping[str, float] | None:
+        """Return what is given and what follows from it; None where that is to be looked at.
+
+        Parameters
+        ----------
+        given : mapping of str to float
+            By the names of parameters.
+
+        Returns
+        -------
+        mapping of str to float or None
+        """
+        numbers = tuple([given.get(name, default) for name, default in self.defaults.items()])
+        last, found = self._last
+        if numbers != last:
+            for number, (low, high) in zip(numbers, self._ranges, strict=True):
+                if type(number) is not float or not low <= number <= high:
+                    return None
+            pairs = zip(self.defaults, numbers, strict=True)
+            resolved = {name: Resolved(number, THERE) for name, number in pairs}
+            found = {v.name: v.computed(resolved).value.item() for v in self.computed}
+            self._last = numbers, found
+        return {**given, **found}
