@@ -33,12 +33,15 @@ class Curve(Unchanging, ABC):
         The least and the largest wavelength that it may be asked for, in metres.
     beyond : str
         What else to do than to stay within these, as a sentence goes on behind "or".
+    takes_grid : bool
+        Whether what it is at a wavelength depends on the others that are given.
     """
 
     parts: tuple[str, ...] = ("value",)
     label: str
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
+    takes_grid: bool = False
 
     @property
     @abstractmethod

@@ -169,7 +169,7 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
         given_by=given_by,
     )
     known = {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
-    if not made.follows(known):
+    if not made.follows(known) or (curve.takes_grid and not bound):
         return made
     default = made.computed(known).value
     return changed(made, default=default if is_traced(default) or default.ndim else default.item())
