@@ -117,6 +117,30 @@ class CurveValue(Parameter):
         )
         return _of(self.curve, self.place, given_by).like(self)
 
+    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
+        """Return the numbers of one of those that it is computed of.
+
+        Parameters
+        ----------
+        place : int
+            Which one: 0 for the wavelength.
+        given : mapping of str to Resolved
+            At least that one, where it is a parameter.
+
+        Returns
+        -------
+        array_like
+        """
+        return _number(self.given_by[place], given)
+
+    @property
+    def spoken(self) -> str:
+        """What sentences call it: by its curve, and by its part where that has several."""
+        several = len(self.curve.parts) > 1 or self.curve.parts[0] != "value"
+        return (
+            f"{self.curve.parts[self.place]} of {self.curve.label}" if several else self.curve.label
+        )
+
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name
 
