@@ -35,6 +35,8 @@ class Curve(Unchanging, ABC):
         What else to do than to stay within these, as a sentence goes on behind "or".
     takes_grid : bool
         Whether what it is at a wavelength depends on the others that are given.
+    unreal : str
+        Why its numbers may be none, or such as nothing has, at wavelengths within these.
     """
 
     parts: tuple[str, ...] = ("value",)
@@ -42,6 +44,7 @@ class Curve(Unchanging, ABC):
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
     takes_grid: bool = False
+    unreal: str = ""
 
     @property
     @abstractmethod

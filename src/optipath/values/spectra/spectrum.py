@@ -52,7 +52,7 @@ class Spectrum(SpectrumMaking):
     Examples
     --------
     >>> lamp = Spectrum.sampled(["400 nm", "600 nm"], [1.0, 3.0])
-    >>> float(lamp.at("500 nm").round(12)), float(lamp.power().round(9))
+    >>> float(lamp.at("500 nm").round(12)), round(lamp.power(), 9)
     (2.0, 400.0)
     >>> lamp + Spectrum.line("532 nm", power=50.0)
     <Spectrum: a sampled spectrum + the line at 532 nm>
