@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import ParameterError
 from optipath.values.arrays.read_only import same
 from optipath.values.materials import Material
+from optipath.values.open_materials import waits_for
 from optipath.values.other_part import extinctions_beside
 from optipath.values.parameters import Parameter
 
@@ -16,11 +17,6 @@ if TYPE_CHECKING:
 
     from optipath.values.cases import Case
     from optipath.values.use import Use
-
-
-def is_open(material: Material) -> bool:
-    """Tell whether n or k of a material is known only when the path runs."""
-    return isinstance(material.n, Parameter) or isinstance(material.k, Parameter)
 
 
 def materials_placed(
@@ -59,7 +55,7 @@ def materials_placed(
         given: dict[str, Any] = {name: material.n} if beside else {name: material}
         if beside:
             given |= {k.name: material.k for k in beside.values() if isinstance(k, Parameter)}
-        elif not is_open(material):
+        elif not waits_for(material):
             continue  # One complex number.
         if wrong := _faults(name, material, beside, places, values, uses):
             faults += wrong

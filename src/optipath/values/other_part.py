@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import UnitError
 from optipath.values.materials import Material
+from optipath.values.open_materials import waits_for
 from optipath.values.parameters import Parameter
 from optipath.values.units import parse_quantity
 
@@ -98,7 +99,7 @@ def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any
 
 def _is_complex(value: Any) -> bool:
     if isinstance(value, Material):
-        return not isinstance(value.k, (int, float)) or value.k != 0.0
+        return not waits_for(value) and not (isinstance(value.k, (int, float)) and value.k == 0.0)
     if isinstance(value, str):
         try:
             value = parse_quantity(value, "")

@@ -8,7 +8,7 @@ from inspect import signature
 from operator import add, sub
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import OptipathError, PresetError, shown
+from optipath.errors import PresetError, shown
 from optipath.paths.format.faults import Faults, unknown_keys
 from optipath.paths.format.samples import samples_of, wavelengths_of
 from optipath.paths.format.schema import as_meant
@@ -82,8 +82,13 @@ def decode_curve(
         one, other = forms[:2]
         raise PresetError(f"'{one}' and '{other}' are two ways to say one thing; leave one out")
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
+    if "name" in raw and not isinstance(raw["name"], str):
+        raise PresetError(f"'name' must be a text, not {shown(raw['name'])}")
     if forms[0] in (SUM, DIFFERENCE):
-        return _several(raw, forms[0], domain, of_index, decode)
+        if of_index:
+            one = f"{{ n = {{ {forms[0]} = ... }} }}"
+            raise PresetError(f"'{forms[0]}' is of one number; give it for n, as {one}")
+        return _several(raw, forms[0], domain, decode)
     if not of_index:
         return _number(raw, forms[0], domain, parameters, decode)
     return _material(raw, forms[0], parameters, decode)
@@ -105,7 +110,9 @@ def _material(
         kept = {key: raw[key] for key in OF_SAMPLES[1:] if key in raw}
         return _made("tabulated", (axis,), columns | kept, raw, found, parameters, decode)
     made = _constructor("named" if form == NAMED else form)
-    arguments = [a for a in signature(made).parameters.values() if a.kind is not Argument.VAR_KEYWORD]
+    arguments = [
+        a for a in signature(made).parameters.values() if a.kind is not Argument.VAR_KEYWORD
+    ]
     apart = [a.name for a in arguments if a.kind is Argument.KEYWORD_ONLY and a.name != WHEN]
     own = [a for a in arguments if a.name not in (*apart, WHEN)]
     if form == NAMED:
@@ -168,7 +175,7 @@ def _number(
     else:
         part = raw.get("part", "n")
         if part not in ("n", "k"):
-            raise PresetError(f"'part' must be \"n\" or \"k\", not {shown(part)}")
+            raise PresetError(f'\'part\' must be "n" or "k", not {shown(part)}')
         material = faults.attempt("", _material, whole, form, parameters, decode)
         value = getattr(material, part, None)
     return _placed(value, raw, domain, faults, decode)
@@ -177,25 +184,25 @@ def _number(
 def _sampled(
     raw: Mapping[str, Any], domain: Domain, parameters: Mapping[str, Parameter], decode: Decode
 ) -> Any:
-    keys = (SAMPLES, *OF_SAMPLES, "values", WHEN)
-    raw, found = _known(raw, keys, "values")
+    """Return one number by wavelength out of samples of it."""
+    column = next((key for key in ("n", "k") if key in raw), "values")
+    raw, found = _known(raw, (SAMPLES, *OF_SAMPLES, column, WHEN), column)
     axis = found.attempt(f".{SAMPLES}", wavelengths_of, raw[SAMPLES], raw.get("unit"))
-    values = found.attempt(".values", samples_of, raw.get("values"), domain.unit)
+    unit = domain.unit if column == "values" else ""
+    values = found.attempt(f".{column}", samples_of, raw.get(column), unit)
     when = found.attempt(f".{WHEN}", _when, raw, parameters, decode)
     if found:
         raise PresetError(*found)
     kept = {key: raw[key] for key in ("interpolation", "extrapolate") if key in raw}
-    curve = Tabulated(raw.get("name", domain.name), ("value",), axis, [values], **kept)
+    curve = Tabulated(
+        raw.get("name", f"{domain.name} by wavelength"), ("value",), axis, [values], **kept
+    )
     return curve_values(curve, when)[0]
 
 
-def _several(
-    raw: Mapping[str, Any], form: str, domain: Domain, of_index: bool, decode: Decode
-) -> Any:
+def _several(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode) -> Any:
     """Return a sum or a difference of numbers by wavelength."""
     raw, faults = _known(raw, (form, *OF_NUMBER[1:]))
-    if of_index:
-        raise PresetError(f"'{form}' is one number; give it for n, as {{ n = {{ {form} = ... }} }}")
     terms = raw[form]
     if not isinstance(terms, list) or len(terms) < 2 or (form == DIFFERENCE and len(terms) > 2):
         many = "two" if form == DIFFERENCE else "two or more"

@@ -42,14 +42,14 @@ def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
 
 def _wavelength(entry: Any, place: int, unit: Any) -> float:
     if unit is not None and not isinstance(unit, str):
-        raise PresetError(f"the unit must be a text, such as \"nm\", not {shown(unit)}")
+        raise PresetError(f'the unit must be a text, such as "nm", not {shown(unit)}')
     if isinstance(entry, str):
         return float(WAVELENGTH.parse(entry))
     number = _real(entry, place)
     if unit is None:
         raise UnitError(
-            f"{shown(entry)} has no unit, but a wavelength is asked for; add unit = \"nm\" to the "
-            f"table, or write \"{entry} nm\""
+            f'{shown(entry)} has no unit, but a wavelength is asked for; add unit = "nm" to the '
+            f'table, or write "{entry} nm"'
         )
     return float(WAVELENGTH.parse(f"{number!r} {unit}"))
 
@@ -91,7 +91,7 @@ def _sample(entry: Any, place: int, unit: str) -> float:
     if unit:
         asked = with_article(dimension_of(unit))
         raise UnitError(
-            f"{shown(entry)} has no unit, but {asked} is asked for; write \"{entry} {unit}\""
+            f'{shown(entry)} has no unit, but {asked} is asked for; write "{entry} {unit}"'
         )
     return number
 
