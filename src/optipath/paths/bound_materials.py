@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from optipath.composer.path_values import Values
 from optipath.errors import ParameterError
 from optipath.values.arrays.read_only import same
 from optipath.values.materials import Material
@@ -15,6 +16,7 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Container, Mapping, Sequence
 
+    from optipath.paths.path_graph import PathGraph
     from optipath.values.cases import Case
     from optipath.values.use import Use
 
@@ -67,6 +69,26 @@ def materials_placed(
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
     return plain, placed
+
+
+def given_by_materials(path: PathGraph, values: Mapping[str, Any]) -> set[str]:
+    """Return the parameters that are the k of materials among some values.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What they are given for.
+    values : mapping of str to Any
+        By name.
+
+    Returns
+    -------
+    set of str
+    """
+    names = [name for name, value in values.items() if isinstance(value, Material)]
+    uses = Values(path.graph).uses if names else ()
+    found = [k for name in names for k in extinctions_beside(uses, name).values()]
+    return {k.name for k in found if isinstance(k, Parameter)}
 
 
 def _faults(

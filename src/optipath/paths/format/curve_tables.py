@@ -116,16 +116,31 @@ def _material(
     apart = [a.name for a in arguments if a.kind is Argument.KEYWORD_ONLY and a.name != WHEN]
     own = [a for a in arguments if a.name not in (*apart, WHEN)]
     if form == NAMED:
-        outer = [*apart, *[a.name for a in own[1:]]]
-        raw, found = _known(raw, (form, *outer, WHEN))
+        raw, found = _known(raw, (form, *apart, WHEN))
         if not isinstance(raw[form], str):
             found.append(f"'{form}' must be a name, such as \"gold\", not {shown(raw[form])}")
-        given = {key: raw[key] for key in outer if key in raw}
+        given = _options(raw, apart, found, decode)
         return _made("named", (raw[form],), given, raw, found, parameters, decode)
     raw, found = _known(raw, (form, *apart, WHEN))
     inner = _coefficients(raw[form], form, own, found, decode)
-    given = {key: raw[key] for key in apart if key in raw}
+    given = _options(raw, apart, found, decode)
     return _made(form, (), inner | given, raw, found, parameters, decode)
+
+
+def _options(
+    raw: Mapping[str, Any], names: list[str], found: Faults, decode: Decode
+) -> dict[str, Any]:
+    """Return what else a material is made by: numbers for n and k, and texts."""
+    for key in names:
+        if key in raw and key not in ("n", "k") and not isinstance(raw[key], str):
+            found.append(f"'{key}' must be a text, not {shown(raw[key])}")
+    return {
+        key: found.attempt(f".{key}", decode, raw[key], Domain("number"))
+        if key in ("n", "k")
+        else raw[key]
+        for key in names
+        if key in raw
+    }
 
 
 def _coefficients(
