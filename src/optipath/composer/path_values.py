@@ -145,7 +145,7 @@ class Values:
     def faults(self) -> list[str]:
         """Return what is wrong with the values that are known, a sentence each."""
         found: list[str] = []
-        faulty = set()
+        faulty: set[str] = set()
         looked_at = set()
         told: set[str] = set()
         for use in sorted(self.uses, key=self._is_taken_over):

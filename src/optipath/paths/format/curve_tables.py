@@ -36,7 +36,9 @@ WHEN = "wavelength"
 
 _OF_SAMPLES = ("unit", "interpolation", "extrapolate", "name")
 _OF_NUMBER = ("part", "scale", "offset")
-_OF_PAGES = {"page": str, "interpolation": str, "extrapolate": str, "n": N, "k": K}
+_OF_PAGES = ("page", "interpolation", "extrapolate")
+_NUMBERS = {"n": N, "k": K}
+"""What may be given in place of what a page of the database has."""
 
 
 def is_curve(raw: Any) -> bool:
@@ -105,7 +107,7 @@ def _parts(
 ) -> dict[str, Any]:
     """Return the numbers that a table gives, by the names of the parts of its curve."""
     columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
-    keys = {NAMED: tuple(_OF_PAGES), SAMPLES: (*_OF_SAMPLES, *columns)}.get(form, BESIDE)
+    keys = {NAMED: (*_OF_PAGES, *_NUMBERS), SAMPLES: (*_OF_SAMPLES, *columns)}.get(form, BESIDE)
     faults = unknown_keys(raw, (form, *keys, WHEN))
     raw = as_meant(raw, (form, *keys, WHEN))
     if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
@@ -133,14 +135,15 @@ def _at(curve: Curve, when: Any) -> dict[str, Any]:
 def _by_name(raw: Mapping[str, Any], when: Any, decode: Decode) -> dict[str, Any]:
     """Return n and k of a material of the database."""
     faults = Faults()
-    given = {
-        key: raw[key] if of is str else faults.attempt(f".{key}", decode, raw[key], of)
-        for key, of in _OF_PAGES.items()
+    numbers = {
+        key: faults.attempt(f".{key}", decode, raw[key], of)
+        for key, of in _NUMBERS.items()
         if key in raw
     }
     if faults:
         raise PresetError(*faults)
-    found = Material.named(raw[NAMED], wavelength=when, **given)
+    texts = {key: raw[key] for key in _OF_PAGES if key in raw}
+    found = Material.named(raw[NAMED], wavelength=when, **texts, **numbers)
     return {"n": found.n, "k": found.k}
 
 

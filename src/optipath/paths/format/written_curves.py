@@ -95,8 +95,10 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
 def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
     if isinstance(curve, CurveSum):
         return _sum(curve, given_by, unit, encode)
-    of_samples = isinstance(curve, Tabulated)
-    table = _samples(curve, unit, encode) if of_samples else formula_table(curve, encode)
+    if isinstance(curve, Tabulated):
+        table: dict[str, Any] | None = _samples(curve, unit, encode)
+    else:
+        table = formula_table(curve, encode)
     if table is None:
         raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
     return table | _wavelength(given_by[0], encode)
