@@ -5,10 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from chains import ENGINES
-from dispersive import GRID, line, on_line
 
 import optipath as op
+from dispersive import GRID, line, on_line
 from optipath.elements.known_elements import STANDARD
 
 POINTS = np.array([[0, 0, 0], [0, 0, 2.0], [0.1, 0.2, 4], [0.5, -1.0, 2.2]])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import ValueFault, did_you_mean, shown
 from optipath.values.arrays.read_only import same_fields
@@ -11,8 +11,10 @@ from optipath.values.curves.by_wavelength import drude_rotation
 from optipath.values.curves.curve_value import curve_values
 from optipath.values.curves.sellmeier_curve import Sellmeier
 from optipath.values.materials import Material
-from optipath.values.parameters import Parameter
 from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from optipath.values.parameters import Parameter
 
 
 class _Ray(NamedTuple):
@@ -98,7 +100,7 @@ class Crystal:
     --------
     >>> quartz = Crystal.named("quartz")
     >>> round(quartz.birefringence.at("589.3 nm"), 5)
-    0.00912
+    0.0091
     """
 
     ordinary: Material
@@ -147,10 +149,7 @@ class Crystal:
         """
         key = _SHORT.get(str(name).lower(), str(name).lower())
         if key not in _KNOWN:
-            raise ValueFault(
-                f"crystal {shown(name)} is unknown{did_you_mean(str(name), _KNOWN)}; make one of "
-                f"its two Materials, Crystal(ordinary, extraordinary)"
-            )
+            raise ValueFault(f"crystal {shown(name)} is unknown{did_you_mean(str(name), _KNOWN)}")
         source, *rays, span = _KNOWN[key]
         when = Wavelength() if wavelength is None else wavelength
         materials = [
@@ -170,9 +169,7 @@ class Crystal:
 
 
 def _material(label: str, ray: _Ray, span: tuple[str, str], wavelength: Parameter) -> Material:
-    curve = Sellmeier(
-        label, ray.b, ray.c, resonances=ray.resonances, offset=ray.offset, span=span
-    )
+    curve = Sellmeier(label, ray.b, ray.c, resonances=ray.resonances, offset=ray.offset, span=span)
     return Material(curve_values(curve, wavelength)[0])
 
 

@@ -36,6 +36,8 @@ class Curve(Unchanging, ABC):
     unit : str
         In which people write its numbers, which are in radians, metres and teslas; ``""`` for
         pure numbers, and where nobody says what is meant.
+    unreal : str
+        Why its numbers may be none, or such as nothing has, at wavelengths within these.
     """
 
     parts: tuple[str, ...] = ("value",)
@@ -43,6 +45,7 @@ class Curve(Unchanging, ABC):
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
     unit: str = ""
+    unreal: str = ""
 
     @property
     @abstractmethod

@@ -145,7 +145,7 @@ class CurveValue(Parameter):
         for one in others:
             if isinstance(one, Parameter) and one.name not in known:
                 raise ParameterError(
-                    f"'{self.name}' follows from parameter '{one.name}' besides, which has no "
+                    f"{self.spoken} follows from parameter '{one.name}' besides, which has no "
                     f"value; give the parameter a default"
                 )
         where = Wavelength().resolve(wavelength).value
@@ -160,7 +160,7 @@ class CurveValue(Parameter):
             return super()._shifted(other, sign)
         if self.given_by[0] != other.given_by[0]:
             raise ParameterError(
-                f"'{self.name}' and '{other.name}' follow from two wavelengths, "
+                f"{self.spoken} and {other.spoken} follow from two wavelengths, "
                 f"'{self.given_by[0].name}' and '{other.given_by[0].name}'; give both the same one"
             )
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
@@ -168,16 +168,40 @@ class CurveValue(Parameter):
         one, another = dimension_of(self.unit), dimension_of(other.unit)
         if one != another:
             raise ParameterError(
-                f"'{self.name}' is {with_article(one or 'pure number')}, and '{other.name}' "
+                f"{self.spoken} is {with_article(one or 'pure number')}, and {other.spoken} "
                 f"{with_article(another or 'pure number')}; add up what is of one kind"
             )
         low, high = total.span
         if not low <= high:
             raise ParameterError(
-                f"'{self.name}' and '{other.name}' are known at no common wavelength; take curves "
+                f"{self.spoken} and {other.spoken} are known at no common wavelength; take curves "
                 f"whose ranges meet"
             )
         return cast("Self", _of(total, 0, (*self.given_by, *other.given_by[1:])))
+
+    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
+        """Return the numbers of one of those that it is computed of.
+
+        Parameters
+        ----------
+        place : int
+            Which one: 0 for the wavelength.
+        given : mapping of str to Resolved
+            At least that one, where it is a parameter.
+
+        Returns
+        -------
+        array_like
+        """
+        return _number(self.given_by[place], given)
+
+    @property
+    def spoken(self) -> str:
+        """What sentences call it: by its curve, and by its part where that has several."""
+        several = len(self.curve.parts) > 1 or self.curve.parts[0] != "value"
+        return (
+            f"{self.curve.parts[self.place]} of {self.curve.label}" if several else self.curve.label
+        )
 
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name
