@@ -52,10 +52,10 @@ class Waveplate(Element, kind="waveplate"):
     >>> print(plate.mueller().matrix[2, 2:].round(12) + 0.0)
     [ 0. -1.]
 
-    A plate of zero order at 550 nm, and what it is at other wavelengths by the dispersion of quartz:
+    A plate of zero order at 550 nm, with the dispersion of quartz at other wavelengths:
 
     >>> from optipath import Detector, Source
-    >>> plate = Waveplate.quarter(at="550 nm", crystal="quartz", angle="45 deg")
+    >>> plate = Waveplate.quarter(at="550 nm", crystal="quartz", angle="-45 deg")
     >>> path = Source(stokes=[1, 1, 0, 0]) >> plate >> Detector()
     >>> print(path.trace(wavelength=["450 nm", "550 nm", "650 nm"]).docp.round(3))
     [0.923 1.    0.966]
@@ -104,7 +104,7 @@ class Waveplate(Element, kind="waveplate"):
         Examples
         --------
         >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
-        614.8
+        615.5
         """
         return cls.retarding(math.pi / 2, at, crystal, order=order, **others)
 
