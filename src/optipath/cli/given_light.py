@@ -10,6 +10,7 @@ from optipath.cli.plain_json import plain
 from optipath.errors import OptipathError, printable
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.materials import Material
+from optipath.values.other_part import places_of
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
     """
     if not text[:1].isalpha() or text in parameter.all_words or text in ("inf", "nan"):
         return False
-    places = [use for use in uses if use.is_given and use.value.name == parameter.name]
+    places = places_of(uses, parameter.name)
     return bool(places) and all(use.domain.takes_materials for use in places)
 
 

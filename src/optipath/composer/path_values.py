@@ -148,7 +148,8 @@ class Values:
         looked_at = set()
         told: set[str] = set()
         for use in sorted(self.uses, key=self._is_taken_over):
-            if _named(use) in faulty or (use.is_computed and use.rests_on(faulty)):
+            follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
+            if _named(use) in faulty or follows:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.

@@ -10,7 +10,7 @@ from optipath.errors import ParameterError
 from optipath.values.arrays.read_only import same
 from optipath.values.materials import Material
 from optipath.values.open_materials import waits_for
-from optipath.values.other_part import extinctions_beside
+from optipath.values.other_part import extinctions_beside, places_of
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def materials_placed(
     """
     plain, placed, faults = dict(values), {}, []
     for name, material in values.items():
-        places = [use for use in uses if use.is_given and use.value.name == name]
+        places = places_of(uses, name)
         if not isinstance(material, Material) or not places or places[0].value.bound:
             continue
         if doubts := [doubt for use in places if (doubt := use.doubt(material))]:
@@ -123,7 +123,7 @@ def _faults(
                 f"{owner} is {k.formula}, so that no Material can give it; let the parameter "
                 f"'{k.name}' itself stand there, and leave it open"
             )
-        elif others := {u.owner for u in uses if u.is_given and u.value.name == k.name} - {*beside}:
+        elif others := {use.owner for use in places_of(uses, k.name)} - {*beside}:
             faults.append(
                 f"parameter '{k.name}' stands at {min(others)} besides, of which '{name}' says "
                 f"nothing; use two names"

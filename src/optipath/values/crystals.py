@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 from optipath.errors import ValueFault, did_you_mean, shown
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.curves.by_wavelength import drude_rotation
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curves.curve_sum import CurveSum
+from optipath.values.curves.curve_value import CurveValue, curve_values
 from optipath.values.curves.sellmeier_curve import Sellmeier
 from optipath.values.materials import Material
 from optipath.values.wavelength import Wavelength
-
-if TYPE_CHECKING:
-    from optipath.values.parameters import Parameter
 
 
 class _Ray(NamedTuple):
@@ -79,6 +77,9 @@ _KNOWN = {
 and M. J. Dodge, J. Opt. Soc. Am. 62, 1405 (1972), their formula by M. J. Dodge in Handbook of Laser
 Science and Technology IV, part 2, p. 30 (CRC Press, 1986). All at room temperature."""
 
+CRYSTALS = tuple(_KNOWN)
+"""The names of those whose data are published."""
+
 _SHORT = {"mgf2": "magnesium fluoride", "al2o3": "sapphire", "sio2": "quartz", "caco3": "calcite"}
 
 
@@ -118,7 +119,7 @@ class Crystal:
                 )
 
     @classmethod
-    def named(cls, name: str, wavelength: Parameter | None = None) -> Crystal:
+    def named(cls, name: str, wavelength: Any = None) -> Crystal:
         """Return a crystal whose data are published.
 
         They are quartz (which turns light to the right) and calcite by Ghosh (1999), magnesium
@@ -130,8 +131,9 @@ class Crystal:
         name : str
             ``"quartz"``, ``"calcite"``, ``"magnesium fluoride"`` or ``"sapphire"``; or a
             formula, such as ``"MgF2"``.
-        wavelength : Parameter, optional
-            The wavelength of the run; ``Wavelength()`` by default.
+        wavelength : Parameter or float, optional
+            The wavelength of the run; ``Wavelength()`` by default. Where it is a number, so
+            are the indices.
 
         Returns
         -------
@@ -162,18 +164,22 @@ class Crystal:
     @property
     def birefringence(self) -> Any:
         """n_e - n_o: positive where the ordinary ray is the fast one, as in quartz."""
-        return self.extraordinary.n - self.ordinary.n
+        found = self.extraordinary.n - self.ordinary.n
+        if not isinstance(found, CurveValue) or not isinstance(found.curve, CurveSum):
+            return found
+        curve = replace(found.curve, called=f"the birefringence of {self.label}")
+        return curve_values(curve, found.given_by[0])[0]
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
 
 
-def _material(label: str, ray: _Ray, span: tuple[str, str], wavelength: Parameter) -> Material:
+def _material(label: str, ray: _Ray, span: tuple[str, str], wavelength: Any) -> Material:
     curve = Sellmeier(label, ray.b, ray.c, resonances=ray.resonances, offset=ray.offset, span=span)
     return Material(curve_values(curve, wavelength)[0])
 
 
-def _rotation_of_quartz(wavelength: Parameter) -> Any:
+def _rotation_of_quartz(wavelength: Any) -> Any:
     """Return the rotatory power; measurements of 1882 are within 0.5 % of it up to 760 nm."""
     return drude_rotation(
         (9.5639, -2.3113),

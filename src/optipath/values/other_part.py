@@ -50,6 +50,23 @@ def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) 
     return ""
 
 
+def places_of(uses: Iterable[Use], name: str) -> list[Use]:
+    """Return where a parameter stands.
+
+    Parameters
+    ----------
+    uses : iterable of Use
+        The numbers of a path.
+    name : str
+        The parameter.
+
+    Returns
+    -------
+    list of Use
+    """
+    return [u for u in uses if isinstance(u.value, Parameter) and u.value.name == name]
+
+
 def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
     """Return what k is wherever a parameter stands as the n of an index.
 

@@ -53,16 +53,6 @@ class Use:
         """Whether the value is a parameter that is given when the plan runs."""
         return isinstance(self.value, Parameter) and not self.value.bound
 
-    @property
-    def is_given(self) -> bool:
-        """Whether the value is a parameter that somebody gives; others follow from such."""
-        return isinstance(self.value, Parameter) and not isinstance(self.value, CurveValue)
-
-    @property
-    def is_computed(self) -> bool:
-        """Whether the value is a parameter that follows from others."""
-        return isinstance(self.value, CurveValue)
-
     def rests_on(self, names: Collection[str]) -> bool:
         """Tell whether the value is one of some parameters, or follows from one of them."""
         value = self.value

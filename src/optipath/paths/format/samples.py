@@ -2,15 +2,62 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.errors import PresetError, UnitError, shown
+from optipath.paths.format.faults import Faults
+from optipath.values.curves.tabulated import Tabulated
 from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.materials import K, N
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.domains.domain import Domain
+
 _NM = "nm"
+
+
+def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Domain) -> Tabulated:
+    """Return the curve through the samples of a table.
+
+    Parameters
+    ----------
+    raw : mapping
+        What stands in the file, its keys known.
+    columns : tuple of str
+        Which keys have samples: ``"n"`` and ``"k"``, of which one may be there, or ``"values"``.
+    domain : Domain
+        What ``"values"`` may be.
+
+    Returns
+    -------
+    Tabulated
+
+    Raises
+    ------
+    OptipathError
+        With all faults of the samples.
+    """
+    faults, domains = Faults(), {"n": N, "k": K, "values": domain}
+    of_numbers = columns == ("values",)
+    given = [key for key in columns if key in raw or of_numbers]
+    axis = faults.attempt(".wavelengths", wavelengths_of, raw["wavelengths"], raw.get("unit"))
+    samples = []
+    for key in given:
+        read = faults.attempt(f".{key}", samples_of, raw.get(key), domains[key].unit)
+        samples.append(read)
+        if read is not None and not of_numbers:
+            faults.attempt(f".{key}", domains[key].check, key, read)
+    if faults:
+        raise PresetError(*faults)
+    how = {key: raw[key] for key in ("interpolation", "extrapolate") if key in raw}
+    usual = f"{domain.name} by wavelength" if of_numbers else "the table"
+    parts = tuple(key.removesuffix("s") for key in given)
+    return Tabulated(raw.get("name", usual), parts, axis, samples, **how)
 
 
 def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:

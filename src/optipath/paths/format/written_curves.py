@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import PresetError
+from optipath.paths.format.crystal_tables import CRYSTAL, crystal_of
 from optipath.paths.format.curve_tables import SUM, WHEN
+from optipath.paths.format.formula_tables import formula_table
 from optipath.paths.format.samples import written_wavelengths
 from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.curve_value import CurveValue
@@ -92,9 +94,12 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
 
 
 def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
+    if name := crystal_of(curve):
+        return {CRYSTAL: name} | _wavelength(given_by[0], encode)
     if isinstance(curve, CurveSum):
         return _sum(curve, given_by, unit, encode)
-    table = _samples(curve, unit, encode) if isinstance(curve, Tabulated) else None
+    of_samples = isinstance(curve, Tabulated)
+    table = _samples(curve, unit, encode) if of_samples else formula_table(curve, encode)
     if table is None:
         raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
     return table | _wavelength(given_by[0], encode)

@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.values.curves.curve_value import CurveValue
-    from optipath.values.parameters import Parameter
 
 
 def tabulated(
@@ -29,7 +28,7 @@ def tabulated(
     label: str = "the table",
     interpolation: str = "linear",
     extrapolate: str = "",
-    wavelength: Parameter | None = None,
+    wavelength: Any = None,
 ) -> CurveValue:
     """Return a number that follows from the wavelength by samples.
 
@@ -51,7 +50,7 @@ def tabulated(
         By straight lines, or by cubics that overshoot no sample.
     extrapolate : {"", "nearest", "linear"}, optional
         What it is beyond its samples: an error, the last sample, or the straight line on.
-    wavelength : Parameter, optional
+    wavelength : Parameter or float, optional
         The wavelength of the run; ``Wavelength()`` by default.
 
     Returns
@@ -90,7 +89,7 @@ def tabulated(
         extrapolate=extrapolate,
         unit=unit,
     )
-    return curve_values(curve, wavelength or Wavelength())[0]  # type: ignore[no-any-return]
+    return curve_values(curve, Wavelength() if wavelength is None else wavelength)[0]  # type: ignore[no-any-return]
 
 
 def drude_rotation(
@@ -101,7 +100,7 @@ def drude_rotation(
     *,
     label: str = "the rotation",
     span: tuple[Any, Any] = (0.0, np.inf),
-    wavelength: Parameter | None = None,
+    wavelength: Any = None,
 ) -> CurveValue:
     """Return a rotation that follows from the wavelength by the formula of Drude.
 
@@ -122,7 +121,7 @@ def drude_rotation(
         What sentences call it.
     span : pair of float or str, optional
         The wavelengths for which it holds.
-    wavelength : Parameter, optional
+    wavelength : Parameter or float, optional
         The wavelength of the run; ``Wavelength()`` by default.
 
     Returns
@@ -146,7 +145,7 @@ def drude_rotation(
     21.725
     """
     curve = DrudeRotation(label, tuple(strengths), tuple(poles), constant, unit, span)
-    return curve_values(curve, wavelength or Wavelength())[0]  # type: ignore[no-any-return]
+    return curve_values(curve, Wavelength() if wavelength is None else wavelength)[0]  # type: ignore[no-any-return]
 
 
 def _in_base_units(label: str, number: Any, unit: str) -> float:

@@ -34,7 +34,7 @@ def check_computed(
     value : CurveValue
         What stands there.
     owner : str
-        The node and the field, such as ``X1.incidence``.
+        The node and the field, such as ``X1.incidence``, or nothing.
     domain : Domain
         What may stand there.
     numbers : array_like
@@ -56,9 +56,9 @@ def check_computed(
             raise
         found = float(np.asarray(placed)[bad].ravel()[0])
         at = _wavelength_text(value, bad, given or {})
-        what = f"{value.formula_of(value.spoken)}{at} (at {owner})"
+        what = f"{value.formula_of(value.spoken)}{at}{f' (at {owner})' if owner else ''}"
         why = f": {value.curve.unreal}" if value.curve.unreal else ""
-        wanted = f"give another wavelength; there stands {domain.described()}"
+        wanted = f"give another wavelength: what is asked for is {domain.described()}"
         if not np.isfinite(found):
             raise ValueFault(f"{what} has no value{why}; {wanted}") from fault
         raise ValueFault(f"{what} is {found:.6g}{why}; {wanted}") from fault

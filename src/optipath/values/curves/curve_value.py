@@ -12,8 +12,10 @@ from optipath.errors import ParameterError
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
+from optipath.values.curves.computed_check import check_computed
 from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.wavelength_range import WavelengthRange
+from optipath.values.domains.domain import Domain
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
@@ -24,7 +26,10 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from optipath.values.curves.curve import Curve
-    from optipath.values.domains.domain import Domain
+
+
+_THERE = Wavelength(default=1e-6, bound=True)
+"""What stands for a wavelength that is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,6 +126,30 @@ class CurveValue(Parameter):
         )
         return _of(self.curve, self.place, given_by).like(self)
 
+    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
+        """Return the numbers of one of those that it is computed of.
+
+        Parameters
+        ----------
+        place : int
+            Which one: 0 for the wavelength.
+        given : mapping of str to Resolved
+            At least that one, where it is a parameter.
+
+        Returns
+        -------
+        array_like
+        """
+        return _number(self.given_by[place], given)
+
+    @property
+    def spoken(self) -> str:
+        """What sentences call it: by its curve, and by its part where that has several."""
+        several = len(self.curve.parts) > 1 or self.curve.parts[0] != "value"
+        return (
+            f"{self.curve.parts[self.place]} of {self.curve.label}" if several else self.curve.label
+        )
+
     def at(self, wavelength: Any) -> Any:
         """Return its numbers at wavelengths, scale and offset applied.
 
@@ -150,8 +179,10 @@ class CurveValue(Parameter):
                 )
         where = Wavelength().resolve(wavelength).value
         WavelengthRange.of(self.curve).check("the wavelength", where)
-        numbers = [_number(one, known) for one in others]
-        found = self.placed(self.curve.evaluated(where, *numbers)[self.place])
+        there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
+        found = there.computed(known).value
+        check_computed(there.like(self), "", Domain("number"), found, known)
+        found = self.placed(found)
         return found if is_traced(found) or found.ndim else found.item()
 
     def _shifted(self, other: Any, sign: float) -> Self:
@@ -178,30 +209,6 @@ class CurveValue(Parameter):
                 f"whose ranges meet"
             )
         return cast("Self", _of(total, 0, (*self.given_by, *other.given_by[1:])))
-
-    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
-        """Return the numbers of one of those that it is computed of.
-
-        Parameters
-        ----------
-        place : int
-            Which one: 0 for the wavelength.
-        given : mapping of str to Resolved
-            At least that one, where it is a parameter.
-
-        Returns
-        -------
-        array_like
-        """
-        return _number(self.given_by[place], given)
-
-    @property
-    def spoken(self) -> str:
-        """What sentences call it: by its curve, and by its part where that has several."""
-        several = len(self.curve.parts) > 1 or self.curve.parts[0] != "value"
-        return (
-            f"{self.curve.parts[self.place]} of {self.curve.label}" if several else self.curve.label
-        )
 
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name

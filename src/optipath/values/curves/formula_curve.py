@@ -14,7 +14,7 @@ from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
+    from collections.abc import Hashable
 
     from optipath.values.curves.coefficients import Coefficient
     from optipath.values.domains.domain import Domain
@@ -45,7 +45,7 @@ class FormulaCurve(Curve):
     def __init__(self, label: str, span: Any, **given: Any) -> None:
         vars(self).update(label=label, beyond="another formula", **given)
         faults: list[str] = []
-        for name, value, domain in self.coefficients:
+        for name, value, domain in self.arguments():
             try:
                 _check(f"{name} of {label}", value, domain)
             except ValueFault as fault:
@@ -57,18 +57,14 @@ class FormulaCurve(Curve):
         if faults:
             raise ValueFault(*faults)
 
-    @property
     @abstractmethod
-    def coefficients(self) -> list[Coefficient]:
-        """Its coefficients, in the order of `numbers`: names, values and what these may be."""
-
-    def arguments(self) -> Sequence[Coefficient]:
-        return self.coefficients
+    def arguments(self) -> list[Coefficient]:
+        """Return its coefficients, in the order of `numbers`: names, values, what they may be."""
 
     @property
     def content(self) -> tuple[Hashable, ...]:
         # Equal ones say the same of their parameters, which share a name.
-        keys = [(name, Operand(value).key()) for name, value, _ in self.coefficients]
+        keys = [(name, Operand(value).key()) for name, value, _ in self.arguments()]
         return (self.label, self.span, *keys)
 
 

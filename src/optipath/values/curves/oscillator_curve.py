@@ -81,8 +81,7 @@ class DrudeLorentz(FormulaCurve):
         rows = oscillators_of(label, oscillators, _BOUND)
         super().__init__(label, span, **given, oscillators=rows, background=background)
 
-    @property
-    def coefficients(self) -> list[Coefficient]:
+    def arguments(self) -> list[Coefficient]:
         domains = (NOT_NEGATIVE, NOT_NEGATIVE, POSITIVE)
         return [
             ("background", self.background, REAL),
@@ -146,8 +145,7 @@ class TaucLorentz(FormulaCurve):
                     f"energy {energy}; the formula holds for a broadening below twice the energy"
                 )
 
-    @property
-    def coefficients(self) -> list[Coefficient]:
+    def arguments(self) -> list[Coefficient]:
         domains = (NOT_NEGATIVE, POSITIVE, POSITIVE, NOT_NEGATIVE)
         return [
             ("background", self.background, REAL),

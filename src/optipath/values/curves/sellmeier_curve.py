@@ -83,8 +83,7 @@ class Sellmeier(FormulaCurve):
             )
         super().__init__(label, span, b=b, c=c, resonances=resonances, offset=offset, k=k)
 
-    @property
-    def coefficients(self) -> list[Coefficient]:
+    def arguments(self) -> list[Coefficient]:
         name = "resonances" if self.c is None else "c"
         domain = NOT_NEGATIVE if self.c is None else REAL
         poles = self.c or self.resonances or ()
@@ -111,7 +110,7 @@ class Cauchy(FormulaCurve):
     ----------
     label : str
         What sentences call it.
-    a : sequence of float or Parameter
+    coefficients : sequence of float or Parameter
         A, B, C, ...: a pure number, one in square micrometres, one in um^4, ...
     k : float or Parameter, optional
         The extinction coefficient.
@@ -130,18 +129,20 @@ class Cauchy(FormulaCurve):
     1.516
     """
 
-    a: tuple[Any, ...]
+    coefficients: tuple[Any, ...]
     k: Any
 
-    def __init__(self, label: str, a: Any, *, k: Any = 0.0, span: Any = EVERYWHERE) -> None:
-        super().__init__(label, span, a=several(f"coefficients of {label}", a), k=k)
+    def __init__(
+        self, label: str, coefficients: Any, *, k: Any = 0.0, span: Any = EVERYWHERE
+    ) -> None:
+        row = several(f"coefficients of {label}", coefficients)
+        super().__init__(label, span, coefficients=row, k=k)
 
-    @property
-    def coefficients(self) -> list[Coefficient]:
-        names = [f"coefficients[{place}]" for place in range(len(self.a))]
+    def arguments(self) -> list[Coefficient]:
+        names = [f"coefficients[{place}]" for place in range(len(self.coefficients))]
         return [
             ("k", self.k, EXTINCTION),
-            *[(name, value, REAL) for name, value in zip(names, self.a, strict=True)],
+            *[(name, value, REAL) for name, value in zip(names, self.coefficients, strict=True)],
         ]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
