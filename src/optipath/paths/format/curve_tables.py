@@ -7,6 +7,7 @@ from operator import add, sub
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import PresetError, shown
+from optipath.paths.format.crystal_tables import CRYSTAL, number_of_crystal
 from optipath.paths.format.faults import Faults, unknown_keys
 from optipath.paths.format.formula_tables import BESIDE, FORMULAS, formula_of
 from optipath.paths.format.samples import sampled_curve
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
     Decode = Callable[[Any, Domain], Any]
 
 NAMED, SAMPLES, SUM, DIFFERENCE = "material", "wavelengths", "sum", "difference"
-FORMS = (NAMED, SAMPLES, *FORMULAS, SUM, DIFFERENCE)
+FORMS = (NAMED, SAMPLES, *FORMULAS, CRYSTAL, SUM, DIFFERENCE)
 """The keys by which a table is known for one of these."""
 
 WHEN = "wavelength"
@@ -81,7 +82,7 @@ def decode_curve(
     form, *others = [key for key in FORMS if key in raw]
     if others:
         raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")
-    for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED):
+    for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED, CRYSTAL):
         if key in raw and not isinstance(raw[key], str):
             raise PresetError(f"'{key}' must be a text, not {shown(raw[key])}")
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
@@ -107,7 +108,8 @@ def _parts(
 ) -> dict[str, Any]:
     """Return the numbers that a table gives, by the names of the parts of its curve."""
     columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
-    keys = {NAMED: (*_OF_PAGES, *_NUMBERS), SAMPLES: (*_OF_SAMPLES, *columns)}.get(form, BESIDE)
+    own = {NAMED: (*_OF_PAGES, *_NUMBERS), SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
+    keys = own.get(form, BESIDE)
     faults = unknown_keys(raw, (form, *keys, WHEN))
     raw = as_meant(raw, (form, *keys, WHEN))
     if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
@@ -120,6 +122,8 @@ def _parts(
         raise PresetError(*faults)
     if form == NAMED:
         return _by_name(raw, when, decode)
+    if form == CRYSTAL:
+        return {CRYSTAL: number_of_crystal(raw[CRYSTAL], domain, when)}
     curve = (
         sampled_curve(raw, columns, domain) if form == SAMPLES else formula_of(raw, form, decode)
     )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import PresetError
+from optipath.paths.format.crystal_tables import CRYSTAL, crystal_of
 from optipath.paths.format.curve_tables import SUM, WHEN
 from optipath.paths.format.formula_tables import formula_table
 from optipath.paths.format.samples import written_wavelengths
@@ -93,6 +94,8 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
 
 
 def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
+    if name := crystal_of(curve):
+        return {CRYSTAL: name} | _wavelength(given_by[0], encode)
     if isinstance(curve, CurveSum):
         return _sum(curve, given_by, unit, encode)
     if isinstance(curve, Tabulated):

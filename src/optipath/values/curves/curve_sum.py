@@ -24,14 +24,19 @@ class CurveSum(Curve):
         Of each term the factor, the curve, and which of its parts.
     constant : float
         What is added.
+    called : str
+        What sentences call it, where that is not the sum as one writes it.
     """
 
     terms: tuple[tuple[float, Curve, int], ...]
     constant: float = 0.0
+    called: str = ""
 
     @cached_property
     def label(self) -> str:  # type: ignore[override]
-        """What sentences call it: the sum as one writes it."""
+        """What sentences call it: by default the sum as one writes it."""
+        if self.called:
+            return self.called
         text = "".join([_written(*term) for term in self.terms]).removeprefix(" + ").strip()
         return f"{text}{f' {self.constant:+g}' * bool(self.constant)}"
 
@@ -45,6 +50,11 @@ class CurveSum(Curve):
     def beyond(self) -> str:  # type: ignore[override]
         """What else to do, as the first curve has it that says so."""
         return next((curve.beyond for _, curve, _ in self.terms if curve.beyond), "")
+
+    @property
+    def unit(self) -> str:  # type: ignore[override]
+        """The unit of the first of them."""
+        return self.terms[0][1].unit
 
     @property
     def content(self) -> tuple[Hashable, ...]:
