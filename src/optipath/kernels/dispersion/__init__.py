@@ -1,0 +1,1 @@
+"""Indices of refraction by wavelength: formulas of dispersion."""
