@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -35,7 +35,7 @@ class Curve(Unchanging, ABC):
         What else to do than to stay within these, as a sentence goes on behind "or".
     """
 
-    parts: ClassVar[tuple[str, ...]] = ("value",)
+    parts: tuple[str, ...] = ("value",)
     label: str
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
