@@ -26,25 +26,25 @@ def _powers(w: Any, coefficients: Sequence[float]) -> Any:
     return sum(factor * w**power for factor, power in _grouped(coefficients, 2))
 
 
-def sellmeier_by_wavelengths(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 1: n^2 - 1 = C1 + C2 w^2/(w^2 - C3^2) + ..."""
+def _sellmeier_by_wavelengths(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 1: n^2 - 1 = C1 + C2 w^2/(w^2 - C3^2) + ..."""
     squares = [value if at % 2 else value**2 for at, value in enumerate(c)]
-    return sellmeier_by_squares(xp, w, [c[0], *squares[1:]])
+    return _sellmeier_by_squares(xp, w, [c[0], *squares[1:]])
 
 
-def sellmeier_by_squares(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 2: n^2 - 1 = C1 + C2 w^2/(w^2 - C3) + ..."""
+def _sellmeier_by_squares(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 2: n^2 - 1 = C1 + C2 w^2/(w^2 - C3) + ..."""
     terms = [factor * w**2 / (w**2 - place) for factor, place in _grouped(c[1:], 2)]
     return xp.sqrt(1.0 + c[0] + sum(terms))
 
 
-def polynomial(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 3: n^2 = C1 + C2 w^C3 + ..."""
+def _polynomial(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 3: n^2 = C1 + C2 w^C3 + ..."""
     return xp.sqrt(c[0] + _powers(w, c[1:]))
 
 
-def poles_and_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 4: n^2 = C1 + C2 w^C3/(w^2 - C4^C5) + C6 w^C7/(w^2 - C8^C9) + C10 w^C11 + ..."""
+def _poles_and_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 4: n^2 = C1 + C2 w^C3/(w^2 - C4^C5) + the like + C10 w^C11 + ..."""
     poles = [
         factor * w**power / (w**2 - place**of_place)
         for factor, power, place, of_place in _grouped(c[1:9], 4)
@@ -52,49 +52,50 @@ def poles_and_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
     return xp.sqrt(c[0] + sum(poles) + _powers(w, c[9:]))
 
 
-def powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 5, after Cauchy: n = C1 + C2 w^C3 + ..."""
+def _by_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 5, after Cauchy: n = C1 + C2 w^C3 + ..."""
     del xp
     return c[0] + _powers(w, c[1:])
 
 
-def of_gases(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 6: n - 1 = C1 + C2/(C3 - w^-2) + ..."""
+def _of_gases(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 6: n - 1 = C1 + C2/(C3 - w^-2) + ..."""
     del xp
     return 1.0 + c[0] + sum(a / (b - w**-2) for a, b in _grouped(c[1:], 2))
 
 
-def herzberger(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 7: n = C1 + C2/(w^2 - 0.028) + C3/(w^2 - 0.028)^2 + C4 w^2 + C5 w^4 + ..."""
+def _herzberger(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 7: n = C1 + C2 L + C3 L^2 + C4 w^2 + ..., L = 1/(w^2 - 0.028)."""
     del xp
     lorentz = 1.0 / (w**2 - 0.028)
     rest = sum(factor * w ** (2 * at) for at, factor in enumerate(c[3:], 1))
     return c[0] + c[1] * lorentz + c[2] * lorentz**2 + rest
 
 
-def retro(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 8: (n^2 - 1)/(n^2 + 2) = C1 + C2 w^2/(w^2 - C3) + C4 w^2."""
+def _retro(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 8: (n^2 - 1)/(n^2 + 2) = C1 + C2 w^2/(w^2 - C3) + C4 w^2."""
     ratio = c[0] + c[1] * w**2 / (w**2 - c[2]) + c[3] * w**2
     return xp.sqrt((1.0 + 2.0 * ratio) / (1.0 - ratio))
 
 
-def exotic(xp: Any, w: Any, c: Sequence[float]) -> Any:
-    """Formula 9: n^2 = C1 + C2/(w^2 - C3) + C4 (w - C5)/((w - C5)^2 + C6)."""
+def _exotic(xp: Any, w: Any, c: Sequence[float]) -> Any:
+    """Return n by formula 9: n^2 = C1 + C2/(w^2 - C3) + C4 (w - C5)/((w - C5)^2 + C6)."""
     off = w - c[4]
     return xp.sqrt(c[0] + c[1] / (w**2 - c[2]) + c[3] * off / (off**2 + c[5]))
 
 
 DATABASE_FORMULAS: dict[int, Formula] = {
-    1: sellmeier_by_wavelengths,
-    2: sellmeier_by_squares,
-    3: polynomial,
-    4: poles_and_powers,
-    5: powers,
-    6: of_gases,
-    7: herzberger,
-    8: retro,
-    9: exotic,
+    1: _sellmeier_by_wavelengths,
+    2: _sellmeier_by_squares,
+    3: _polynomial,
+    4: _poles_and_powers,
+    5: _by_powers,
+    6: _of_gases,
+    7: _herzberger,
+    8: _retro,
+    9: _exotic,
 }
+"""Each by its number: functions of ``numpy`` or ``jax.numpy``, w and the coefficients."""
 
 
 def coefficients_fit(number: int, count: int) -> bool:

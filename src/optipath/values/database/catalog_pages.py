@@ -27,7 +27,7 @@ class CatalogPage(NamedTuple):
     shelf, book, page : str
         What identifies it.
     about_book, about_page : str
-        What both are: ``"Au (Gold)"``, ``"Johnson and Christy 1972: n,k 0.188–1.937 µm"``.
+        What both are called: ``"Au (Gold)"``, and who found it, with what and where.
     divider : str
         The heading above it in its book, or nothing.
     data : str
