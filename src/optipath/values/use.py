@@ -12,6 +12,7 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.curves.computed_check import check_computed
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.degrees import is_of_an_angle, meant_in_degrees
 from optipath.values.parameters import Parameter
@@ -52,17 +53,11 @@ class Use:
         """Whether the value is a parameter that is given when the plan runs."""
         return isinstance(self.value, Parameter) and not self.value.bound
 
-    @property
-    def is_given(self) -> bool:
-        """Whether the value is a parameter that somebody gives; others follow from such."""
-        return isinstance(self.value, Parameter) and not isinstance(self.value, CurveValue)
-
     def rests_on(self, names: Collection[str]) -> bool:
         """Tell whether the value is one of some parameters, or follows from one of them."""
         value = self.value
-        if value.name in names or self.is_given:
-            return value.name in names
-        return any(argument.name in names for argument in value.arguments)
+        arguments = value.arguments if isinstance(value, CurveValue) else ()
+        return not {value.name, *[argument.name for argument in arguments]}.isdisjoint(names)
 
     def with_arguments(self) -> list[Use]:
         """Return the parameters that the value is computed of, where these stand, and itself."""
@@ -160,7 +155,10 @@ class Use:
         )
 
     def check_given(
-        self, numbers: float | np.ndarray[Any, Any], present: np.ndarray[Any, Any] = THERE
+        self,
+        numbers: float | np.ndarray[Any, Any],
+        present: np.ndarray[Any, Any] = THERE,
+        given: Mapping[str, Resolved] | None = None,
     ) -> None:
         """Check numbers given for the parameter that stands here.
 
@@ -170,6 +168,8 @@ class Use:
             The values of the parameter.
         present : ndarray, optional
             Where an optional one is there at all.
+        given : mapping of str to Resolved, optional
+            What else is given, of which it may have been computed.
 
         Raises
         ------
@@ -177,6 +177,9 @@ class Use:
             Naming the parameter, the place and the value.
         """
         value = self.value
+        if isinstance(value, CurveValue):
+            check_computed(value, self.owner, self.domain, numbers, given)
+            return
         if value.is_signed:
             negative = value.scale < 0.0
             placed = -numbers if negative else numbers

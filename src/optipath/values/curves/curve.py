@@ -33,12 +33,15 @@ class Curve(Unchanging, ABC):
         The least and the largest wavelength that it may be asked for, in metres.
     beyond : str
         What else to do than to stay within these, as a sentence goes on behind "or".
+    unreal : str
+        Why its numbers may be none, or such as nothing has, at wavelengths within these.
     """
 
     parts: tuple[str, ...] = ("value",)
     label: str
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
+    unreal: str = ""
 
     @property
     @abstractmethod
