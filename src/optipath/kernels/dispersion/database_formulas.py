@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.kernels.dispersion.sellmeier import index_of_square, sellmeier_square
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
@@ -34,13 +36,12 @@ def _sellmeier_by_wavelengths(xp: Any, w: Any, c: Sequence[float]) -> Any:
 
 def _sellmeier_by_squares(xp: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 2: n^2 - 1 = C1 + C2 w^2/(w^2 - C3) + ..."""
-    terms = [factor * w**2 / (w**2 - place) for factor, place in _grouped(c[1:], 2)]
-    return xp.sqrt(1.0 + c[0] + sum(terms))
+    return index_of_square(xp, sellmeier_square(xp, w, 1.0 + c[0], c[1::2], c[2::2]))
 
 
 def _polynomial(xp: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 3: n^2 = C1 + C2 w^C3 + ..."""
-    return xp.sqrt(c[0] + _powers(w, c[1:]))
+    return index_of_square(xp, c[0] + _powers(w, c[1:]))
 
 
 def _poles_and_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
@@ -49,7 +50,7 @@ def _poles_and_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
         factor * w**power / (w**2 - place**of_place)
         for factor, power, place, of_place in _grouped(c[1:9], 4)
     ]
-    return xp.sqrt(c[0] + sum(poles) + _powers(w, c[9:]))
+    return index_of_square(xp, c[0] + sum(poles) + _powers(w, c[9:]))
 
 
 def _by_powers(xp: Any, w: Any, c: Sequence[float]) -> Any:
@@ -75,13 +76,13 @@ def _herzberger(xp: Any, w: Any, c: Sequence[float]) -> Any:
 def _retro(xp: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 8: (n^2 - 1)/(n^2 + 2) = C1 + C2 w^2/(w^2 - C3) + C4 w^2."""
     ratio = c[0] + c[1] * w**2 / (w**2 - c[2]) + c[3] * w**2
-    return xp.sqrt((1.0 + 2.0 * ratio) / (1.0 - ratio))
+    return index_of_square(xp, (1.0 + 2.0 * ratio) / (1.0 - ratio))
 
 
 def _exotic(xp: Any, w: Any, c: Sequence[float]) -> Any:
     """Return n by formula 9: n^2 = C1 + C2/(w^2 - C3) + C4 (w - C5)/((w - C5)^2 + C6)."""
     off = w - c[4]
-    return xp.sqrt(c[0] + c[1] / (w**2 - c[2]) + c[3] * off / (off**2 + c[5]))
+    return index_of_square(xp, c[0] + c[1] / (w**2 - c[2]) + c[3] * off / (off**2 + c[5]))
 
 
 DATABASE_FORMULAS: dict[int, Formula] = {

@@ -42,6 +42,7 @@ class DispersionFormula(Curve):
     """
 
     parts = ("n",)
+    unreal = "the formula has n^2 below 0, or a resonance"
     formula: int
     coefficients: tuple[float, ...]
     known_span: tuple[float, float]

@@ -68,6 +68,7 @@ class PageCurve(Curve):
             asked=dict(asked or {}),
             span=(low, high),
             beyond=curves[lows.index(low)].beyond,
+            unreal="; ".join(filter(None, [curve.unreal for curve in curves])),
         )
         if within is not None:
             clear = max(low, within[0]), min(high, within[1])
