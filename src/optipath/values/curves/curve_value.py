@@ -19,6 +19,7 @@ from optipath.values.domains.domain import Domain
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
+from optipath.values.units import dimension_of, with_article
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -195,6 +196,12 @@ class CurveValue(Parameter):
             )
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
         total = CurveSum(tuple(terms), self.offset + sign * other.offset)
+        one, another = dimension_of(self.unit), dimension_of(other.unit)
+        if one != another:
+            raise ParameterError(
+                f"{self.spoken} is {with_article(one or 'pure number')}, and {other.spoken} "
+                f"{with_article(another or 'pure number')}; add up what is of one kind"
+            )
         low, high = total.span
         if not low <= high:
             raise ParameterError(
@@ -249,6 +256,7 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
     made = CurveValue(
         _name(curve, place, given_by),
         None,
+        unit=curve.unit,
         bound=bound,
         curve=curve,
         place=place,
