@@ -11,6 +11,7 @@ from optipath.errors import ParameterError, UnitError, ValueFault
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.cures import cure
+from optipath.values.database.material_pages import MaterialPages
 from optipath.values.domains.domain import Domain
 from optipath.values.made import make_sound
 from optipath.values.parameters import Parameter
@@ -69,7 +70,7 @@ _PARTS = {"n": N, "k": K}
 
 
 @dataclass(frozen=True, eq=False)
-class Material:
+class Material(MaterialPages):
     """A homogeneous medium, given by its complex index of refraction n + ik.
 
     Parameters

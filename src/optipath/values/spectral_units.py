@@ -9,13 +9,13 @@ from optipath.errors import UnitError
 from optipath.values.ratios import NUMBER
 
 _SPEED = 299792458.0
-_ENERGY = 6.62607015e-34 * _SPEED / 1.602176634e-19
+HC = 6.62607015e-34 * _SPEED / 1.602176634e-19
 """h c / e, exact by the definitions of the SI (BIPM, 2019): electronvolts times metres."""
 
 _TIMES_WAVELENGTH = {
-    "meV": _ENERGY * 1e3,
-    "eV": _ENERGY,
-    "keV": _ENERGY / 1e3,
+    "meV": HC * 1e3,
+    "eV": HC,
+    "keV": HC / 1e3,
     "1/um": 1e-6,
     "1/mm": 1e-3,
     "1/cm": 1e-2,
@@ -63,3 +63,14 @@ def wavelength_of(text: str) -> float | None:
     if not 0.0 < number < math.inf:
         raise UnitError(f"'{text}' stands for no wavelength; give a number above 0")
     return _TIMES_WAVELENGTH[match[2]] / number
+
+
+def spectral_unit_meant(word: str) -> str | None:
+    """Return the unit of `wavelength_of` that differs in capital letters alone, if any.
+
+    Examples
+    --------
+    >>> spectral_unit_meant("ev"), spectral_unit_meant("nm")
+    ('eV', None)
+    """
+    return next((unit for unit in _TIMES_WAVELENGTH if unit.lower() == word.lower()), None)
