@@ -93,6 +93,8 @@ if TYPE_CHECKING:
     from optipath.values.follows import FOLLOWS
     from optipath.values.materials import Material
     from optipath.values.parameters import Parameter
+    from optipath.values.spectra.spectrum import Spectrum
+    from optipath.values.spectra.wavelength_grid import wavelengths
     from optipath.values.wavelength import Wavelength
 
 __all__ = [  # noqa: RUF022 - as sorted() has it
@@ -161,6 +163,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Rotator",
     "ShapeError",
     "Source",
+    "Spectrum",
     "SpecularVertex",
     "Srgb",
     "StokesState",
@@ -182,6 +185,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "refraction_angle",
     "there_and_back",
     "vertices_from_angles",
+    "wavelengths",
 ]
 
 _HOMES = {
@@ -248,6 +252,8 @@ _HOMES = {
     "values.follows": ["FOLLOWS"],
     "values.materials": ["Material"],
     "values.parameters": ["Parameter"],
+    "values.spectra.spectrum": ["Spectrum"],
+    "values.spectra.wavelength_grid": ["wavelengths"],
     "values.wavelength": ["Wavelength"],
 }
 """Where the names are from; all are imported when the first of them is used (PEP 562)."""

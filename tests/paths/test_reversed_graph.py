@@ -359,7 +359,7 @@ def test_all_that_has_no_way_back_is_told_at_once():
     told = caught.value.faults
     for sentence in (
         "source['ey']: no light ends there; did you mean 'eye'?",
-        "source['tap'] must be a Source, not Detector(reads='stokes')",
+        "source['tap'] must be a Source, not Detector(reads='stokes', response=None)",
         "'mine': element class Unsaid does not say what changes its sign on the way back; write",
         "'both': combiner adds up light without loss, which has no way back; put a BeamSplitter",
         "link 'mine.out -> tap.in' is a tap, which takes nothing of the light",

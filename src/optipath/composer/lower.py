@@ -13,7 +13,11 @@ from optipath.composer.wiring import link_text
 from optipath.elements.coupling import Operation, ResultOf
 from optipath.engines.program.program import Reading
 from optipath.errors import ComposerError, listed
-from optipath.kernels.catalogue import DICHROISM_AND_RETARDANCE_ALONG, ELLIPTICAL_RETARDER
+from optipath.kernels.catalogue import (
+    DICHROISM_AND_RETARDANCE_ALONG,
+    ELLIPTICAL_RETARDER,
+    RESPONSE,
+)
 from optipath.light.frames import Frame
 from optipath.values.operands import Operand, operand_of
 from optipath.values.parameters import Parameter
@@ -115,9 +119,17 @@ class _Lowering:
             element = self.wiring.elements[name]
             reads = getattr(element, "reads", "stokes")
             kept = detectors if element.detects else dumps
-            light, frame = self.lights[name, port], self._reading_frame(name, port)
+            light, frame = self._read_of(name, port), self._reading_frame(name, port)
             kept[name] = Reading(light, frame, _COMPONENTS[reads])
         return self.builder.program(self.sources, detectors, dumps, self._links())
+
+    def _read_of(self, name: str, port: str) -> int:
+        """Return the light that ends somewhere, as far as what stands there responds to it."""
+        light = self.lights[name, port]
+        response = getattr(self.wiring.elements[name], "response", None)
+        if response is None:
+            return light
+        return self._step(f"{name}.response", (light,), Operation(RESPONSE, (response,)), None)
 
     def _links(self) -> dict[str, Reading]:
         """Return the light of every link and outlet, if all is to be kept."""

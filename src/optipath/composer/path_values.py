@@ -115,7 +115,8 @@ class Values:
             if not p.bound and p.default is not None and not is_traced(p.default)
         }
         found = {name: r for name, r in found.items() if r.present.ndim == 0 and r.present}
-        return found | {c.name: c.computed(found) for c in self._computed if c.follows(found)}
+        alone = [c for c in self._computed if c.follows(found) and not c.curve.takes_grid]
+        return found | {c.name: c.computed(found) for c in alone}
 
     @cached_property
     def _computed(self) -> tuple[CurveValue, ...]:

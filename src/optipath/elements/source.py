@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, ClassVar
 from optipath.elements.coupling import Coupling, Operation, numbers_of
 from optipath.elements.element import Element
 from optipath.errors import ValueFault
-from optipath.kernels.catalogue import POLARIZED, UNPOLARIZED
+from optipath.kernels.catalogue import POLARIZED, PRODUCT, UNPOLARIZED
 from optipath.values.domains.quantities import (
     INTENSITY,
     NON_NEGATIVE,
     Intensity,
+    Spectral,
     StokesState,
     YesOrNo,
 )
@@ -36,11 +37,15 @@ class Source(Element, kind="source"):
     physical : bool, optional
         Whether a state that is polarised by more than 100 % is refused; False for what has been
         measured with noise.
+    spectrum : Spectrum or array_like, optional
+        What the light is multiplied by at each wavelength of a run: power per nanometre. A
+        `Spectrum` takes the wavelength from the parameter ``wavelength``; without one, light is
+        the same at each.
 
     Examples
     --------
     >>> Source(intensity=100.0)
-    Source(intensity=100.0, stokes=None, physical=True)
+    Source(intensity=100.0, stokes=None, physical=True, spectrum=None)
     """
 
     inputs: ClassVar[tuple[str, ...]] = ()
@@ -49,6 +54,7 @@ class Source(Element, kind="source"):
     intensity: Intensity = 1.0
     stokes: StokesState | None = None
     physical: YesOrNo = True  # type: ignore[misc] # each source says it for itself
+    spectrum: Spectral = None
 
     def __post_init__(self) -> None:
         """Ask besides whether four numbers are a state."""
@@ -66,7 +72,10 @@ class Source(Element, kind="source"):
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the emission into ``out``."""
-        arguments: tuple[Any, ...] = (self.intensity,)
+        intensity: Any = self.intensity
+        if self.spectrum is not None:
+            (intensity,) = Operation(PRODUCT, (intensity, self.spectrum)).results(1)
+        arguments: tuple[Any, ...] = (intensity,)
         kernel = UNPOLARIZED
         if self.stokes is not None:
             kernel = POLARIZED

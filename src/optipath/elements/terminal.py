@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from optipath.elements.element import Element
-from optipath.values.domains.quantities import Reads
+from optipath.values.domains.quantities import Reads, Spectral
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling
@@ -30,6 +30,9 @@ class Detector(Terminal, kind="detector"):
     ----------
     reads : {"stokes", "linear", "intensity"}, optional
         All four components, S0 to S2, or S0 alone. What is not read is NaN.
+    response : Spectrum, float or array_like, optional
+        What it reads of the light that arrives, at each wavelength of a run; not negative, and of
+        any unit, so that it may be above 1. All of the light, without one.
 
     Examples
     --------
@@ -40,6 +43,7 @@ class Detector(Terminal, kind="detector"):
     detects: ClassVar[bool] = True
 
     reads: Reads = "stokes"
+    response: Spectral = None
 
 
 class Dump(Terminal, kind="dump"):

@@ -34,7 +34,7 @@ def reversed_end(element: Element, source: Element | None = None) -> Element:
     Examples
     --------
     >>> reversed_end(Source(100.0)), reversed_end(Dump()).intensity
-    (Detector(reads='stokes'), 0.0)
+    (Detector(reads='stokes', response=None), 0.0)
     """
     if not element.inputs:
         return Dump() if vanishes(getattr(element, "intensity", 1.0)) else Detector()

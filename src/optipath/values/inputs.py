@@ -123,7 +123,7 @@ class Inputs:
             numbers, present = resolved[name]
             try:
                 if name not in unchecked:
-                    use.check_given(numbers, present)
+                    use.check_given(numbers, present, resolved)
             except OptipathError as fault:
                 value = given.get(name, use.value.default)
                 faults += self._of_a_fit(fault.faults, name, value)

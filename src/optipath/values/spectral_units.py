@@ -9,13 +9,13 @@ from optipath.errors import UnitError
 from optipath.values.ratios import NUMBER
 
 _SPEED = 299792458.0
-_ENERGY = 6.62607015e-34 * _SPEED / 1.602176634e-19
+HC = 6.62607015e-34 * _SPEED / 1.602176634e-19
 """h c / e, exact by the definitions of the SI (BIPM, 2019): electronvolts times metres."""
 
 _TIMES_WAVELENGTH = {
-    "meV": _ENERGY * 1e3,
-    "eV": _ENERGY,
-    "keV": _ENERGY / 1e3,
+    "meV": HC * 1e3,
+    "eV": HC,
+    "keV": HC / 1e3,
     "1/um": 1e-6,
     "1/mm": 1e-3,
     "1/cm": 1e-2,

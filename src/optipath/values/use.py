@@ -12,6 +12,7 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced, namespace
+from optipath.values.curves.computed_check import check_computed
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.degrees import is_of_an_angle, meant_in_degrees
 from optipath.values.parameters import Parameter
@@ -154,7 +155,10 @@ class Use:
         )
 
     def check_given(
-        self, numbers: float | np.ndarray[Any, Any], present: np.ndarray[Any, Any] = THERE
+        self,
+        numbers: float | np.ndarray[Any, Any],
+        present: np.ndarray[Any, Any] = THERE,
+        given: Mapping[str, Resolved] | None = None,
     ) -> None:
         """Check numbers given for the parameter that stands here.
 
@@ -164,6 +168,8 @@ class Use:
             The values of the parameter.
         present : ndarray, optional
             Where an optional one is there at all.
+        given : mapping of str to Resolved, optional
+            What else is given, of which it may have been computed.
 
         Raises
         ------
@@ -171,6 +177,9 @@ class Use:
             Naming the parameter, the place and the value.
         """
         value = self.value
+        if isinstance(value, CurveValue):
+            check_computed(value, self.owner, self.domain, numbers, given)
+            return
         if value.is_signed:
             negative = value.scale < 0.0
             placed = -numbers if negative else numbers

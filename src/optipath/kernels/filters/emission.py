@@ -18,3 +18,9 @@ def polarized(xp: Primitives) -> KernelFunction:
     """Make ``(I, s0, s1, s2, s3) -> (I s0, I s1, I s2, I s3)``."""
     del xp
     return lambda intensity, *state: tuple(intensity * component for component in state)
+
+
+def product(xp: Primitives) -> KernelFunction:
+    """Make ``(I, density) -> (I density,)``: what is emitted at a wavelength."""
+    del xp
+    return lambda intensity, density: (intensity * density,)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,12 +33,18 @@ class Curve(Unchanging, ABC):
         The least and the largest wavelength that it may be asked for, in metres.
     beyond : str
         What else to do than to stay within these, as a sentence goes on behind "or".
+    takes_grid : bool
+        Whether what it is at a wavelength depends on the others that are given.
+    unreal : str
+        Why its numbers may be none, or such as nothing has, at wavelengths within these.
     """
 
-    parts: ClassVar[tuple[str, ...]] = ("value",)
+    parts: tuple[str, ...] = ("value",)
     label: str
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
+    takes_grid: bool = False
+    unreal: str = ""
 
     @property
     @abstractmethod

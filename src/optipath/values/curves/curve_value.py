@@ -4,23 +4,31 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from hashlib import blake2b
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
+from optipath.errors import ParameterError
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
+from optipath.values.curves.computed_check import check_computed
+from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.wavelength_range import WavelengthRange
+from optipath.values.domains.domain import Domain
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
     from optipath.values.curves.curve import Curve
-    from optipath.values.domains.domain import Domain
+
+
+_THERE = Wavelength(default=1e-6, bound=True)
+"""What stands for a wavelength that is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,6 +125,84 @@ class CurveValue(Parameter):
         )
         return _of(self.curve, self.place, given_by).like(self)
 
+    def argument(self, place: int, given: Mapping[str, Resolved]) -> Any:
+        """Return the numbers of one of those that it is computed of.
+
+        Parameters
+        ----------
+        place : int
+            Which one: 0 for the wavelength.
+        given : mapping of str to Resolved
+            At least that one, where it is a parameter.
+
+        Returns
+        -------
+        array_like
+        """
+        return _number(self.given_by[place], given)
+
+    @property
+    def spoken(self) -> str:
+        """What sentences call it: by its curve, and by its part where that has several."""
+        several = len(self.curve.parts) > 1 or self.curve.parts[0] != "value"
+        return (
+            f"{self.curve.parts[self.place]} of {self.curve.label}" if several else self.curve.label
+        )
+
+    def at(self, wavelength: Any) -> Any:
+        """Return its numbers at wavelengths, scale and offset applied.
+
+        Parameters
+        ----------
+        wavelength : float, str or array_like
+            In metres, or texts such as ``"550 nm"``.
+
+        Returns
+        -------
+        float or ndarray
+
+        Raises
+        ------
+        ParameterError
+            If what else it is computed of is a parameter that has no value yet.
+        ValueFault
+            If the curve is not known there.
+        """
+        others = self.given_by[1:]
+        known = _defaults(others)
+        for one in others:
+            if isinstance(one, Parameter) and one.name not in known:
+                raise ParameterError(
+                    f"{self.spoken} follows from parameter '{one.name}' besides, which has no "
+                    f"value; give the parameter a default"
+                )
+        where = Wavelength().resolve(wavelength).value
+        WavelengthRange.of(self.curve).check("the wavelength", where)
+        there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
+        found = there.computed(known).value
+        check_computed(there.like(self), "", Domain("number"), found, known)
+        found = self.placed(found)
+        return found if is_traced(found) or found.ndim else found.item()
+
+    def _shifted(self, other: Any, sign: float) -> Self:
+        """Return a sum with a number, or with what follows from the same wavelength."""
+        if not isinstance(other, CurveValue):
+            return super()._shifted(other, sign)
+        if self.given_by[0] != other.given_by[0]:
+            raise ParameterError(
+                f"{self.spoken} and {other.spoken} follow from two wavelengths, "
+                f"'{self.given_by[0].name}' and '{other.given_by[0].name}'; give both the same one"
+            )
+        terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
+        total = CurveSum(tuple(terms), self.offset + sign * other.offset)
+        low, high = total.span
+        if not low <= high:
+            raise ParameterError(
+                f"{self.spoken} and {other.spoken} are known at no common wavelength; take curves "
+                f"whose ranges meet"
+            )
+        return cast("Self", _of(total, 0, (*self.given_by, *other.given_by[1:])))
+
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name
 
@@ -168,11 +254,16 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
         place=place,
         given_by=given_by,
     )
-    known = {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
-    if not made.follows(known):
+    known = _defaults(parameters)
+    if not made.follows(known) or (curve.takes_grid and not bound):
         return made
     default = made.computed(known).value
     return changed(made, default=default if is_traced(default) or default.ndim else default.item())
+
+
+def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
+    parameters = [one for one in values if isinstance(one, Parameter)]
+    return {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
 
 
 def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:

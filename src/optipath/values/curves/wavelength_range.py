@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from optipath.values.domains.domain import Domain
+from optipath.values.domains.wavelengths import WavelengthDomain
 
 if TYPE_CHECKING:
     from optipath.values.curves.curve import Curve
 
 
 @dataclass(frozen=True)
-class WavelengthRange(Domain):
+class WavelengthRange(WavelengthDomain):
     """Wavelengths that a curve may be asked for.
 
     Attributes

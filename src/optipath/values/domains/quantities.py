@@ -9,6 +9,7 @@ from typing import Annotated, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from optipath.values.curves.curve import Curve
 from optipath.values.domains.axis import AxisDomain, OptionalAxisDomain
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
@@ -24,6 +25,7 @@ from optipath.values.domains.indices import (
     OPTIONAL_OUTSIDE,
 )
 from optipath.values.domains.optional import OptionalDomain
+from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.domains.stack_indices import INDICES
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
 from optipath.values.domains.thick_layers import LENGTHS
@@ -56,6 +58,7 @@ NON_NEGATIVE = Domain("number", minimum=0.0)
 NonNegative: TypeAlias = Annotated[Quantity, NON_NEGATIVE]
 INTENSITY = IntensityDomain(NON_NEGATIVE.name, minimum=NON_NEGATIVE.minimum)
 Intensity: TypeAlias = Annotated[Quantity, INTENSITY]
+Spectral: TypeAlias = Annotated[Quantity | Curve | None, SPECTRAL]
 Real: TypeAlias = Annotated[Quantity, REAL]
 Index: TypeAlias = Annotated[Quantity | Material, INDEX]
 ClearIndex: TypeAlias = Annotated[Quantity | Material, CLEAR]

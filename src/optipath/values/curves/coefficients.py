@@ -1,0 +1,112 @@
+"""Coefficients of formulas: rows of numbers and parameters, and what each may be."""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from optipath.errors import ValueFault, shown
+from optipath.values.domains.domain import Domain
+from optipath.values.parameters import Parameter
+
+Coefficient: TypeAlias = tuple[str, Any, Domain]
+
+REAL = Domain("coefficient")
+POSITIVE = Domain("coefficient above 0", minimum=5e-324)
+NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
+EXTINCTION = Domain("extinction coefficient", minimum=0.0)
+
+MICROMETRES = 1e6
+"""How many there are in a metre: the unit of published coefficients."""
+
+
+def several(name: str, values: Any) -> tuple[Any, ...]:
+    """Return coefficients as a tuple.
+
+    Parameters
+    ----------
+    name : str
+        What sentences call them.
+    values : sequence of float or Parameter
+
+    Returns
+    -------
+    tuple
+
+    Raises
+    ------
+    ValueFault
+        If they are no row.
+
+    Examples
+    --------
+    >>> several("b", [1.0, 2])
+    (1.0, 2)
+    """
+    if isinstance(values, (str, Parameter)) or not hasattr(values, "__iter__"):
+        raise ValueFault(
+            f"{name} must be a row of coefficients, such as [1.0], not {shown(values)}"
+        )
+    return tuple(values.tolist() if isinstance(values, np.ndarray) else values)
+
+
+def oscillators_of(label: str, rows: Any, names: tuple[str, ...]) -> tuple[tuple[Any, ...], ...]:
+    """Return the coefficients of oscillators, so many of each.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call what they belong to.
+    rows : sequence of sequence
+        What is given.
+    names : tuple of str
+        What the coefficients of one are called.
+
+    Returns
+    -------
+    tuple of tuple
+
+    Raises
+    ------
+    ValueFault
+        If there are more or fewer of one.
+
+    Examples
+    --------
+    >>> oscillators_of("gold", [[0.02, 0.4]], ("strength", "energy"))
+    ((0.02, 0.4),)
+    """
+    if not hasattr(rows, "__iter__") or not all(hasattr(row, "__len__") for row in rows):
+        rows = [()]
+    if any(len(row) != len(names) for row in rows):
+        raise ValueFault(
+            f"oscillators of {label}: give a row of {len(names)} numbers for each, "
+            f"[({', '.join(names)}), ...]"
+        )
+    return tuple([several("an oscillator", row) for row in rows])
+
+
+def coefficients_of(
+    rows: tuple[tuple[Any, ...], ...], names: tuple[str, ...], domains: tuple[Domain, ...]
+) -> list[Coefficient]:
+    """Return the coefficients of oscillators one after another, each with its name and domain.
+
+    Parameters
+    ----------
+    rows : tuple of tuple
+        As `oscillators_of` returns them.
+    names : tuple of str
+        What the coefficients of one are called.
+    domains : tuple of Domain
+        What they may be.
+
+    Returns
+    -------
+    list of tuple
+    """
+    return [
+        (f"oscillators[{place}] {name}", value, domain)
+        for place, row in enumerate(rows)
+        for name, value, domain in zip(names, row, domains, strict=True)
+    ]

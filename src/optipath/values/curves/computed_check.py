@@ -1,0 +1,81 @@
+"""The check of numbers that follow from the wavelength, in the words of who gives that."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.parameters import Parameter
+from optipath.values.units import format_quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.curves.curve_value import CurveValue
+    from optipath.values.domains.domain import Domain
+    from optipath.values.resolved import Resolved
+
+
+def check_computed(
+    value: CurveValue,
+    owner: str,
+    domain: Domain,
+    numbers: Any,
+    given: Mapping[str, Resolved] | None = None,
+) -> None:
+    """Check what a curve comes to where it stands.
+
+    Parameters
+    ----------
+    value : CurveValue
+        What stands there.
+    owner : str
+        The node and the field, such as ``X1.incidence``, or nothing.
+    domain : Domain
+        What may stand there.
+    numbers : array_like
+        What the curve comes to, scale and offset aside.
+    given : mapping of str to Resolved, optional
+        What it is computed of, where that is no default.
+
+    Raises
+    ------
+    ValueFault
+        Naming the curve, the wavelength, the place and the number.
+    """
+    placed = value.placed(numbers)
+    try:
+        domain.check(owner, placed)
+    except ValueFault as fault:
+        bad = ~np.asarray(domain.allows(np.asarray(placed)))
+        if is_traced(placed) or not np.any(bad):
+            raise
+        found = float(np.asarray(placed)[bad].ravel()[0])
+        at = _wavelength_text(value, bad, given or {})
+        what = f"{value.formula_of(value.spoken)}{at}{f' (at {owner})' if owner else ''}"
+        why = f": {value.curve.unreal}" if value.curve.unreal else ""
+        wanted = f"give another wavelength: what is asked for is {domain.described()}"
+        if not np.isfinite(found):
+            raise ValueFault(f"{what} has no value{why}; {wanted}") from fault
+        raise ValueFault(f"{what} is {found:.6g}{why}; {wanted}") from fault
+
+
+def _wavelength_text(value: CurveValue, bad: Any, given: Mapping[str, Resolved]) -> str:
+    """Return the first wavelength at which a value is not allowed, as a sentence goes on."""
+    known = {
+        p.name: p.resolve(p.default)
+        for p in value.arguments
+        if p.name not in given and p.default is not None
+    }
+    wavelength = value.given_by[0]
+    if isinstance(wavelength, Parameter) and wavelength.name not in {**known, **given}:
+        return ""
+    number = value.argument(0, {**known, **given})
+    if is_traced(number):
+        return ""
+    first = np.broadcast_to(number, bad.shape)[bad].ravel()[0]
+    return f" at {format_quantity(float(f'{first:.10g}'), WAVELENGTH.unit)}"

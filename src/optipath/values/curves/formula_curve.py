@@ -1,0 +1,87 @@
+"""FormulaCurve: n and k by a formula whose coefficients are numbers or parameters."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault, shown
+from optipath.values.curves.curve import Curve
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.operands import Operand
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+    from optipath.values.curves.coefficients import Coefficient
+    from optipath.values.domains.domain import Domain
+
+EVERYWHERE = (0.0, np.inf)
+
+
+class FormulaCurve(Curve):
+    """n and k by a published formula.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call it.
+    span : pair of float or str
+        The least and the largest wavelength that it holds for, in metres or as texts.
+    **given : Any
+        What it is made of, kept as attributes; coefficients are numbers, or parameters of these.
+
+    Raises
+    ------
+    ValueFault
+        With all coefficients that are no numbers, or not such as the formula takes.
+    """
+
+    parts = ("n", "k")
+
+    def __init__(self, label: str, span: Any, **given: Any) -> None:
+        vars(self).update(label=label, beyond="another formula", **given)
+        faults: list[str] = []
+        for name, value, domain in self.arguments():
+            try:
+                _check(f"{name} of {label}", value, domain)
+            except ValueFault as fault:
+                faults += fault.faults
+        try:
+            vars(self).update(span=_span(f"span of {label}", span))
+        except ValueFault as fault:
+            faults += fault.faults
+        if faults:
+            raise ValueFault(*faults)
+
+    @abstractmethod
+    def arguments(self) -> list[Coefficient]:
+        """Return its coefficients, in the order of `numbers`: names, values, what they may be."""
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        # Equal ones say the same of their parameters, which share a name.
+        keys = [(name, Operand(value).key()) for name, value, _ in self.arguments()]
+        return (self.label, self.span, *keys)
+
+
+def _check(owner: str, value: Any, domain: Domain) -> None:
+    if isinstance(value, Parameter):
+        return
+    if domain.check(owner, value).ndim:
+        raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
+
+
+def _span(owner: str, span: Any) -> tuple[float, float]:
+    if span == EVERYWHERE:
+        return EVERYWHERE
+    ends = WAVELENGTH.check(owner, list(span) if isinstance(span, tuple) else span)
+    if ends.shape != (2,) or not ends[0] < ends[1]:
+        raise ValueFault(
+            f"{owner} is {shown(span)}; give the least and the largest wavelength, such as "
+            f"('400 nm', '700 nm')"
+        )
+    return float(ends[0]), float(ends[1])

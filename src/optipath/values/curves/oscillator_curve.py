@@ -1,0 +1,162 @@
+"""DrudeLorentz and TaucLorentz: n and k of what absorbs, by oscillators."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import ValueFault
+from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
+from optipath.kernels.dispersion.permittivity import index_of_permittivity
+from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
+from optipath.values.curves.coefficients import (
+    NOT_NEGATIVE,
+    POSITIVE,
+    REAL,
+    coefficients_of,
+    oscillators_of,
+)
+from optipath.values.curves.formula_curve import EVERYWHERE, FormulaCurve
+from optipath.values.parameters import Parameter
+from optipath.values.spectral_units import HC
+
+if TYPE_CHECKING:
+    from optipath.values.curves.coefficients import Coefficient
+
+_BOUND = ("strength", "energy", "damping")
+_ABOVE_GAP = ("amplitude", "energy", "broadening", "gap")
+
+
+class DrudeLorentz(FormulaCurve):
+    """Electrons that are free, and bound ones; energies in electronvolts.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call it.
+    plasma : float or Parameter
+        The energy of the plasma frequency, to which all strengths belong.
+    damping : float or Parameter
+        The damping of free electrons.
+    strength : float or Parameter, optional
+        The strength of free electrons, a pure number; 0 where there are none.
+    oscillators : sequence of sequence, optional
+        The strength, the energy and the damping of each resonance.
+    background : float or Parameter, optional
+        The permittivity at high energies.
+    span : pair of float or str, optional
+        The wavelengths that it holds for.
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the coefficients.
+
+    Examples
+    --------
+    >>> from optipath.values.curves.curve_value import curve_values
+    >>> n, k = curve_values(DrudeLorentz("a metal", 9.0, 0.02), 1e-6)
+    >>> round(float(n), 4), round(float(k), 4)
+    (0.0591, 7.1891)
+    """
+
+    plasma: Any
+    damping: Any
+    strength: Any
+    oscillators: tuple[tuple[Any, ...], ...]
+    background: Any
+    unreal = "its coefficients give no permittivity that is a number"
+
+    def __init__(
+        self,
+        label: str,
+        plasma: Any,
+        damping: Any,
+        *,
+        strength: Any = 1.0,
+        oscillators: Any = (),
+        background: Any = 1.0,
+        span: Any = EVERYWHERE,
+    ) -> None:
+        given = {"plasma": plasma, "damping": damping, "strength": strength}
+        rows = oscillators_of(label, oscillators, _BOUND)
+        super().__init__(label, span, **given, oscillators=rows, background=background)
+
+    def arguments(self) -> list[Coefficient]:
+        domains = (NOT_NEGATIVE, NOT_NEGATIVE, POSITIVE)
+        return [
+            ("background", self.background, REAL),
+            ("plasma", self.plasma, NOT_NEGATIVE),
+            ("strength", self.strength, NOT_NEGATIVE),
+            ("damping", self.damping, NOT_NEGATIVE),
+            *coefficients_of(self.oscillators, _BOUND, domains),
+        ]
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        background, plasma, strength, damping, *rest = arguments
+        bound = [rest[at : at + 3] for at in range(0, len(rest), 3)]
+        found = drude_lorentz_permittivity(
+            HC / wavelength, background, plasma, (strength, damping), bound
+        )
+        return index_of_permittivity(xp, *found)
+
+
+class TaucLorentz(FormulaCurve):
+    """Oscillators above a gap, of amorphous films; energies in electronvolts.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call it.
+    oscillators : sequence of sequence
+        The amplitude A, the energy E0, the broadening C and the gap Eg of each; C is below 2 E0.
+    background : float or Parameter, optional
+        The permittivity at high energies.
+    span : pair of float or str, optional
+        The wavelengths that it holds for.
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the coefficients.
+
+    Examples
+    --------
+    >>> from optipath.values.curves.curve_value import curve_values
+    >>> silicon = TaucLorentz("silicon", [(122.0, 3.45, 2.54, 1.2)], background=1.15)
+    >>> n, k = curve_values(silicon, 500e-9)
+    >>> round(float(n), 4), round(float(k), 4)
+    (4.4573, 1.0883)
+    """
+
+    oscillators: tuple[tuple[Any, ...], ...]
+    background: Any
+    unreal = "its broadening is not below twice its energy"
+
+    def __init__(
+        self, label: str, oscillators: Any, *, background: Any = 1.0, span: Any = EVERYWHERE
+    ) -> None:
+        rows = oscillators_of(label, oscillators, _ABOVE_GAP)
+        super().__init__(label, span, oscillators=rows, background=background)
+        for place, (_, energy, broadening, _) in enumerate(rows):
+            known = not isinstance(energy, Parameter) and not isinstance(broadening, Parameter)
+            if known and not float(broadening) < 2.0 * float(energy):
+                raise ValueFault(
+                    f"oscillators[{place}] of {label} has the broadening {broadening} and the "
+                    f"energy {energy}; the formula holds for a broadening below twice the energy"
+                )
+
+    def arguments(self) -> list[Coefficient]:
+        domains = (NOT_NEGATIVE, POSITIVE, POSITIVE, NOT_NEGATIVE)
+        return [
+            ("background", self.background, REAL),
+            *coefficients_of(self.oscillators, _ABOVE_GAP, domains),
+        ]
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        real, *rest = arguments
+        energy = HC / wavelength
+        imaginary = 0.0 * energy
+        for at in range(0, len(rest), 4):
+            more, absorbed = tauc_lorentz_permittivity(xp, energy, *rest[at : at + 4])
+            real, imaginary = real + more, imaginary + absorbed
+        return index_of_permittivity(xp, real, imaginary)

@@ -1,0 +1,151 @@
+"""Sellmeier and Cauchy: n of what is transparent, by a few coefficients."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import ValueFault
+from optipath.kernels.dispersion.sellmeier import cauchy_index, index_of_square, sellmeier_square
+from optipath.values.curves.coefficients import (
+    EXTINCTION,
+    MICROMETRES,
+    NOT_NEGATIVE,
+    REAL,
+    several,
+)
+from optipath.values.curves.formula_curve import EVERYWHERE, FormulaCurve
+
+if TYPE_CHECKING:
+    from optipath.values.curves.coefficients import Coefficient
+
+
+class Sellmeier(FormulaCurve):
+    """n^2 = offset + the sum of B w^2 / (w^2 - C), with w in micrometres.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call it.
+    b : sequence of float or Parameter
+        B, the strengths.
+    c : sequence of float or Parameter, optional
+        C, in square micrometres.
+    resonances : sequence of float or Parameter, optional
+        In place of c, the wavelengths of which these are the squares, in micrometres.
+    offset, k : float or Parameter, optional
+        The first term, and the extinction coefficient.
+    span : pair of float or str, optional
+        The wavelengths that it holds for.
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the coefficients.
+
+    Examples
+    --------
+    >>> from optipath.values.curves.curve_value import curve_values
+    >>> float(curve_values(Sellmeier("x", [1.25], [0.0]), 5e-7)[0])
+    1.5
+    """
+
+    b: tuple[Any, ...]
+    c: tuple[Any, ...] | None
+    resonances: tuple[Any, ...] | None
+    offset: Any
+    k: Any
+    unreal = "the formula has n^2 below 0, or a resonance"
+
+    def __init__(
+        self,
+        label: str,
+        b: Any,
+        c: Any = None,
+        *,
+        resonances: Any = None,
+        offset: Any = 1.0,
+        k: Any = 0.0,
+        span: Any = EVERYWHERE,
+    ) -> None:
+        if (c is None) == (resonances is None):
+            raise ValueFault(
+                f"{label} needs c, in square micrometres, or resonances, in micrometres; give one "
+                f"of the two"
+            )
+        b, c, resonances = [
+            None if row is None else several(f"{name} of {label}", row)
+            for name, row in (("b", b), ("c", c), ("resonances", resonances))
+        ]
+        if len(b) != len(poles := c or resonances or ()):
+            other = "resonances" if c is None else "c"
+            raise ValueFault(
+                f"{label} has {len(b)} of b and {len(poles)} of {other}; give one for each"
+            )
+        super().__init__(label, span, b=b, c=c, resonances=resonances, offset=offset, k=k)
+
+    def arguments(self) -> list[Coefficient]:
+        name = "resonances" if self.c is None else "c"
+        domain = NOT_NEGATIVE if self.c is None else REAL
+        poles = self.c or self.resonances or ()
+        return [
+            ("offset", self.offset, REAL),
+            ("k", self.k, EXTINCTION),
+            *[(f"b[{place}]", value, REAL) for place, value in enumerate(self.b)],
+            *[(f"{name}[{place}]", value, domain) for place, value in enumerate(poles)],
+        ]
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        offset, k, *rest = arguments
+        strengths, poles = rest[: len(self.b)], rest[len(self.b) :]
+        if self.c is None:
+            poles = [pole * pole for pole in poles]
+        square = sellmeier_square(xp, wavelength * MICROMETRES, offset, strengths, poles)
+        return index_of_square(xp, square), k + 0.0 * square
+
+
+class Cauchy(FormulaCurve):
+    """n = A + B / w^2 + C / w^4 + ..., with w in micrometres.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call it.
+    coefficients : sequence of float or Parameter
+        A, B, C, ...: a pure number, one in square micrometres, one in um^4, ...
+    k : float or Parameter, optional
+        The extinction coefficient.
+    span : pair of float or str, optional
+        The wavelengths that it holds for.
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the coefficients.
+
+    Examples
+    --------
+    >>> from optipath.values.curves.curve_value import curve_values
+    >>> float(curve_values(Cauchy("x", [1.5, 0.004]), 5e-7)[0])
+    1.516
+    """
+
+    coefficients: tuple[Any, ...]
+    k: Any
+
+    def __init__(
+        self, label: str, coefficients: Any, *, k: Any = 0.0, span: Any = EVERYWHERE
+    ) -> None:
+        row = several(f"coefficients of {label}", coefficients)
+        super().__init__(label, span, coefficients=row, k=k)
+
+    def arguments(self) -> list[Coefficient]:
+        names = [f"coefficients[{place}]" for place in range(len(self.coefficients))]
+        return [
+            ("k", self.k, EXTINCTION),
+            *[(name, value, REAL) for name, value in zip(names, self.coefficients, strict=True)],
+        ]
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        k, *coefficients = arguments
+        n = cauchy_index(xp, wavelength * MICROMETRES, coefficients)
+        return n, k + 0.0 * n

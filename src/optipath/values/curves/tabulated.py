@@ -1,0 +1,206 @@
+"""Tabulated: a curve through samples, such as the measured n and k of a metal."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, ValueFault, shown, unknown
+from optipath.values.arrays.read_only import locked
+from optipath.values.arrays.shapes import first_place
+from optipath.values.cures import cure
+from optipath.values.curves.curve import Curve
+from optipath.values.curves.monotone_slopes import monotone_slopes
+from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH
+from optipath.values.texts import numbers_for
+from optipath.values.units import parse_quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable, Sequence
+
+INTERPOLATIONS = ("linear", "monotone")
+EXTRAPOLATIONS = ("", "nearest", "linear")
+
+
+class Tabulated(Curve):
+    """Numbers between samples, at which they are exact.
+
+    Parameters
+    ----------
+    label : str
+        What sentences call it.
+    parts : tuple of str
+        What its numbers are called, such as ``("n", "k")``.
+    wavelengths : array_like, shape (n,)
+        In metres, or texts with a unit; rising or falling.
+    columns : sequence of array_like, shape (n,)
+        The samples, for each of the parts.
+    interpolation : {"linear", "monotone"}, optional
+        By straight lines, or by cubics that overshoot no sample (`monotone_slopes`).
+    extrapolate : {"", "nearest", "linear"}, optional
+        What it is beyond its samples: an error, the last sample, or the straight line on.
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the samples.
+
+    Examples
+    --------
+    >>> gold = Tabulated("gold", ("n",), ["500 nm", "600 nm"], [[0.9, 0.3]])
+    >>> gold.evaluated(5.5e-7)[0].round(12).item()
+    0.6
+    """
+
+    def __init__(
+        self,
+        label: str,
+        parts: tuple[str, ...],
+        wavelengths: Any,
+        columns: Sequence[Any],
+        *,
+        interpolation: str = "linear",
+        extrapolate: str = "",
+    ) -> None:
+        faults = [
+            *unknown("interpolation", interpolation, INTERPOLATIONS),
+            *unknown("extrapolate", extrapolate, EXTRAPOLATIONS),
+        ]
+        places = _samples(label, "wavelengths", wavelengths, faults)
+        values = [
+            _samples(label, part, column, faults)
+            for part, column in zip(parts, columns, strict=True)
+        ]
+        if not faults:
+            faults += filter(None, [_wavelength_fault(label, places)])
+            faults += [
+                f"{label} has {len(places)} wavelengths and {len(column)} of {part}; give one "
+                f"of each for each sample"
+                for part, column in zip(parts, values, strict=True)
+                if len(column) != len(places)
+            ]
+        if faults:
+            raise ValueFault(*faults)
+        if places[0] > places[-1]:
+            places, values = places[::-1].copy(), [column[::-1].copy() for column in values]
+        vars(self).update(
+            label=label,
+            parts=tuple(parts),
+            wavelengths=locked(places),
+            columns=tuple([locked(column) for column in values]),
+            interpolation=interpolation,
+            extrapolate=extrapolate,
+            span=(0.0, np.inf) if extrapolate else (float(places[0]), float(places[-1])),
+            beyond=cure(
+                "ask for extrapolate='nearest' or 'linear'",
+                'ask for extrapolate = "nearest" or "linear"',
+            ),
+            unreal="a straight line goes on beyond its samples" * (extrapolate == "linear"),
+            _nodes=locked(np.repeat(places, 2)),
+            _edges=locked(_edges(places)),
+            _cubics=tuple([_cubics(places, v, interpolation, extrapolate) for v in values]),
+        )
+
+    wavelengths: np.ndarray[Any, Any]
+    columns: tuple[np.ndarray[Any, Any], ...]
+    interpolation: str
+    extrapolate: str
+    _nodes: np.ndarray[Any, Any]
+    _edges: np.ndarray[Any, Any]
+    _cubics: tuple[tuple[np.ndarray[Any, Any], ...], ...]
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        numbers = (self.wavelengths, *self.columns)
+        told = (self.label, self.parts, self.interpolation, self.extrapolate)
+        return (*told, *[column.tobytes() for column in numbers])
+
+    @property
+    def known_span(self) -> tuple[float, float]:
+        """The wavelengths of the first and the last sample, in metres."""
+        return float(self.wavelengths[0]), float(self.wavelengths[-1])
+
+    def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        del arguments
+        # Each sample reaches halfway to its neighbours, so that it is exact on either side.
+        piece = xp.searchsorted(xp.asarray(self._edges), wavelength, side="right")
+        step = wavelength - xp.asarray(self._nodes)[piece]
+        found = []
+        for cubic in self._cubics:
+            value, slope, second, third = [xp.asarray(each)[piece] for each in cubic]
+            found.append(value + step * (slope + step * (second + step * third)))
+        return tuple(found)
+
+
+def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray[Any, Any]:
+    """Return samples as a copy of their numbers, and tell what is wrong with them."""
+    owner = f"{name} of {label}"
+    of_wavelengths = name == "wavelengths"
+    try:
+        parse = WAVELENGTH.parse if of_wavelengths else lambda text: parse_quantity(text, "")
+        array = np.array(numbers_for(owner, given, parse), np.float64)
+    except OptipathError as fault:
+        faults += fault.faults
+    except (TypeError, ValueError):
+        faults.append(f"{owner} must be a row of real numbers, not {shown(given)}")
+    else:
+        if array.ndim == 1 and array.size:
+            if np.any(bad := ~np.isfinite(array)):
+                found = f"{array[bad][0]}{first_place(bad)}"
+                faults.append(f"{owner}: {found} is no number; give one, or leave the sample out")
+            return array
+        faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")
+    return np.zeros(1)
+
+
+def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
+    """Return what is wrong with the wavelengths of samples, or nothing."""
+    steps = np.diff(places)
+    if (least := float(places.min())) <= 0.0:
+        return f"a wavelength of {label} is {least:g}; give lengths above 0"
+    if least > LONGEST:
+        return (
+            f"the least wavelength of {label} is {least:g} metres, which is no wavelength of "
+            f"light; multiply those in nanometres by 1e-9, and those in micrometres by 1e-6"
+        )
+    if np.any(same := steps == 0.0):
+        twice = float(places[:-1][same][0]) * 1e9
+        return f"{label} has the wavelength {twice:.10g} nm twice; give each once"
+    turns = np.sign(steps) != np.sign(steps[:1])
+    if not np.any(turns):
+        return ""
+    first, other = places[int(np.argmax(turns)) :][:2] * 1e9
+    return (
+        f"the wavelengths of {label} neither rise nor fall throughout: {other:.10g} nm stands "
+        f"behind {first:.10g} nm; sort them, with all that belongs to each"
+    )
+
+
+def _edges(places: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Return where the pieces meet: at each sample, and halfway to the next one."""
+    edges = np.empty(2 * len(places) - 1)
+    edges[::2] = places
+    edges[1::2] = places[:-1] + 0.5 * np.diff(places)
+    return edges
+
+
+def _cubics(
+    places: np.ndarray[Any, Any], values: np.ndarray[Any, Any], by: str, beyond: str
+) -> tuple[np.ndarray[Any, Any], ...]:
+    """Return the coefficients of each piece, in steps from its sample: one before, one behind."""
+    steps, count = np.diff(places), len(places)
+    slopes, second, third = np.zeros((3, 2 * count))
+    before, behind = slice(2, None, 2), slice(1, -1, 2)
+    if count > 1:
+        chords = np.diff(values) / steps
+        slopes[before] = slopes[behind] = chords
+        if by == "monotone":
+            at = monotone_slopes(places, values)
+            slopes[:] = np.repeat(at, 2)
+            second[behind] = (3.0 * chords - 2.0 * at[:-1] - at[1:]) / steps
+            second[before] = (2.0 * at[1:] + at[:-1] - 3.0 * chords) / steps
+            third[before] = third[behind] = (at[:-1] + at[1:] - 2.0 * chords) / steps**2
+        outside = 0.0 if beyond == "nearest" else 1.0
+        slopes[0], slopes[-1] = outside * slopes[1], outside * slopes[-2]
+    return tuple([locked(each) for each in (np.repeat(values, 2), slopes, second, third)])

@@ -1,0 +1,31 @@
+"""Wavelengths: lengths, given as photon energies, wave numbers and frequencies as well."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from optipath.values.domains.domain import Domain
+from optipath.values.spectral_units import wavelength_of
+
+LONGEST = 1e-3
+"""Above this many metres, a number was most likely meant in another unit."""
+
+
+class WavelengthDomain(Domain):
+    """Wavelengths in vacuum, above 0 and in metres.
+
+    Examples
+    --------
+    >>> WAVELENGTH.check("a line", "516 nm")
+    array(5.16e-07)
+    """
+
+    def parse(self, text: str) -> Any:
+        read = wavelength_of(text)
+        return super().parse(text) if read is None else read
+
+    def described(self) -> str:
+        return "a wavelength above 0, in metres or as a text such as '516 nm'"
+
+
+WAVELENGTH = WavelengthDomain("wavelength", "length", minimum=5e-324)

@@ -1,0 +1,149 @@
+"""Other samples of a spectrum, which keep its values, and other bins, which keep its power."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault, unknown
+from optipath.values.displayed import displayed
+from optipath.values.spectra.histogram import Histogram
+from optipath.values.spectra.integrals import powers_between, smooth_powers
+from optipath.values.spectra.lines import called
+from optipath.values.spectra.sampled import Sampled
+from optipath.values.spectra.spectral_values import (
+    check_known_at,
+    one_wavelength,
+    rising_edges,
+    some_wavelengths,
+    values_at,
+)
+
+if TYPE_CHECKING:
+    from optipath.values.spectra.spectrum_kind import SpectrumKind
+
+_LOST = 1e-14
+"""The share of the power below which none is said to be lost."""
+_CHOICES = ("refuse", "drop")
+
+
+def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
+    """Return the samples of a spectrum at wavelengths.
+
+    Parameters
+    ----------
+    kind : SpectrumKind
+        The spectrum.
+    wavelengths, outside
+        As `Sampled` takes them.
+
+    Returns
+    -------
+    Sampled
+
+    Raises
+    ------
+    ValueFault
+        If it is not known there, or has lines.
+    """
+    if kind.lines:
+        raise ValueFault(
+            f"{called(kind.lines)} has no value at a wavelength, so that it cannot be resampled; "
+            f"keep its power in bins, spectrum.rebin(edges)"
+        )
+    places = some_wavelengths("wavelengths", wavelengths)
+    return Sampled(places, values_at(kind, places), outside, kind.label)
+
+
+def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
+    """Return the power of a spectrum in bins.
+
+    Parameters
+    ----------
+    kind : SpectrumKind
+        The spectrum.
+    edges : array_like, shape (n + 1,)
+        In metres or as texts.
+    outside : {"refuse", "drop"}
+        What becomes of power beyond them.
+
+    Returns
+    -------
+    Histogram
+        0 beyond its edges, where all of the spectrum is within them and nothing else is there.
+
+    Raises
+    ------
+    ValueFault
+        If it is not known there, or power would be lost.
+    """
+    if faults := unknown("outside", outside, _CHOICES):
+        raise ValueFault(*faults)
+    ends, _ = rising_edges("edges", edges)
+    check_known_at(kind, ends[[0, -1]])
+    powers = powers_between(kind, ends)
+    if outside == "refuse":
+        lost = _power_beyond(kind, ends)
+        if lost > _LOST * (lost + float(powers.sum())):
+            raise ValueFault(
+                f"{kind.label} has a power of {lost:.6g} beyond the bins, which reach from "
+                f"{displayed(float(ends[0]), 'nm')} to {displayed(float(ends[-1]), 'nm')}; give "
+                f"edges around all of it, or outside='drop' to leave that out"
+            )
+    low, high = kind.extent
+    whole = ends[0] <= low and high <= ends[-1] and kind.span[1] == np.inf
+    return Histogram(ends, powers, 0.0 if whole else None, kind.label)
+
+
+def power_within(kind: SpectrumKind, low: Any, high: Any) -> float:
+    """Return the power of a spectrum between two wavelengths.
+
+    Parameters
+    ----------
+    kind : SpectrumKind
+        The spectrum.
+    low, high : float, str or None
+        In metres or as texts; None where the spectrum ends.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    ValueFault
+        If it is not known there, or does not end and no end is given.
+    """
+    least, most = kind.extent
+    ends = np.array(
+        [
+            least if low is None else one_wavelength("low", low),
+            most if high is None else one_wavelength("high", high),
+        ]
+    )
+    if not 0.0 < ends[0] <= ends[1] < np.inf:
+        fault = "does not end there" if ends[0] <= ends[1] else "are no range"
+        raise ValueFault(
+            f"power of {kind.label} from {displayed(float(ends[0]), 'nm')} to "
+            f"{displayed(float(ends[1]), 'nm')}: {fault}; give two ends, the lower one first, as "
+            f"in spectrum.power('380 nm', '700 nm')"
+        )
+    check_known_at(kind, ends)
+    if ends[0] == ends[1]:
+        return sum(line.power for line in kind.lines if line.wavelength == ends[0])
+    return float(powers_between(kind, ends)[0])
+
+
+def _power_beyond(kind: SpectrumKind, ends: np.ndarray[Any, Any]) -> float:
+    """Return the power beyond the ends of bins, of what of a spectrum ends somewhere."""
+    lost = 0.0
+    for term in kind.terms:
+        low, high = term.extent
+        if high < np.inf:
+            sides = [(low, min(high, ends[0])), (max(low, ends[-1]), high)]
+            rising = [np.array(side) for side in sides if side[0] < side[1]]
+            lost += sum(float(smooth_powers(term, side)[0]) for side in rising)
+            places = [line for line in term.lines if not ends[0] <= line.wavelength <= ends[-1]]
+            lost += sum(line.power for line in places)
+    return lost

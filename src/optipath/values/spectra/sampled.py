@@ -1,0 +1,94 @@
+"""Sampled: densities at samples of the wavelength, and straight lines between them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ValueFault
+from optipath.values.arrays.shapes import first_place
+from optipath.values.curves.tabulated import Tabulated
+from optipath.values.spectra.spectral_values import value_outside
+from optipath.values.spectra.spectrum_kind import SpectrumKind
+
+if TYPE_CHECKING:
+    from collections.abc import Hashable
+
+OUTSIDE = "give outside=0.0 to the spectrum, where nothing is there"
+
+
+class Sampled(SpectrumKind):
+    """Densities at samples, linear between them.
+
+    Parameters
+    ----------
+    wavelengths : array_like, shape (n,)
+        In metres or as texts, rising or falling.
+    values : array_like, shape (n,)
+        The densities, per nanometre, or relative values; not negative.
+    outside : 0.0 or None, optional
+        What is beyond the samples; by default nobody knows.
+    label : str, optional
+        What sentences call it.
+
+    Raises
+    ------
+    ValueFault
+        With all that is wrong with the samples.
+    """
+
+    wavelengths: np.ndarray[Any, Any]
+    values: np.ndarray[Any, Any]
+    outside: float | None
+
+    def __init__(
+        self, wavelengths: Any, values: Any, outside: Any = None, label: str = "a sampled spectrum"
+    ) -> None:
+        table = Tabulated(label, ("value",), wavelengths, [values])
+        (columns,) = table.columns
+        if np.any(bad := columns < 0.0):
+            raise ValueFault(
+                f"value of {label} is {columns[bad][0]:g}{first_place(bad)}; give numbers of 0 or "
+                f"more, such as np.maximum(values, 0.0) of what is measured with noise"
+            )
+        vars(self).update(
+            label=label,
+            wavelengths=table.wavelengths,
+            values=columns,
+            outside=value_outside(label, outside),
+            beyond=OUTSIDE,
+            _table=table,
+        )
+
+    _table: Tabulated
+
+    @property
+    def span(self) -> tuple[float, float]:  # type: ignore[override]
+        return self.extent if self.outside is None else (0.0, np.inf)
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        return self._table.known_span
+
+    @property
+    def breaks(self) -> np.ndarray[Any, Any]:
+        return self.wavelengths
+
+    @property
+    def content(self) -> tuple[Hashable, ...]:
+        return "sampled", *self._table.content, self.outside
+
+    def density(self, xp: Any, wavelength: Any) -> Any:
+        low, high = self.extent
+        # Beyond the samples, the straight line on has no meaning, nor has its slope.
+        inside = (wavelength >= low) & (wavelength <= high)
+        (found,) = self._table.numbers(xp, xp.clip(wavelength, low, high))
+        return xp.where(inside, found, 0.0)
+
+    def times(self, factor: float) -> Sampled:
+        return self.with_values(factor * self.values)
+
+    def with_values(self, values: Any) -> Sampled:
+        """Return the spectrum of other values at the same wavelengths."""
+        return Sampled(self.wavelengths, values, self.outside, self.label)
