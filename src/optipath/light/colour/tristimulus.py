@@ -44,10 +44,15 @@ def tristimulus(light: WavelengthOnDemand, white: Any, observer: str, outside: s
     total, power = _sums(light, standard, outside)
     warn_of(light, standard, outside)
     if white is None:
-        return LUMENS_PER_WATT * (total if is_traced(total) else times_two_to(total, power))
+        return LUMENS_PER_WATT * _plain(total, power)
     of_white, power_of_white = white_sums(light, white, standard, outside)
-    relative = total / of_white[..., 1:2]
-    return relative if is_traced(relative) else times_two_to(relative, power - power_of_white)
+    if is_traced(total) or is_traced(of_white):
+        return _plain(total, power) / _plain(of_white, power_of_white)[..., 1:2]
+    return times_two_to(total / of_white[..., 1:2], power - power_of_white)
+
+
+def _plain(total: Any, power: Any) -> Any:
+    return total if is_traced(total) else times_two_to(total, power)
 
 
 def white_sums(
