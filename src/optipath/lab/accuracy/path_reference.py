@@ -10,6 +10,7 @@ from optipath.composer.followed_values import with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.placement import alignment, azimuth_of, frame_at
 from optipath.composer.wiring import Wiring
+from optipath.elements.coupling import ResultOf
 from optipath.errors import ParameterError, PathError, shown
 from optipath.lab.accuracy.coherency_matrices import added, coherency, passed, stokes_of
 from optipath.lab.accuracy.element_reference import jones, mueller
@@ -171,13 +172,14 @@ class _Walk:
 
     def stokes(self) -> dict[str, tuple[Any, ...]]:
         """Return the Stokes vector at every end that light reaches."""
+        ends = self.wiring.ends
         for stretch in self.wiring.stretches:
             if stretch.junctions:
                 self._go_round(stretch)
             else:
                 (port,) = stretch.ports
                 self.at[port] = added(self._lights(port))
-        return {name: _stokes(self.at[name, port]) for name, port in self.wiring.ends}
+        return {name: self._read(name, _stokes(self.at[name, port])) for name, port in ends}
 
     def _go_round(self, loop: Stretch) -> None:
         """Solve for the light where it meets, in all four components."""
@@ -241,8 +243,17 @@ class _Walk:
             self._known[link] = turn(angle)
         return self._known[link]  # type: ignore[no-any-return]
 
+    def _read(self, name: str, stokes: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Return what is read of the light at an end."""
+        response = getattr(self.wiring.elements[name], "response", None)
+        return stokes if response is None else tuple([self.read.real(response) * s for s in stokes])
+
     def _emitted(self, coupling: Coupling) -> Jones:
-        intensity, *state = map(self.read.real, coupling.operations[0].arguments)
+        first, *others = coupling.operations[0].arguments
+        # With a spectrum, the first is a product with its density.
+        factors = first.operation.arguments if isinstance(first, ResultOf) else (first,)
+        intensity = mpmath.fprod(map(self.read.real, factors))
+        state = [*map(self.read.real, others)]
         return coherency([intensity * part for part in state or (1, 0, 0, 0)])
 
     def _through(self, name: str, coupling: Coupling) -> Jones:

@@ -2,13 +2,41 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from optipath.values.domains.wavelengths import WavelengthDomain
 
 if TYPE_CHECKING:
     from optipath.values.curves.curve import Curve
+
+
+_ROUNDING = 4.0 * sys.float_info.epsilon
+"""How far beyond an end, as a share of it, a wavelength is that was meant to be the end."""
+
+
+def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
+    """Tell which wavelengths are within a range, both ends and their rounding included.
+
+    Parameters
+    ----------
+    wavelength : array_like
+        In metres; JAX's as well.
+    span : tuple of float
+        The least and the largest one.
+
+    Returns
+    -------
+    array_like of bool
+
+    Examples
+    --------
+    >>> is_within(830 * 1e-9, (300e-9, 830e-9)), 830 * 1e-9 <= 830e-9
+    (True, False)
+    """
+    low, high = span
+    return (wavelength >= low * (1.0 - _ROUNDING)) & (wavelength <= high * (1.0 + _ROUNDING))
 
 
 @dataclass(frozen=True)
@@ -31,6 +59,11 @@ class WavelengthRange(WavelengthDomain):
         """Return the range of a curve."""
         low, high = curve.span
         return cls("wavelength", "length", low, high, label=curve.label, beyond=curve.beyond)
+
+    def allows(self, numbers: Any) -> Any:
+        if numbers.dtype.kind == "c":
+            return super().allows(numbers)
+        return self.are_numbers(numbers) & is_within(numbers, self.interval)
 
     def described(self) -> str:
         """Say in words which values are allowed."""

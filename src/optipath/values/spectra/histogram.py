@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import ValueFault
 from optipath.values.arrays.read_only import locked
+from optipath.values.curves.wavelength_range import is_within
 from optipath.values.spectra.grid_bins import NANOMETRES
 from optipath.values.spectra.sampled import OUTSIDE
 from optipath.values.spectra.spectral_values import rising_edges, several_numbers, value_outside
@@ -53,7 +54,8 @@ class Histogram(SpectrumKind):
                 f"{ends.size - 1} powers, one for each bin"
             )
         given = given[::-1].copy() if turned else given
-        widths = np.diff(ends * NANOMETRES)
+        # Differences of neighbours are exact, before they are in nanometres.
+        widths = np.diff(ends) * NANOMETRES
         vars(self).update(
             label=label,
             edges=locked(ends),
@@ -83,11 +85,10 @@ class Histogram(SpectrumKind):
         return "histogram", self.label, *numbers, self.outside
 
     def density(self, xp: Any, wavelength: Any) -> Any:
-        low, high = self.extent
         place = xp.searchsorted(xp.asarray(self.edges), wavelength, side="right") - 1
         # An edge is of the bin above it, but for the last one.
         found = xp.asarray(self._densities)[xp.clip(place, 0, self.powers.size - 1)]
-        return xp.where((wavelength >= low) & (wavelength <= high), found, 0.0)
+        return xp.where(is_within(wavelength, self.extent), found, 0.0)
 
     def times(self, factor: float) -> Histogram:
         return Histogram(self.edges, factor * self.powers, self.outside, self.label)

@@ -9,6 +9,7 @@ import numpy as np
 from optipath.errors import ValueFault
 from optipath.values.arrays.shapes import first_place
 from optipath.values.curves.tabulated import Tabulated
+from optipath.values.curves.wavelength_range import is_within
 from optipath.values.spectra.spectral_values import value_outside
 from optipath.values.spectra.spectrum_kind import SpectrumKind
 
@@ -80,11 +81,8 @@ class Sampled(SpectrumKind):
         return "sampled", *self._table.content, self.outside
 
     def density(self, xp: Any, wavelength: Any) -> Any:
-        low, high = self.extent
-        # Beyond the samples, the straight line on has no meaning, nor has its slope.
-        inside = (wavelength >= low) & (wavelength <= high)
-        (found,) = self._table.numbers(xp, xp.clip(wavelength, low, high))
-        return xp.where(inside, found, 0.0)
+        (found,) = self._table.numbers(xp, xp.clip(wavelength, *self.extent))
+        return xp.where(is_within(wavelength, self.extent), found, 0.0)
 
     def times(self, factor: float) -> Sampled:
         return self.with_values(factor * self.values)

@@ -1,0 +1,186 @@
+"""Spectra by kind: what they are at wavelengths, and how much power they have."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.values.spectra.grid_bins import grid_widths
+
+SI = {"h": 6.62607015e-34, "c": 299792458.0, "k": 1.380649e-23}
+STEFAN_BOLTZMANN = 2 * math.pi**5 * SI["k"] ** 4 / (15 * SI["h"] ** 3 * SI["c"] ** 2)
+GRID = np.linspace(380e-9, 700e-9, 9)
+
+
+@pytest.fixture(scope="module")
+def colour():
+    # When it is imported, it changes how NumPy prints.
+    with np.printoptions():
+        return pytest.importorskip("colour")
+
+
+def test_samples_are_joined_by_straight_lines():
+    lamp = op.Spectrum.sampled(["400 nm", "500 nm", "700 nm"], [1.0, 3.0, 0.0])
+    np.testing.assert_allclose(lamp.at([450e-9, 500e-9, 600e-9]), [2.0, 3.0, 1.5], rtol=1e-14)
+    assert lamp.power() == pytest.approx(200.0 + 300.0, rel=1e-14)
+    assert lamp.power("450 nm", "600 nm") == pytest.approx(125.0 + 225.0, rel=1e-14)
+
+
+def test_falling_samples_are_the_same_spectrum():
+    rising = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0])
+    assert op.Spectrum.sampled([5e-7, 4e-7], [3.0, 1.0]) == rising
+
+
+def test_a_histogram_has_its_power_spread_evenly_over_each_bin():
+    lamp = op.Spectrum.histogram(["400 nm", "500 nm", "700 nm"], [10.0, 40.0])
+    found = lamp.at(["400 nm", "499 nm", "500 nm", "700 nm"])
+    np.testing.assert_allclose(found, [0.1, 0.1, 0.2, 0.2], rtol=1e-12)
+    assert lamp.power() == pytest.approx(50.0, rel=1e-14)
+    turned = op.Spectrum.histogram(["700 nm", "500 nm", "400 nm"], [40.0, 10.0])
+    assert turned == lamp
+
+
+@pytest.mark.parametrize("temperature", [300.0, 2856.0, 5772.0])
+def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
+    lamp = op.Spectrum.black_body(temperature)
+    # What is beyond 1 mm is (15 / pi^4) x^3 / 3 of all, x = h c / (L k T).
+    x = SI["h"] * SI["c"] / (1e-3 * SI["k"] * temperature)
+    beyond = 15 / math.pi**4 * (x**3 / 3 - x**4 / 8 + x**5 / 60)
+    expected = STEFAN_BOLTZMANN * temperature**4 / math.pi * (1.0 - beyond)
+    assert lamp.power(1e-9, 1e-3) == pytest.approx(expected, rel=1e-6 * beyond + 1e-13)
+
+
+def test_black_body_peaks_by_wiens_law():
+    lamp, peak = op.Spectrum.black_body(5000.0), 2.897771955e-3 / 5000.0
+    around = lamp.at(peak * np.array([0.9999, 1.0, 1.0001]))
+    assert around[1] > max(around[0], around[2])
+
+
+def test_black_body_agrees_with_planck_in_many_digits():
+    mpmath = pytest.importorskip("mpmath")
+    with mpmath.workdps(50):
+        h, c, k = [mpmath.mpf(SI[name]) for name in "hck"]
+        for place in (1e-7, 5.5e-7, 1e-4):
+            w = mpmath.mpf(place)
+            expected = 2 * h * c**2 / w**5 / mpmath.expm1(h * c / (w * k * 3000)) / 10**9
+            found = float(op.Spectrum.black_body(3000).at(place))
+            assert found == pytest.approx(float(expected), rel=1e-13)
+
+
+def test_a_diode_has_its_power_and_half_of_its_peak_at_half_its_width():
+    led = op.Spectrum.led("530 nm", "30 nm", power=2.0)
+    assert led.power("200 nm", "900 nm") == pytest.approx(2.0, rel=1e-13)
+    peak, low, high = led.at(["530 nm", "515 nm", "545 nm"])
+    assert [low / peak, high / peak] == pytest.approx([0.5, 0.5], rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["A", "D65", "E"])
+def test_illuminants_agree_with_colour_science(name, colour):
+    table = colour.SDS_ILLUMINANTS[name]
+    places = np.arange(360, 781, 5)
+    expected = [table[float(place)] for place in places]
+    found = op.Spectrum.illuminant(name).at(places * 1e-9)
+    # The table of A has six digits, our A is its formula.
+    np.testing.assert_allclose(found, expected, rtol=0 if name != "A" else 5e-6, atol=1e-12)
+
+
+def test_d65_in_the_infrared_is_daylight_by_its_components(colour):
+    series = colour.sd_CIE_illuminant_D_series(np.array([0.31272, 0.32903]))
+    places = np.arange(780, 831, 5)
+    expected = np.array([series[float(place)] for place in places])
+    found = op.Spectrum.illuminant("D65").at(places * 1e-9)
+    # Components of daylight are rounded in another place, by 0.15 %, alike everywhere here.
+    np.testing.assert_allclose(found / found[0], expected / expected[0], rtol=1e-4)
+
+
+def test_illuminants_are_100_at_560_nm():
+    for name in ("A", "D65", "E"):
+        assert op.Spectrum.illuminant(name).at("560 nm") == pytest.approx(100.0, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "grid",
+    [
+        GRID,
+        GRID[::-1],
+        np.array([380.0, 381.0, 500.0, 640.0, 700.0]) * 1e-9,
+        np.array([633.0, 700.0]) * 1e-9,
+        np.array([500.0, 633.0]) * 1e-9,
+    ],
+)
+def test_a_line_keeps_its_power_on_any_grid(grid):
+    density = op.Spectrum.line("633 nm", power=2.5).at(grid)
+    assert np.count_nonzero(density) == 1
+    assert np.dot(density, grid_widths(grid)) == pytest.approx(2.5, rel=1e-15)
+
+
+def test_a_line_between_two_bins_is_in_one_of_them():
+    grid = np.array([400.0, 500.0, 600.0]) * 1e-9
+    density = op.Spectrum.line("550 nm").at(grid)
+    assert np.dot(density, grid_widths(grid)) == pytest.approx(1.0, rel=1e-15)
+
+
+def test_values_of_samples_and_powers_of_bins_are_told_apart():
+    lamp = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0])
+    np.testing.assert_array_equal(lamp.values, [1.0, 3.0])
+    with pytest.raises(op.ValueFault, match=r"has no powers; ask for those of spectrum.rebin"):
+        lamp.powers  # noqa: B018
+    with pytest.raises(op.ValueFault, match=r"has no values; .* spectrum.resample"):
+        lamp.rebin([4e-7, 5e-7]).values  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: op.Spectrum(1.0), "use Spectrum.sampled"),
+        (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, -1.0]), "is -1 at 1; give numbers of 0"),
+        (lambda: op.Spectrum.sampled([400.0, 500.0], [1.0, 1.0]), "1e-9"),
+        (lambda: op.Spectrum.sampled([4e-7, 4e-7], [1.0, 1.0]), "400 nm twice"),
+        (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, np.nan]), "nan"),
+        (lambda: op.Spectrum.sampled([4e-7, 5e-7], [1.0, 1.0], outside=1.0), "give 0.0 where"),
+        (lambda: op.Spectrum.histogram([4e-7, 5e-7], [1.0, 1.0]), "give 1 powers"),
+        (lambda: op.Spectrum.histogram([4e-7, 4e-7], [1.0]), "neither rise nor fall"),
+        (lambda: op.Spectrum.line(633), "write '633 nm', or 633e-9"),
+        (lambda: op.Spectrum.line("633 nm", -1.0), "power of a line is -1"),
+        (lambda: op.Spectrum.line(["633 nm"]), "one wavelength"),
+        (lambda: op.Spectrum.line("633 nm", op.Parameter("p")), r"Source\(intensity=...\)"),
+        (lambda: op.Spectrum.black_body(0.0), "temperature of a black body"),
+        (lambda: op.Spectrum.illuminant("D56"), "there are: A, D65, E"),
+        (lambda: op.Spectrum.constant(-1.0), "constant spectrum is -1"),
+        (lambda: op.Spectrum.constant(1.0).power(), "give two ends"),
+    ],
+)
+def test_what_is_no_spectrum_is_said(make, sentence):
+    with pytest.raises(op.ValueFault, match=sentence):
+        make()
+
+
+@pytest.mark.parametrize(
+    "lamp",
+    [
+        op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0]),
+        op.Spectrum.histogram([4e-7, 5e-7], [1.0]),
+    ],
+)
+def test_beyond_what_is_known_is_an_error_that_says_the_range_and_the_cure(lamp):
+    with pytest.raises(op.ValueFault, match=r"400 nm .. 500 nm.*give outside=0.0"):
+        lamp.at("550 nm")
+
+
+def test_outside_is_0_where_that_is_said():
+    lamp = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0], outside=0.0)
+    bins = op.Spectrum.histogram([4e-7, 5e-7], [1.0], outside=0.0)
+    for spectrum in (lamp, bins):
+        np.testing.assert_array_equal(spectrum.at([3e-7, 6e-7]), 0.0)
+
+
+def test_the_end_of_a_range_is_within_it_by_its_rounding():
+    # 830 * 1e-9 is the number above 830e-9.
+    assert op.Spectrum.illuminant("D65").at(830 * 1e-9) == 60.3125
+    lamp = op.Spectrum.sampled(["300 nm", "830 nm"], [1.0, 2.0], outside=0.0)
+    assert lamp.at(830 * 1e-9) == 2.0
+    path = op.Source(spectrum=op.Spectrum.illuminant("D65")) >> op.Detector()
+    assert path.trace(wavelength=np.array([300, 830]) * 1e-9).intensity[1] == 60.3125
