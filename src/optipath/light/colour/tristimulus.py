@@ -44,10 +44,12 @@ def tristimulus(light: WavelengthOnDemand, white: Any, observer: str, outside: s
     total, power = _sums(light, standard, outside)
     warn_of(light, standard, outside)
     if white is None:
-        return LUMENS_PER_WATT * _plain(total, power)
+        absolute: Array = LUMENS_PER_WATT * _plain(total, power)
+        return absolute
     of_white, power_of_white = white_sums(light, white, standard, outside)
     if is_traced(total) or is_traced(of_white):
-        return _plain(total, power) / _plain(of_white, power_of_white)[..., 1:2]
+        relative: Array = _plain(total, power) / _plain(of_white, power_of_white)[..., 1:2]
+        return relative
     return times_two_to(total / of_white[..., 1:2], power - power_of_white)
 
 
