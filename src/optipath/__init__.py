@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 # At once, for Ctrl-C while the others are imported.
 from optipath.errors import (
     AngleWarning,
+    ColourWarning,
     ComposerError,
     FrameError,
     IndexFault,
@@ -59,6 +60,7 @@ if TYPE_CHECKING:
     from optipath.elements.vertex import Vertex
     from optipath.elements.vertices.by_angles import VerticesByAngles, vertices_from_angles
     from optipath.elements.waveplate import Waveplate
+    from optipath.light.colour.srgb import Srgb
     from optipath.light.frames import Frame
     from optipath.light.incidence import PlaneOfIncidence, plane_of_incidence
     from optipath.light.light import Light
@@ -109,6 +111,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Certificate",
     "CircularDiattenuator",
     "CircularPolarizer",
+    "ColourWarning",
     "Combiner",
     "Composer",
     "ComposerError",
@@ -164,6 +167,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Source",
     "Spectrum",
     "SpecularVertex",
+    "Srgb",
     "StokesState",
     "UnitError",
     "ValueFault",
@@ -216,6 +220,7 @@ _HOMES = {
     "elements.waveplate": ["Waveplate"],
     "elements.vertex": ["Vertex"],
     "elements.vertices.by_angles": ["VerticesByAngles", "vertices_from_angles"],
+    "light.colour.srgb": ["Srgb"],
     "light.frames": ["Frame"],
     "light.incidence": ["PlaneOfIncidence", "plane_of_incidence"],
     "light.light": ["Light"],

@@ -110,6 +110,10 @@ class AngleWarning(UserWarning):
     """An angle beyond a whole turn, given as a plain number: degrees, perhaps, for radians."""
 
 
+class ColourWarning(UserWarning):
+    """Light of too few wavelengths for its colour, or of too small a range of them."""
+
+
 class MissingExtraError(OptipathError):
     """A feature whose extra is not installed.
 

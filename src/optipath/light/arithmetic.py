@@ -46,7 +46,8 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
         aligned = other if is_one else other.in_frame(self.frame)
         if is_traced(self.mantissa) or is_traced(aligned.mantissa):
             one, two = at_least_single(self.stokes), at_least_single(aligned.stokes)
-            return self._like((one + two).astype(coarser(one, two)))
+            total = (one + two).astype(coarser(one, two))
+            return self._like(total, other=aligned)
         one, two = at_least_single(self._numbers), at_least_single(aligned._numbers)
         # Dark light has no exponent of its own.
         mine = np.where(one[..., 0] == 0.0, aligned.exponent, self.exponent)
@@ -56,7 +57,7 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
             total = times_two_to(one, self.exponent - power)
             total = total + times_two_to(two, aligned.exponent - power)
         total, power = rounded_to(coarser(one, two), total, power)
-        return self._like(total, power, inheriting((self, aligned)))
+        return self._like(total, power, inheriting((self, aligned)), aligned)
 
     def __radd__(self, other: object) -> Self:
         """Begin a sum: 0 and light is light, so that ``sum(lights)`` has one."""
@@ -143,6 +144,6 @@ class Arithmetic(FramesOnDemand, ArrayOfLight):
             return None
         return inheriting((self,), factor, power, part=part)
 
-    def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Self:
-        """Return light of other numbers in the frame of this one, unchecked."""
+    def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None, other: Any = None) -> Self:
+        """Return light of other numbers in the frame of this one, with the other one in it."""
         raise NotImplementedError

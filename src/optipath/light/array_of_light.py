@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import LightError
 from optipath.light.array_axes import ArrayAxes
 from optipath.light.polarization_state import PolarizationState
-from optipath.values.arrays.jax_values import is_traced, known
+from optipath.values.arrays.jax_values import is_traced, known, namespace
 from optipath.values.arrays.read_only import locked
 
 if TYPE_CHECKING:
@@ -80,6 +80,27 @@ class ArrayOfLight(ArrayAxes, PolarizationState):
     def S3(self) -> Array:  # noqa: N802
         """The intensity that turns from x to y less that which turns back, of shape (...)."""
         return self._component(3)
+
+    @property
+    def intensity(self) -> Array:
+        """S0, of shape (...)."""
+        parts = self.__dict__.get("_stokes")
+        if type(parts) is tuple and "stokes" not in self.__dict__:
+            return handed_out(parts[0])  # type: ignore[no-any-return]
+        return self.S0
+
+    @property
+    def log10_intensity(self) -> Array:
+        """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
+        s0 = self._numbers[..., 0]
+        xp = namespace(s0)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether it is, or is made of, ``Light(..., physical=False)``."""
+        return "_measured" in self.__dict__
 
     def _component(self, place: int) -> Array:
         component: Array = handed_out(known(self.stokes)[..., place])

@@ -8,15 +8,16 @@ import numpy as np
 
 from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels.carriers.structures import turn_linear
-from optipath.light.arithmetic import Arithmetic
 from optipath.light.array_axes import each_number
-from optipath.light.array_of_light import handed_out, stacked_components
+from optipath.light.array_of_light import stacked_components
 from optipath.light.exchange import LightExchange
 from optipath.light.frames import Frame
 from optipath.light.inherited_noise import noise_in
 from optipath.light.light_text import text_of
 from optipath.light.physical_light import check_physical, nearest_light
+from optipath.light.spectral_light import SpectralLight
 from optipath.light.underflow import folded, normalise_exponent, times_two_to
+from optipath.light.wavelength_on_demand import wavelengths_for
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, is_jax, is_traced, known, namespace
 from optipath.values.arrays.read_only import Unchanging, locked, read_only, same
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 _LARGEST = 2.0**40
 
 
-class Light(Arithmetic, LightExchange, Unchanging):
+class Light(SpectralLight, LightExchange, Unchanging):
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
 
     Parameters
@@ -50,6 +51,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
     physical : bool, optional
         Whether what no light can be is refused; False takes measured noise as it is. What is
         computed, by a path or from other light, is never refused, nor is what JAX traces.
+    wavelength : array_like, optional
+        In metres, or texts with units, of shape (...): see `at_wavelengths`.
 
     Raises
     ------
@@ -83,6 +86,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
         exponent: Any = 0,
         *,
         physical: bool = True,
+        wavelength: Any = None,
     ) -> None:
         frame = Frame() if frame is None else frame
         if not isinstance(frame, Frame):
@@ -118,6 +122,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         )
         if not physical:
             self.__dict__["_measured"] = True
+        if wavelength is not None:
+            self.__dict__["_wavelength"] = wavelengths_for(self.shape, wavelength)
 
     @classmethod
     def of(
@@ -128,6 +134,7 @@ class Light(Arithmetic, LightExchange, Unchanging):
         noise: Any = None,
         *,
         measured: bool = False,
+        wavelength: Any = None,
     ) -> Light:
         """Return light out of what a plan has computed, which needs no check.
 
@@ -143,6 +150,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
             What of the vectors is noise, as `noise_in` takes it.
         measured : bool, optional
             Whether it may be no light, as what it is made of: see `is_measured`.
+        wavelength : ndarray or callable, optional
+            Its wavelengths, or what returns them when somebody asks.
 
         Returns
         -------
@@ -165,6 +174,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
             own["_noise"] = noise
         if measured:
             own["_measured"] = True
+        if wavelength is not None:
+            own["_wavelength"] = wavelength
         return light
 
     if not TYPE_CHECKING:  # Else any name would do for who checks types.
@@ -226,23 +237,9 @@ class Light(Arithmetic, LightExchange, Unchanging):
         own = super().__getstate__()
         if "_noise" in own:
             own["_noise"] = self.noise_floor
+        if "_wavelength" in own:
+            own["_wavelength"] = self.wavelength
         return own
-
-    @property
-    def intensity(self) -> npt.NDArray[Any]:
-        """S0, of shape (...)."""
-        parts = self.__dict__.get("_stokes")
-        if type(parts) is tuple and "stokes" not in self.__dict__:
-            return handed_out(parts[0])  # type: ignore[no-any-return]
-        return self.S0
-
-    @property
-    def log10_intensity(self) -> npt.NDArray[Any]:
-        """The decimal logarithm of S0, of shape (...), however faint; -inf where it is dark."""
-        s0 = self._numbers[..., 0]
-        xp = namespace(s0)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return xp.asarray(xp.log10(s0) + self.exponent * np.log10(2.0))  # type: ignore[no-any-return]
 
     def nearest_physical(self) -> Light:
         """Return the light that is nearest: S0 is kept, and the polarised part scaled to it.
@@ -257,7 +254,9 @@ class Light(Arithmetic, LightExchange, Unchanging):
         1.0817 [1.     0.8321 0.     0.5547]
         """
         nearest = nearest_light(self._numbers)
-        return Light.of(nearest, self._kept_frame("frame"), self.exponent, self._inherited())
+        origin = self.origin() | {"measured": False}
+        frame = self._kept_frame("frame")
+        return Light.of(nearest, frame, self.exponent, self._inherited(), **origin)
 
     def in_frame(self, frame: Frame) -> Light:
         """Return the same light with its components given in another frame.
@@ -278,17 +277,13 @@ class Light(Arithmetic, LightExchange, Unchanging):
             parts = (s0, *turn_linear(turn, s1, s2), s3)
         turned = xp.stack(xp.broadcast_arrays(*parts), axis=-1)
         turned = turned.astype(coarser(turned, stokes), copy=False)
-        about = self.exponent, self._inherited()
-        return Light.of(turned, frame, *about, measured=self.is_measured)
+        return Light.of(turned, frame, self.exponent, self._inherited(), **self.origin())
 
-    @property
-    def is_measured(self) -> bool:
-        """Whether it is, or is made of, ``Light(..., physical=False)``."""
-        return "_measured" in self.__dict__
-
-    def _like(self, mantissa: Any, exponent: Any = 0, noise: Any = None) -> Light:
-        frame = self._kept_frame("frame")
-        return Light.of(mantissa, frame, exponent, noise, measured=self.is_measured)
+    def _like(
+        self, mantissa: Any, exponent: Any = 0, noise: Any = None, other: Any = None
+    ) -> Light:
+        frame, origin = self._kept_frame("frame"), self.origin(self._wavelength_with(other))
+        return Light.of(mantissa, frame, exponent, noise, **origin)
 
     def _each(self, change: Callable[[Any], Any]) -> Light:
         exponent = change(self.exponent) if self.exponent.any() else 0
@@ -296,7 +291,8 @@ class Light(Arithmetic, LightExchange, Unchanging):
         noise = self._inherited(part=change)
         frame = self._part_of_frame("frame", self.shape, change)
         numbers = each_number(self._numbers, change)
-        return Light.of(numbers, frame, exponent, noise, measured=self.is_measured)
+        origin = self.origin(self._part_of_wavelength(change))
+        return Light.of(numbers, frame, exponent, noise, **origin)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Light):

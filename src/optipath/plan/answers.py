@@ -11,6 +11,7 @@ from optipath.light.light import Light
 from optipath.plan.light_noise import noise_at
 from optipath.plan.running.options import RunOptions
 from optipath.plan.running.outlet_frames import LaterFrame
+from optipath.plan.running.outlet_wavelengths import LaterWavelength, wavelength_among
 from optipath.plan.running.questions import (
     BoundsQuestion,
     ErrorsQuestion,
@@ -43,12 +44,15 @@ class Answers:
     ----------
     light : Runner
         What gives light.
+    wavelength : Parameter or None
+        What gives the wavelengths of light.
     """
 
     def __init__(self, plan: Any) -> None:
         self.plan = plan
         self.large_angles = LargeAngles(plan.inputs)
         self.question = LightQuestion(plan.program)
+        self.wavelength = wavelength_among(plan.inputs)
         self.light = self._run_by(plan.program, unreduced=plan.reduction.unreduced)
 
     @cached_property
@@ -151,11 +155,13 @@ class Answers:
         dict of str to Light
         """
         found = {}
+        by = self.wavelength
+        later = None if by is None else LaterWavelength(by, self.plan.inputs, parameters, where)
         for name, reading in self.plan.program.readings.items():
             stokes, exponent = lights[name]
             frame = self.framed(reading.frame, parameters, where)
             noise = (noise_at, self, name, parameters, where)
-            found[name] = Light.of(stokes, frame, exponent, noise)
+            found[name] = Light.of(stokes, frame, exponent, noise, wavelength=later)
         return found
 
     def framed(

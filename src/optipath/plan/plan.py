@@ -14,6 +14,7 @@ from optipath.plan.choosing import by_place, only
 from optipath.plan.light_noise import matrix_noise_at, noise_at
 from optipath.plan.part import Part
 from optipath.plan.plan_details import PlanDetails
+from optipath.plan.running.outlet_wavelengths import LaterWavelength
 from optipath.values.by_name import check_named
 from optipath.values.whole_numbers import whole_number
 
@@ -120,12 +121,15 @@ class Plan(PlanDetails):
         if type(frame) is not Frame:
             frame = answers.framed(frame, parameters)
         noise = (noise_at, answers, name, parameters, ())
+        by = answers.wavelength
+        later = None if by is None else LaterWavelength(by, self.inputs, parameters)
         if fast_path is not None:
             if answers.large_angles.places:
                 answers.large_angles.look(parameters)
-            return Light.of(fast_path[place][:4], frame, fast_path[place][4], noise)
-        stokes, exponent = answers.lights(parameters)[name]
-        return Light.of(stokes, frame, exponent, noise)
+            stokes, exponent = fast_path[place][:4], fast_path[place][4]
+        else:
+            stokes, exponent = answers.lights(parameters)[name]
+        return Light.of(stokes, frame, exponent, noise, wavelength=later)
 
     def run_all(self, /, *unnamed: Never, **parameters: Any) -> dict[str, Light]:
         """Return the light at every detector and every dump, by name.

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import sys
 import warnings
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from optipath.errors import AngleWarning, OptipathError
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.calls_up import calls_up
 from optipath.values.degrees import TURN, in_both, in_degrees, is_in_radians, is_of_an_angle
 from optipath.values.units import UNITS, parse_quantity, unit_of
 from optipath.values.written_units import UNITS_ARE_WRITTEN
@@ -71,7 +71,7 @@ def warn_of_degrees(what: str, value: Any, place: Affine | None = None) -> bool:
     warnings.warn(
         f"{what} {several} {told}; did you mean {in_degrees(number)}?",
         AngleWarning,
-        stacklevel=_outside(),
+        stacklevel=calls_up(),
     )
     return True
 
@@ -113,7 +113,7 @@ def warn_of_two_factors(what: str, value: Any, place: Affine) -> bool:
         f"{what} is '{text}', and {place.formula} is {angle:.6g} deg; give the degrees as a plain "
         f"number, or leave the factor pi / 180 out where the path is built",
         AngleWarning,
-        stacklevel=_outside(),
+        stacklevel=calls_up(),
     )
     return True
 
@@ -151,7 +151,7 @@ def warn_of_turning(what: str, rate: Any, length: float, usual: str) -> bool:
         f"{what} is {size:.6g} rad/m, which over {length:.6g} m is {in_both(size * length)}; did "
         f"you mean '{size:.6g} {usual}'? (if not, write '{size:.6g} rad/m')",
         AngleWarning,
-        stacklevel=_outside(),
+        stacklevel=calls_up(),
     )
     return True
 
@@ -183,16 +183,3 @@ def largest(value: Any) -> float:
         return 0.0
     at = np.argmax(np.abs(np.where(np.isfinite(array), array, 0.0)))
     return float(array.reshape(-1)[at])
-
-
-def _outside() -> int:
-    """Return how many calls up from the one that warns the library was called."""
-    level = 2
-    frame: Any = sys._getframe(level)  # noqa: SLF001 - as warnings itself looks
-    while frame.f_back is not None and (
-        frame.f_globals.get("__name__", "").partition(".")[0] in ("optipath", "dataclasses")
-        # The makers of dataclasses and own elements are made of texts.
-        or frame.f_code.co_filename.startswith("<")
-    ):
-        frame, level = frame.f_back, level + 1
-    return level

@@ -127,13 +127,14 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, Unchangi
         aligned = light.in_frame(self.frame_in)
         behind = self._kept_frame("frame_out")
         judged = self.is_given and not light.is_measured
+        origin = light.origin()
         if is_traced(matrix) or is_traced(aligned.mantissa):
             stokes = at_least_single(aligned.stokes)
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
             product = product.astype(coarser(matrix, stokes))
             if judged:
                 product = nan_where_no_light(matrix, self.noise, stokes, product)
-            return Light.of(product, behind, measured=light.is_measured)
+            return Light.of(product, behind, **origin)
         stokes, exponent = normalise_exponent(at_least_single(aligned.mantissa), aligned.exponent)
         with np.errstate(over="ignore", invalid="ignore"):
             product = (matrix @ stokes[..., np.newaxis])[..., 0]
@@ -142,7 +143,7 @@ class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, Unchangi
             check_becomes_light(matrix, self.noise, stokes, product)
         noise = inheriting((aligned,), matrix[..., 0, 0], mixed=True, added=self.noise)
         product, exponent = folded(*rounded_to(coarser(matrix, stokes), product, exponent))
-        return Light.of(product, behind, exponent, noise, measured=light.is_measured)
+        return Light.of(product, behind, exponent, noise, **origin)
 
     def _behind(self, other: Mueller) -> Mueller:
         matrix, before = known(self.matrix), known(other.matrix)

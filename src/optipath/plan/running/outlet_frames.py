@@ -40,8 +40,8 @@ class LaterFrame:
         self.inputs = inputs
         self.where = where
         # The batch, of which the light is a part, depends on all of them.
-        kept = parameters if where else frame.names & parameters.keys()
-        self.parameters = {name: _kept(parameters[name]) for name in kept}
+        names = parameters if where else frame.names & parameters.keys()
+        self.parameters = {name: kept(parameters[name]) for name in names}
 
     def __call__(self) -> Frame:
         """Return the frame."""
@@ -60,7 +60,15 @@ class LaterFrame:
         return self.frame.frame(given, lambda numbers: sliced(numbers, batch, self.where))
 
 
-def _kept(value: Any) -> Any:
+def kept(value: Any) -> Any:
+    """Return a value that was given, or a copy of what somebody may change.
+
+    Examples
+    --------
+    >>> given = np.ones(2)
+    >>> kept(given) is given, kept(0.5)
+    (False, 0.5)
+    """
     if isinstance(value, np.ndarray):
         return value.copy() if value.flags.writeable else value
     return deepcopy(value) if isinstance(value, list) else value

@@ -1,0 +1,253 @@
+"""Light added up over its wavelengths."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import LightError, ShapeError, ValueFault, listed, shown
+from optipath.light.inherited_noise import rounding
+from optipath.light.underflow import folded, normalise_exponent, rounded_to, times_two_to
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
+from optipath.values.precision import at_least_single, coarser
+from optipath.values.spectra.grid_bins import NANOMETRES, grid_fault, grid_widths
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from optipath.light.wavelength_on_demand import WavelengthOnDemand
+    from optipath.values.roundings import Array
+
+
+def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
+    """Return the wavelengths of light, and the axis of the batch along which they vary.
+
+    Parameters
+    ----------
+    light : Light
+        Spectral light.
+
+    Returns
+    -------
+    grid : ndarray, shape (n,)
+        In metres, rising or falling.
+    axis : int
+        Which of the axes of the batch has them.
+
+    Raises
+    ------
+    LightError
+        If there is no such axis, or several, or the wavelengths are no grid.
+    """
+    wavelength = light.wavelength
+    if wavelength is None:
+        raise LightError(
+            "light of no known wavelengths has no spectrum; say which they are, "
+            "light.at_wavelengths(...), or trace a path that has an op.Wavelength"
+        )
+    check_known("the wavelengths that light is added up over", wavelength)
+    every = np.broadcast_to(wavelength, light.shape)
+    axes = [axis for axis in range(every.ndim) if _varies(every, axis)]
+    if not axes:
+        raise LightError(
+            f"light of one wavelength, {1e9 * every.flat[0]:g} nm, has no spectrum; trace several, "
+            f"wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
+        )
+    if len(axes) > 1:
+        raise LightError(
+            f"the wavelengths vary along axes {listed([*map(str, axes)])} of light of shape "
+            f"{light.shape}, and a spectrum has one; give them one, wavelengths[:, None], or "
+            f"take a part of the light"
+        )
+    axis = axes[0]
+    grid = np.moveaxis(every, axis, 0).reshape(every.shape[axis], -1)[:, 0]
+    if fault := grid_fault(grid):
+        raise LightError(f"the wavelengths of the light {fault}; sort them, each once")
+    return grid, axis
+
+
+def _varies(numbers: Array, axis: int) -> bool:
+    if numbers.strides[axis] == 0 or numbers.shape[axis] < 2:
+        return False
+    return bool(np.any(numbers != numbers.take([0], axis)))
+
+
+def integrated(
+    light: WavelengthOnDemand, response: Any = None, edges: Any = None
+) -> tuple[Any, Any, Any, Any]:
+    """Return light added up over its wavelengths, as `Light.of` takes it.
+
+    Parameters
+    ----------
+    light : Light
+        Per nanometre.
+    response, edges
+        As `Light.integrate` takes them.
+
+    Returns
+    -------
+    stokes : ndarray, shape (..., 4)
+    frame : Frame
+    exponent : int or ndarray
+    noise : tuple or None
+    """
+    grid, axis = spectral_axis(light)
+    weights = grid_widths(grid) if edges is None else _widths_of(edges, grid)
+    if response is not None:
+        weights = weights * _response_at(response, grid)
+    numbers = light.mantissa
+    total, power = weighted_sum(known(numbers), light.exponent, weights[:, np.newaxis], axis)
+    frame = _frame_without(light, axis)
+    if is_traced(total):
+        return total.astype(coarser(numbers)), frame, power, None
+    total, power = folded(*rounded_to(coarser(numbers), total, power))
+    return total, frame, power, (noise_of_sum, light, weights, axis)
+
+
+def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tuple[Any, Any]:
+    """Return sums over an axis of numbers times weights, however faint they are.
+
+    The sum is taken by halves, so that it is the same whatever other axes there are.
+
+    Parameters
+    ----------
+    numbers : ndarray, shape (..., k)
+        Such as Stokes vectors.
+    exponent : ndarray of int, shape (...)
+        Of the power of two times these.
+    weights : ndarray, shape (n, k)
+        For each along the axis; they broadcast over the last one.
+    axis : int
+        An axis of the batch, of n.
+
+    Returns
+    -------
+    total : ndarray
+        Without the axis.
+    exponent : int or ndarray
+        Of the power of two times the total.
+
+    Examples
+    --------
+    >>> weighted_sum(np.ones((3, 1)), np.zeros(3, int), np.array([[1.0], [2.0], [1.0]]), 0)
+    (array([2.]), array(1))
+    """
+    shape = [1] * (exponent.ndim + 1)
+    shape[axis], shape[-1] = weights.shape
+    if is_traced(numbers) or is_traced(weights):
+        return _sum_by_halves(
+            namespace(weights * numbers).moveaxis(
+                at_least_single(numbers) * weights.reshape(shape), axis, 0
+            )
+        ), 0
+    parts, own = normalise_exponent(at_least_single(numbers), exponent)
+    # Dark light has no exponent of its own.
+    dark = ~np.any(parts != 0.0, axis=-1)
+    least = np.iinfo(np.int64).min // 4
+    power = np.max(np.where(dark, least, own), axis=axis)
+    power = np.where(power == least, 0, power)
+    shift = np.where(dark, 0, own - np.expand_dims(power, axis))
+    terms = times_two_to(parts, shift) * weights.reshape(shape)
+    return _sum_by_halves(np.moveaxis(terms, axis, 0)), power
+
+
+def _sum_by_halves(terms: Any) -> Any:
+    xp = namespace(terms)
+    while len(terms) > 1:
+        half = len(terms) // 2
+        terms = xp.concatenate([terms[:half] + terms[half : 2 * half], terms[2 * half :]])
+    return terms[0]
+
+
+def noise_of_sum(
+    light: WavelengthOnDemand, weights: Array, axis: int, stokes: Array, exponent: Array
+) -> Array:
+    """Return the noise in light that has been added up, of shape (...).
+
+    Parameters
+    ----------
+    light : Light
+        What has been added up,
+    weights : ndarray, shape (n,)
+        each times one of these,
+    axis : int
+        along this axis.
+    stokes : ndarray, shape (..., 4)
+        The mantissa of the sum.
+    exponent : ndarray of int, shape (...)
+        Of the power of two times it.
+
+    Returns
+    -------
+    ndarray, shape (...)
+        To be taken times the same power.
+    """
+    shape = [1] * light.ndim
+    shape[axis] = len(weights)
+    floor = light.noise_floor + rounding(known(light.mantissa))
+    with np.errstate(over="ignore", under="ignore"):
+        share = np.ldexp(floor, light.exponent - np.expand_dims(exponent, axis))
+        found = np.sum(share * np.abs(weights).reshape(shape), axis=axis)
+    return found.astype(stokes.dtype)  # type: ignore[no-any-return]
+
+
+def _widths_of(edges: Any, grid: Array) -> Array:
+    """Return the widths, in nanometres, of bins that somebody gives, each about a wavelength."""
+    check_known("the edges of bins", edges)
+    found = np.asarray(Wavelength("edges").resolve(edges).value, np.float64)
+    if found.shape != (len(grid) + 1,):
+        raise ShapeError(
+            f"{len(grid)} wavelengths have {len(grid) + 1} edges of bins, one more than there "
+            f"are, not edges of shape {found.shape}"
+        )
+    up = 1.0 if grid[-1] > grid[0] else -1.0
+    outside = (up * found[:-1] > up * grid) | (up * grid > up * found[1:])
+    if np.any(outside) or np.any(up * np.diff(found) <= 0.0):
+        place = int(np.argmax(outside))
+        low, at, high = (1e9 * x for x in (found[place], grid[place], found[place + 1]))
+        raise ValueFault(
+            f"bin {place} is from {low:g} nm to {high:g} nm, and its wavelength is {at:g} nm; give "
+            f"edges in the order of the wavelengths, each wavelength within its bin"
+        )
+    widths: Array = np.abs(np.diff(found * NANOMETRES))
+    return widths
+
+
+def _response_at(response: Any, grid: Array) -> Any:
+    """Return the response at each wavelength, which is not below 0."""
+    found = response.at(grid) if hasattr(response, "at") and not is_traced(response) else response
+    if not is_traced(found):
+        found = as_given("the response", known(found), ShapeError)
+        if found.dtype.kind not in "biuf":
+            raise ShapeError(f"the response must be of real numbers, not {shown(response)}")
+    if found.shape != (len(grid),):
+        raise ShapeError(
+            f"the response has the shape {tuple(found.shape)}, and there are {len(grid)} "
+            f"wavelengths; give one number for each, or a Spectrum"
+        )
+    if is_traced(found):
+        return found
+    if not np.all((found >= 0.0) & np.isfinite(found)):
+        bad = found[~((found >= 0.0) & np.isfinite(found))][0]
+        raise ValueFault(f"the response is {bad:g}, and light has no {bad:g}-fold; give one >= 0")
+    return np.asarray(found, np.float64)
+
+
+def _frame_without(light: WavelengthOnDemand, axis: int) -> Any:
+    """Return the frame of light along an axis, which must be one."""
+    kept = light._kept_frame("frame")  # noqa: SLF001
+    if not callable(kept) and kept.z.ndim == 1:
+        return kept
+    frame = light.frame
+    if frame.z.ndim == 1:
+        return frame
+    batch = light.shape
+    each = [np.broadcast_to(vector, (*batch, 3)) for vector in (frame.x, frame.y, frame.z)]
+    if any(_varies(vectors, axis) for vectors in each):
+        raise LightError(
+            "light of each wavelength has a frame of its own, and light adds up in one; write "
+            "light.in_frame(frame).integrate()"
+        )
+    first = light[(slice(None),) * axis + (0,)]
+    return first.frame

@@ -1,0 +1,169 @@
+"""X, Y and Z against colour-science, published white points, and sums written here."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour_science.json"
+COMPUTED = json.loads(FIGURES.read_text("utf-8"))
+NM = 1e-9
+VISIBLE = np.arange(380.0, 781.0, 5.0) * NM
+EVERY = np.arange(360.0, 831.0) * NM
+D65 = op.Spectrum.illuminant("D65")
+
+
+def light_of(values, wavelengths, **given):
+    stokes = np.zeros((*np.shape(values), 4))
+    stokes[..., 0] = values
+    return op.Light(stokes, wavelength=wavelengths, **given)
+
+
+def smooth(nm):
+    return 1.0 + np.sin(nm / 37.0) + 3.0 * np.exp(-(((nm - 560.0) / 40.0) ** 2))
+
+
+def chromaticity(xyz):
+    return xyz[..., :2] / xyz.sum(axis=-1, keepdims=True)
+
+
+@pytest.mark.filterwarnings("ignore::optipath.ColourWarning")
+@pytest.mark.parametrize("asked", COMPUTED["xyz"], ids=lambda a: f"{a['name']}-{a['outside']}")
+def test_tristimulus_values_are_those_of_colour_science(asked):
+    grid = np.array(asked["nm"])
+    found = light_of(smooth(grid), grid * NM).to_xyz(outside=asked["outside"]) / 683.0
+    # Light that ends within the observer's range ends there; a sum counts its last nanometre whole.
+    ends_within = grid[0] > 360.0 and asked["outside"] == "dark"
+    slack = 2e-5 if ends_within else COMPUTED["precision"]
+    np.testing.assert_allclose(found, asked["xyz"], rtol=slack)
+
+
+@pytest.mark.parametrize(
+    ("illuminant", "white_point", "step"),
+    [
+        ("D65", (0.31272, 0.32903), 5),
+        ("D65", (0.31272, 0.32903), 1),
+        ("E", (1 / 3, 1 / 3), 5),
+        ("A", (0.44758, 0.40745), 1),
+    ],
+)
+def test_illuminants_have_their_published_white_points(illuminant, white_point, step):
+    path = op.Source(spectrum=op.Spectrum.illuminant(illuminant)) >> op.Detector()
+    light = path.trace(wavelength=op.wavelengths("360 nm", "830 nm", step * NM))
+    np.testing.assert_allclose(chromaticity(light.to_xyz()), white_point, rtol=0, atol=5e-5)
+
+
+def test_white_has_y_1_and_half_of_it_y_half():
+    path = op.Source(0.5, spectrum=D65) >> op.Detector()
+    light = path.trace(wavelength=VISIBLE)
+    assert light.to_xyz(white=D65)[1] == 0.5
+    assert (light * 2.0).to_xyz(white=light)[1] == 2.0
+
+
+def test_y_of_a_line_at_555_nm_is_in_lumens_of_its_watts():
+    path = op.Source(3.0, spectrum=op.Spectrum.line("555 nm")) >> op.Detector()
+    light = path.trace(wavelength=np.arange(400.0, 800.5, 0.5)[::-1] * NM)
+    with pytest.warns(op.ColourWarning, match="from 400 nm to 800 nm"):
+        found = light.to_xyz()
+    np.testing.assert_allclose(found[1], 3.0 * 683.0, rtol=1e-4)
+
+
+@pytest.mark.parametrize("step", [0.03, 0.5, 1.7, 4.04, 12.3])
+def test_a_line_keeps_its_power_however_the_grid_lies(step):
+    grid = np.arange(380.2, 790.0, step)
+    place = np.argmin(np.abs(grid - 555.0))
+    light = light_of((np.arange(len(grid)) == place) / step, grid * NM)
+    xyz = light.to_xyz(outside="nearest") / 683.0
+    # V is 0.999 or more where the triangle of the finer ones is, and has that curvature else.
+    np.testing.assert_allclose(xyz[1], 1.0, atol=2e-4 + 2e-4 * step**2)
+
+
+def test_falling_wavelengths_are_the_same_colour():
+    rising = light_of(smooth(VISIBLE / NM), VISIBLE)
+    np.testing.assert_allclose(rising[::-1].to_xyz(), rising.to_xyz(), rtol=1e-14)
+
+
+def test_a_colour_is_the_same_alone_and_in_a_batch_to_the_last_bit():
+    values = smooth(VISIBLE / NM)[:, None, None] * np.linspace(0.1, 3.0, 35).reshape(5, 7)
+    lights = light_of(values, VISIBLE[:, None, None])
+    assert lights.to_xyz(white=D65).shape == (5, 7, 3)
+    for place in [(0, 0), (3, 4), (4, 6)]:
+        alone = light_of(values[:, *place], VISIBLE)
+        assert np.array_equal(alone.to_xyz(white=D65), lights.to_xyz(white=D65)[place])
+
+
+def test_light_too_faint_for_floats_has_a_colour_beside_white_as_faint():
+    light = light_of(smooth(VISIBLE / NM), VISIBLE)
+    faint = light_of(smooth(VISIBLE / NM), VISIBLE, exponent=-5000)
+    np.testing.assert_allclose(faint.to_xyz(white=faint), light.to_xyz(white=light), rtol=1e-14)
+
+
+def test_white_may_be_light_of_the_path_without_the_sample():
+    filtered = op.Source(spectrum=D65) >> op.Attenuator(0.3) >> op.Detector()
+    lamp = op.Source(spectrum=D65) >> op.Detector()
+    light, white = (path.trace(wavelength=VISIBLE) for path in (filtered, lamp))
+    np.testing.assert_allclose(
+        light.to_xyz(white=white),
+        0.3 * lamp.trace(wavelength=VISIBLE).to_xyz(white=D65),
+        rtol=1e-14,
+    )
+
+
+def test_wavelengths_that_leave_out_what_is_seen_are_told():
+    light = light_of(np.ones(61), np.linspace(400.0, 700.0, 61) * NM)
+    with pytest.warns(op.ColourWarning, match="known from 400 nm to 700 nm, and taken for dark"):
+        light.to_xyz()
+    light.to_xyz(outside="nearest")
+
+
+def test_wavelengths_far_apart_are_told():
+    light = light_of(np.ones(11), np.linspace(380.0, 780.0, 11) * NM)
+    with pytest.warns(op.ColourWarning, match="wavelengths are 40 nm apart"):
+        light.to_xyz()
+
+
+def test_warnings_are_of_the_line_that_asks():
+    light = light_of(np.ones(11), np.linspace(380.0, 780.0, 11) * NM)
+    for asked in (light.to_xyz, lambda: light.to_srgb(D65, out_of_gamut="keep")):
+        with pytest.warns(op.ColourWarning) as caught:
+            asked()
+        assert {warning.filename for warning in caught} == {__file__}
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"observer": "CIE 1931"}, "observer 'CIE 1931' is unknown; did you mean 'CIE 1931 2 deg'"),
+        ({"outside": "bright"}, "outside 'bright' is unknown; there are: dark, nearest"),
+        ({"white": 1.0}, "white is 1.0, which has no spectrum; give the light of the same path"),
+        ({"white": light_of(np.zeros(81), VISIBLE)}, r"white is dark \(Y = 0\)"),
+    ],
+)
+def test_what_is_no_white_or_observer_is_refused(given, sentence):
+    with pytest.raises(op.ValueFault, match=sentence):
+        light_of(np.ones(81), VISIBLE).to_xyz(**given)
+
+
+def test_light_of_one_wavelength_has_no_colour():
+    with pytest.raises(op.LightError, match="light of one wavelength, 500 nm, has no spectrum"):
+        light_of(1.0, 5e-7).to_xyz()
+
+
+def test_infrared_light_has_no_colour():
+    light = light_of(np.ones(3), np.array([900.0, 910.0, 920.0]) * NM)
+    with pytest.raises(op.LightError, match=r"light of 900 nm \.\. 920 nm is not seen"):
+        light.to_xyz()
+
+
+def test_a_slope_by_jax_is_the_sum_of_slopes(jax):
+    values = smooth(VISIBLE / NM)
+
+    def luminance(share):
+        stokes = jax.numpy.zeros((81, 4)).at[:, 0].set(share * values)
+        return op.Light(stokes, wavelength=VISIBLE).to_xyz(white=D65)[1]
+
+    slope = jax.grad(luminance)(0.7)
+    np.testing.assert_allclose(slope, light_of(values, VISIBLE).to_xyz(white=D65)[1], rtol=1e-12)

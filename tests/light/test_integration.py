@@ -1,0 +1,213 @@
+"""Light added up over its wavelengths, against closed forms and exact sums."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import optipath as op
+from dispersive import GRID, line, on_line
+
+NM = 1e-9
+EVEN = np.arange(380.0, 701.0, 40.0) * NM
+
+
+def light_of(intensity, wavelengths, dop=0.0, **given):
+    stokes = np.zeros((*np.shape(intensity), 4))
+    stokes[..., 0] = intensity
+    stokes[..., 2] = dop * stokes[..., 0]
+    return op.Light(stokes, wavelength=wavelengths, **given)
+
+
+@settings(max_examples=200)
+@given(
+    st.lists(st.floats(300.0, 900.0), min_size=2, max_size=60, unique_by=lambda x: round(x, 3)),
+    st.booleans(),
+)
+def test_a_constant_spectrum_comes_to_the_width(wavelengths, falls):
+    grid = np.sort(wavelengths)
+    ordered = (grid[::-1] if falls else grid) * NM
+    found = light_of(np.ones(len(grid)), ordered, dop=0.5).integrate().stokes
+    # The wavelengths have a rounding of their own, which their difference keeps.
+    slack = 1e-15 * (grid[-1] - grid[0]) + 4e-16 * grid[-1]
+    np.testing.assert_allclose(found, (grid[-1] - grid[0]) * np.array([1, 0, 0.5, 0]), atol=slack)
+
+
+def test_a_thousand_wavelengths_come_to_the_width_within_1e_15():
+    grid = np.linspace(380.0, 780.0, 1001)
+    assert abs(light_of(np.ones(1001), grid * NM).integrate().S0 / 400.0 - 1.0) < 1e-15
+
+
+def test_what_is_linear_comes_to_its_mean_times_the_width():
+    path = op.Source(line(0.2, 0.9)) >> op.Detector()
+    found = path.trace(wavelength=GRID).integrate()
+    np.testing.assert_allclose(found.stokes, [0.55 * 300.0, 0, 0, 0], rtol=1e-14)
+
+
+def test_sums_are_as_exact_as_those_of_python(rng):
+    grid = np.sort(rng.uniform(380.0, 780.0, 500)) * NM
+    values = rng.uniform(0.0, 1.0, 500)
+    nm = grid * 1e9
+    steps = np.diff(nm)
+    expected = math.fsum(0.5 * steps * (values[:-1] + values[1:]))
+    np.testing.assert_allclose(light_of(values, grid).integrate().S0, expected, rtol=1e-15 * 4)
+
+
+def test_the_result_is_the_same_alone_and_in_batches_to_the_last_bit(rng):
+    values = rng.uniform(0.0, 1.0, (5, 300, 3))
+    grid = np.linspace(380.0, 780.0, 300) * NM
+    lights = light_of(values, grid[:, None], dop=0.3)
+    together = lights.integrate()
+    assert together.shape == (5, 3)
+    for i, j in [(0, 0), (2, 1), (4, 2)]:
+        alone = light_of(values[i, :, j], grid, dop=0.3).integrate()
+        assert np.array_equal(alone.stokes, together[i, j].stokes)
+        assert np.array_equal(lights[i, :, j].integrate().stokes, alone.stokes)
+
+
+@settings(max_examples=100)
+@given(st.integers(0, 2**32 - 1))
+def test_integrated_light_is_light(seed):
+    rng = np.random.default_rng(seed)
+    direction = rng.normal(size=(50, 3))
+    if seed % 2:
+        direction[:] = direction[0]
+    direction /= np.linalg.norm(direction, axis=-1, keepdims=True)
+    s0 = 10.0 ** rng.uniform(-300.0, 300.0, 50)
+    stokes = np.concatenate([s0[:, None], s0[:, None] * direction], axis=-1)
+    light = op.Light(stokes, wavelength=np.linspace(400.0, 700.0, 50) * NM)
+    assert light.integrate().dop <= 1.0 + 4e-16
+
+
+def test_light_too_faint_for_floats_is_added_up():
+    values = np.array([1.0, 3.0, 2.0])
+    grid = np.array([400.0, 500.0, 700.0]) * NM
+    faint = light_of(values, grid, exponent=[-5000, -5001, -5000]).integrate()
+    total = 50.0 * 1.0 + 150.0 * 1.5 + 100.0 * 2.0
+    expected = math.log10(total) - 5000 * math.log10(2.0)
+    np.testing.assert_allclose(faint.log10_intensity, expected, rtol=1e-14)
+
+
+def test_dark_light_beside_faint_light_costs_nothing():
+    light = light_of([0.0, 1.0, 0.0], np.array([400.0, 500.0, 600.0]) * NM, exponent=[0, -5000, 0])
+    assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
+
+
+@pytest.mark.parametrize("dtype", ["f4", "f8"])
+def test_the_precision_stays(dtype):
+    light = op.Light(np.ones((3, 4), dtype) * [[1, 0, 0, 0]], wavelength=EVEN[:3])
+    light = op.Light(light.stokes.astype(dtype), wavelength=EVEN[:3])
+    assert light.integrate().stokes.dtype == dtype
+
+
+def test_edges_make_bins_of_ones_own():
+    light = light_of([1.0, 2.0, 4.0], np.array([400.0, 500.0, 600.0]) * NM)
+    found = light.integrate(edges=["350 nm", "480 nm", "510 nm", "700 nm"])
+    np.testing.assert_allclose(found.S0, 130.0 + 2 * 30.0 + 4 * 190.0, rtol=1e-14)
+
+
+def test_a_response_multiplies_what_is_added_up():
+    light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"], dop=1.0)
+    given = op.Spectrum.sampled(["400 nm", "600 nm"], [0.0, 1.0])
+    for response in ([0.0, 0.5, 1.0], np.array([0.0, 0.5, 1.0]), given):
+        found = light.integrate(response=response)
+        np.testing.assert_allclose(found.stokes, [300.0, 0, 300.0, 0], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "grid", [EVEN, EVEN[::-1], np.array([400.0, 401, 450, 640, 700]) * NM], ids=str
+)
+def test_a_line_keeps_its_power(grid):
+    path = op.Source(2.5, spectrum=op.Spectrum.line("633 nm")) >> op.Detector()
+    np.testing.assert_allclose(path.trace(wavelength=grid).integrate().S0, 2.5, rtol=1e-14)
+
+
+def test_the_frame_stays():
+    frame = op.Frame().turned(0.3)
+    light = op.Light(np.eye(4)[[0, 0, 0]], frame, wavelength=EVEN[:3])
+    assert light.integrate().frame == frame
+
+
+def test_frames_go_along_axes_that_stay():
+    frames = op.Frame().turned([[0.0], [0.5]])
+    light = op.Light(np.ones((2, 3, 1)) * [1.0, 0, 0, 0], frames, wavelength=EVEN[:3])
+    assert light.integrate().frame == op.Frame().turned([0.0, 0.5])
+
+
+def test_light_in_frames_that_differ_by_wavelength_is_refused():
+    frames = op.Frame().turned([0.0, 0.2, 0.4])
+    light = op.Light(np.ones((3, 1)) * [1.0, 0.5, 0, 0], frames, wavelength=EVEN[:3])
+    with pytest.raises(op.LightError, match=r"a frame of its own.*light\.in_frame\(frame\)"):
+        light.integrate()
+    assert light.in_frame(op.Frame()).integrate().dop < 0.5
+
+
+@pytest.mark.parametrize(
+    ("light", "sentence"),
+    [
+        (op.Light([[1, 0, 0, 0]] * 3), "light of no known wavelengths has no spectrum"),
+        (light_of(1.0, 5e-7), "light of one wavelength, 500 nm, has no spectrum"),
+        (light_of([1.0, 1.0], 5e-7), "light of one wavelength, 500 nm"),
+        (light_of([1.0, 1.0, 1.0], [5e-7, 6e-7, 5e-7]), "wavelengths of the light neither rise"),
+        (light_of([1.0, 1.0, 1.0], [5e-7, 6e-7, 6e-7]), "wavelengths of the light are repeated"),
+        (
+            light_of(np.ones((2, 3)), [[5e-7, 6e-7, 7e-7], [4e-7, 5e-7, 6e-7]]),
+            r"vary along axes 0 and 1 of light of shape \(2, 3\)",
+        ),
+    ],
+)
+def test_light_that_is_no_spectrum_is_refused(light, sentence):
+    with pytest.raises(op.LightError, match=sentence):
+        light.integrate()
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"response": [1.0, 2.0]}, r"the response has the shape \(2,\), and there are 3"),
+        ({"response": [1.0, -2.0, 1.0]}, "the response is -2"),
+        ({"response": [1.0, np.nan, 1.0]}, "the response is nan"),
+        ({"response": ["a", "b", "c"]}, "the response must be of real numbers"),
+        ({"edges": [4e-7, 5e-7]}, "3 wavelengths have 4 edges of bins"),
+        ({"edges": [3e-7, 4.1e-7, 4.2e-7, 7e-7]}, "bin 1 is from 410 nm to 420 nm, and its wave"),
+        ({"edges": [400, 500, 600, 700]}, "for nanometres write '400 nm'"),
+    ],
+)
+def test_a_response_or_edges_that_do_not_fit_are_refused(given, sentence):
+    light = light_of([1.0, 2.0, 4.0], np.array([400.0, 500.0, 600.0]) * NM)
+    with pytest.raises(op.OptipathError, match=sentence):
+        light.integrate(**given)
+
+
+def test_noise_of_light_that_has_cancelled_goes_along():
+    crossed = op.Polarizer(0.3) >> op.Polarizer(0.3 + np.pi / 2)
+    path = op.Source(line(0.5, 1.0)) >> crossed >> op.Detector()
+    dark = path.trace(wavelength=GRID).integrate()
+    assert dark.noise >= dark.S0
+    assert np.isnan(dark.dop)
+
+
+def test_slopes_by_jax_are_those_of_the_closed_form(jax):
+    lamp, filtered = op.Source(stokes=[1, 1, 0, 0]), op.Attenuator(line(0.2, 0.9))
+    path = lamp >> filtered >> op.Polarizer(op.Parameter("a")) >> op.Detector()
+
+    def power(a):
+        return path.trace(a=a, wavelength=GRID).integrate().intensity
+
+    np.testing.assert_allclose(power(0.3), 165.0 * np.cos(0.3) ** 2, rtol=1e-14)
+    np.testing.assert_allclose(jax.grad(power)(0.3), -165.0 * np.sin(0.6), rtol=1e-12)
+
+
+def test_wavelengths_that_jax_traces_are_refused(jax):
+    path = op.Source(line(0.2, 0.9)) >> op.Detector()
+    with pytest.raises(op.ParameterError, match="wavelengths that light is added up over"):
+        jax.grad(lambda w: path.trace(wavelength=w * GRID).integrate().intensity)(1.0)
+
+
+def test_a_power_by_the_bins_is_what_the_rule_comes_to():
+    values = on_line(0.2, 0.9, GRID)
+    widths = np.array([30.0, 75.0, 120.0, 75.0])
+    found = light_of(values, GRID).integrate().S0
+    np.testing.assert_allclose(found, values @ widths, rtol=1e-14)

@@ -1,0 +1,153 @@
+"""The wavelengths that light is of, and what of them light keeps that is made of it."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import optipath as op
+from dispersive import GRID, line
+
+WAVELENGTHS = np.array([4e-7, 5e-7, 6e-7])
+LIGHT = op.Light([[1.0, 0.2, 0, 0], [2.0, 0, 0.5, 0], [3.0, 0, 0, 1]], wavelength=WAVELENGTHS)
+DIMMED = op.Source(line(0.2, 0.9)) >> op.Polarizer(op.Parameter("a", 0.0)) >> op.Detector()
+
+
+def test_light_of_a_run_has_its_wavelengths():
+    assert np.array_equal(DIMMED.trace(wavelength=GRID).wavelength, GRID)
+    assert DIMMED.trace(wavelength=5e-7).wavelength == 5e-7
+    assert DIMMED.trace(wavelength="2.4 eV").wavelength == pytest.approx(516.601e-9, rel=1e-6)
+
+
+def test_wavelengths_broadcast_to_light():
+    light = DIMMED.trace(wavelength=GRID[:, None], a=np.zeros(7))
+    assert light.wavelength.shape == (4, 1)
+    assert np.array_equal(light[2, 3].wavelength, GRID[2])
+
+
+def test_wavelengths_that_a_path_is_bound_to_are_known():
+    assert np.array_equal(DIMMED.bind(wavelength=GRID).trace().wavelength, GRID)
+
+
+def test_light_of_every_end_has_its_wavelengths():
+    assert np.array_equal(DIMMED.trace_all(wavelength=GRID)["detector"].wavelength, GRID)
+
+
+def test_parts_of_a_stream_have_their_wavelengths():
+    plan = DIMMED.compose()
+    given = {"wavelength": GRID[:, None], "a": np.linspace(0.0, 1.0, 3)}
+    whole = plan.run(**given)
+    for part in plan.stream(4, **given):
+        expected = np.broadcast_to(whole.wavelength, whole.shape)[part.where]
+        assert np.array_equal(np.broadcast_to(part.light.wavelength, part.light.shape), expected)
+
+
+def test_a_wavelength_may_have_another_name():
+    source = op.Source(line(0.2, 0.9, op.Wavelength("pump")))
+    assert (source >> op.Detector()).trace(pump=5e-7).wavelength == 5e-7
+
+
+def test_light_of_two_wavelengths_has_no_single_one():
+    source = op.Source(line(0.2, 0.9, op.Wavelength("pump")))
+    path = source >> op.Attenuator(line(0.2, 0.9, op.Wavelength("probe"))) >> op.Detector()
+    assert path.trace(pump=5e-7, probe=6e-7).wavelength is None
+
+
+def test_light_of_a_path_without_wavelength_has_none():
+    assert (op.Source() >> op.Detector()).trace().wavelength is None
+
+
+def test_wavelengths_stay_when_what_was_given_is_written_into():
+    given = GRID.copy()
+    light = DIMMED.trace(wavelength=given)
+    given[:] = 5e-7
+    assert np.array_equal(light.wavelength, GRID)
+
+
+def test_wavelengths_are_read_only():
+    with pytest.raises(ValueError, match="read-only"):
+        LIGHT.wavelength[0] = 1.0
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        2.0 * LIGHT,
+        LIGHT / 3.0,
+        LIGHT + LIGHT,
+        sum([LIGHT, LIGHT]),
+        LIGHT.in_frame(op.Frame().turned(0.3)),
+        LIGHT.nearest_physical(),
+        op.Polarizer(0.3) @ LIGHT,
+        op.Polarizer(0.3).mueller() @ LIGHT,
+        LIGHT.reshape(3),
+        LIGHT[:],
+        pickle.loads(pickle.dumps(LIGHT)),
+        pickle.loads(pickle.dumps(DIMMED.trace(wavelength=WAVELENGTHS))),
+        LIGHT.reshape(3, 1)[:, 0],
+    ],
+)
+def test_light_that_is_made_of_light_has_its_wavelengths(made):
+    assert np.array_equal(made.wavelength, WAVELENGTHS)
+
+
+def test_an_index_takes_its_wavelengths():
+    assert LIGHT[1].wavelength == 5e-7
+    assert np.array_equal(LIGHT[::-1].wavelength, WAVELENGTHS[::-1])
+    assert np.array_equal(LIGHT[LIGHT.S1 == 0].wavelength, WAVELENGTHS[1:])
+    assert [float(each.wavelength) for each in LIGHT] == [4e-7, 5e-7, 6e-7]
+
+
+def test_lights_of_different_wavelengths_have_none_together():
+    assert (LIGHT + LIGHT[::-1]).wavelength is None
+    assert (LIGHT + op.Light([1.0, 0, 0, 0])).wavelength is None
+    assert (LIGHT[0] + LIGHT[1]).wavelength is None
+
+
+def test_lights_of_one_wavelength_have_it_together():
+    runs = [DIMMED.trace(wavelength=GRID, a=a) for a in (0.1, 0.2)]
+    assert np.array_equal((runs[0] + runs[1]).wavelength, GRID)
+
+
+def test_integrated_light_has_no_wavelength():
+    assert LIGHT.integrate().wavelength is None
+
+
+def test_wavelengths_are_said_of_light_that_has_none():
+    light = op.Light([[1.0, 0, 0, 0]] * 2)
+    said = light.at_wavelengths(["400 nm", "500 nm"])
+    assert np.array_equal(said.wavelength, [4e-7, 5e-7])
+    assert light.wavelength is None
+    assert said == light
+
+
+@pytest.mark.parametrize(
+    ("wavelengths", "sentence"),
+    [
+        ([4e-7, 5e-7, 6e-7], r"shape \(3,\) do not fit light of shape \(2,\)"),
+        ([[4e-7], [5e-7]], r"shape \(2, 1\) do not fit light of shape \(2,\)"),
+        (516.0, "for nanometres write '516 nm'"),
+        (-1.0, "wavelength"),
+        ("blue", "blue"),
+    ],
+)
+def test_what_is_no_wavelength_of_light_is_refused(wavelengths, sentence):
+    light = op.Light([[1.0, 0, 0, 0]] * 2)
+    with pytest.raises(op.OptipathError, match=sentence):
+        light.at_wavelengths(wavelengths)
+
+
+def test_a_plain_parameter_of_that_name_is_the_wavelength():
+    plate = op.Waveplate("1 mm", 0.009, op.Parameter("wavelength"))
+    path = op.Source(stokes=[1, 0, 1, 0]) >> plate >> op.Detector()
+    assert np.array_equal(path.trace(wavelength=WAVELENGTHS).wavelength, WAVELENGTHS)
+
+
+def test_an_angle_of_that_name_is_no_wavelength():
+    path = op.Source() >> op.Polarizer(op.Parameter("wavelength")) >> op.Detector()
+    assert path.trace(wavelength=0.3).wavelength is None
+
+
+def test_wavelengths_that_jax_traces_are_those_of_the_run(jax):
+    found = jax.jit(lambda w: DIMMED.trace(wavelength=w).wavelength * 2.0)(5e-7)
+    np.testing.assert_allclose(found, 1e-6)
