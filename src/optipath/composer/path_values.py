@@ -57,7 +57,7 @@ class Values:
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
                 found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
-        if any(isinstance(use.value, CurveValue) for use in found):
+        if [use for use in found if isinstance(use.value, CurveValue)]:
             found = [each for use in found for each in use.with_arguments()]
         if self.doubtful:
             return tuple(use for use in found if not self._is_doubtful(use.value))
@@ -80,11 +80,17 @@ class Values:
         return [use for name, port in entries for use in elements[name].uses_entered(name, port)]
 
     @cached_property
+    def _given(self) -> list[Use]:
+        """The parameters where they stand; what follows from others is none of them."""
+        named = [use for use in self.uses if isinstance(use.value, Parameter)]
+        return [use for use in named if not isinstance(use.value, CurveValue)]
+
+    @cached_property
     def parameters(self) -> dict[str, Parameter]:
         """The parameters by name: in declared order, then as they are met."""
         found: dict[str, Parameter] = {}
-        for use in self.uses:
-            if use.is_given and use.value.name not in found:
+        for use in self._given:
+            if use.value.name not in found:
                 found[use.value.name] = use.value.alone()
         declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
         return {name: found[name] for name in dict.fromkeys([*declared, *found])}
@@ -114,8 +120,8 @@ class Values:
     @cached_property
     def _computed(self) -> tuple[CurveValue, ...]:
         """What follows from parameters that are given when the path runs."""
-        open_ones = [use.value for use in self.uses if use.is_open and not use.is_given]
-        return tuple({value.name: value.alone() for value in open_ones}.values())
+        found = [use.value for use in self.uses if isinstance(use.value, CurveValue)]
+        return tuple({value.name: value.alone() for value in found if not value.bound}.values())
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
@@ -166,9 +172,7 @@ class Values:
         for name in self.graph.graph.get("choices", ()):
             if name in self.parameters:
                 yield f"'{name}' is a parameter and a choice; use two names"
-        for use in self.uses:
-            if not use.is_given:
-                continue
+        for use in self._given:
             name = use.value.name
             known = self.parameters[name]
             if use.value is not known and not use.value.same_specification(known):

@@ -52,17 +52,11 @@ class Use:
         """Whether the value is a parameter that is given when the plan runs."""
         return isinstance(self.value, Parameter) and not self.value.bound
 
-    @property
-    def is_given(self) -> bool:
-        """Whether the value is a parameter that somebody gives; others follow from such."""
-        return isinstance(self.value, Parameter) and not isinstance(self.value, CurveValue)
-
     def rests_on(self, names: Collection[str]) -> bool:
         """Tell whether the value is one of some parameters, or follows from one of them."""
         value = self.value
-        if value.name in names or self.is_given:
-            return value.name in names
-        return any(argument.name in names for argument in value.arguments)
+        arguments = value.arguments if isinstance(value, CurveValue) else ()
+        return not {value.name, *[argument.name for argument in arguments]}.isdisjoint(names)
 
     def with_arguments(self) -> list[Use]:
         """Return the parameters that the value is computed of, where these stand, and itself."""

@@ -1,0 +1,27 @@
+"""Wavelengths by photon energy, wave number and frequency."""
+
+import pytest
+
+from optipath.errors import UnitError
+from optipath.values.spectral_units import wavelength_of
+
+
+def test_an_energy_stands_for_the_wavelength_of_codata():
+    # h c / e = 1.239 841 984... e-6 eV m (CODATA 2018, exact).
+    assert wavelength_of("1 eV") == pytest.approx(1.239841984332002e-06, rel=1e-15)
+
+
+def test_a_wave_number_is_a_reciprocal_and_a_frequency_the_speed_of_light_over_it():
+    assert wavelength_of("20000 1/cm") == wavelength_of("20000 cm^-1") == pytest.approx(5e-7)
+    assert wavelength_of("299.792458 THz") == pytest.approx(1e-6, rel=1e-15)
+
+
+@pytest.mark.parametrize("text", ["516 nm", "gold", "", "2 eV 3"])
+def test_what_has_another_unit_is_left_to_others(text):
+    assert wavelength_of(text) is None
+
+
+@pytest.mark.parametrize("text", ["0 eV", "-2 eV", "1e999 THz"])
+def test_what_is_not_above_0_is_refused(text):
+    with pytest.raises(UnitError, match="above 0"):
+        wavelength_of(text)
