@@ -64,3 +64,16 @@ def test_parts_of_complex_numbers_of_single_precision_are_read_as_what_they_are(
     law = np.abs((m.astype(complex) - 1.0) / (m.astype(complex) + 1.0)) ** 2
     found = op.Composer(engine="numba").compose(path).run(m=m).intensity
     np.testing.assert_allclose(found, law, rtol=1e-13)
+
+
+def test_whole_numbers_of_one_axis_of_a_grid_are_whole_numbers_along_the_other():
+    # Indices are scaled by powers of two, whose exponents depend on the indices alone.
+    material = op.Material(op.Parameter("n"), op.Parameter("k"))
+    layers = op.LayerStack([1.0, material, 1.5], op.Parameter("t"), lengths=[1e-6], wavelength=5e-7)
+    path = op.Source() >> layers >> op.Detector()
+    given = {"n": np.array([[1.3], [2.2], [4.5]]), "k": 0.01, "t": np.linspace(0.1, 1.2, 40)}
+    by_numpy, by_numba = (
+        op.Composer(engine=engine).compose(path).run(**given).stokes
+        for engine in ("numpy", "numba")
+    )
+    assert np.allclose(by_numba, by_numpy, rtol=1e-13, atol=1e-15)

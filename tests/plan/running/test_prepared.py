@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath.plan.running import batch_runner, formula_maker, runner, shared
+from optipath.plan.running import prepared as preparing
 
 
 def path(index=1.5):
@@ -103,7 +104,7 @@ def test_zero_is_a_case_of_its_own(prepared):
 
 
 def test_no_more_sorts_are_kept_than_there_is_room_for(monkeypatch):
-    monkeypatch.setattr(runner, "MOST_KEPT", 2)
+    monkeypatch.setattr(preparing, "MOST_KEPT", 2)
     plan = path().compose()
     for count in (2, 3, 4, 5, 6):
         plan.run(theta=np.linspace(0.1, 1.2, count))

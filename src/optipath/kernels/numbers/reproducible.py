@@ -7,7 +7,6 @@ alone the functions are made here.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -54,23 +53,23 @@ def reproducible(
 
     small = small_enough or in_size
 
-    def circular(place: int, plain: Callable[[float], float]) -> Callable[[Any], Any]:
+    def circular(place: int, plain: Callable[..., Any]) -> Callable[[Any], Any]:
         def value(angle: Any) -> Any:
             if np.iscomplexobj(angle):
-                return getattr(np, plain.__name__)(angle)
+                return plain(angle)
             known = small(angle)
             if np.all(known):
                 return polynomials(angle)[place]
-            one_by_one = _one_by_one(plain, angle)
-            return where(known, polynomials(where(known, angle, 0.0))[place], one_by_one)
+            near = polynomials(where(known, angle, 0.0))[place]
+            return where(known, near, _where_large(plain, angle, np.logical_not(known)))
 
         return value
 
     exp = exponential(xp, dtype)
     return replace(
         xp,
-        sin=circular(0, math.sin),
-        cos=circular(1, math.cos),
+        sin=circular(0, np.sin),
+        cos=circular(1, np.cos),
         exp=lambda x: np.exp(x) if np.iscomplexobj(x) else exp(x),
         atan2=arc_tangent(xp),
     )
@@ -83,16 +82,17 @@ def reproducible_numpy(dtype: str) -> Primitives:
     Examples
     --------
     >>> reproducible_numpy("float64").sin(np.array([0.5, 1e6]))
-    array([ 0.47942554, -0.34999350])
+    array([ 0.47942554, -0.3499935 ])
     """
     return reproducible(NUMPY, dtype)
 
 
-def _one_by_one(plain: Callable[[float], float], angles: Any) -> Any:
-    """Return what a function of floats gives for each; NumPy's may depend on the neighbours."""
+def _where_large(plain: Callable[..., Any], angles: Any, large: Any) -> Any:
+    """Return a function of some angles in a row, as which NumPy does each alike, else 0."""
     numbers = np.asarray(angles)
-    found = [plain(a) if math.isfinite(a) else math.nan for a in numbers.ravel().tolist()]
-    return np.reshape(np.array(found, numbers.dtype), numbers.shape)
+    found = np.zeros_like(numbers)
+    found[large] = plain(numbers[large].astype(np.float64))
+    return found
 
 
 def _in_precision(function: Callable[..., Any], dtype: str) -> Callable[..., Any]:

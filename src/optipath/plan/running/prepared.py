@@ -29,7 +29,15 @@ MOST_KEPT = 64
 
 
 def keep(store: dict[Any, Any], key: Any, value: Any) -> None:
-    """Keep a value with others, the oldest of which go."""
+    """Keep a value with others, the oldest of which go.
+
+    Parameters
+    ----------
+    store : dict
+        The others.
+    key, value : Any
+        What is kept, and by what it is found.
+    """
     for oldest in list(store)[: max(0, len(store) - MOST_KEPT + 1)]:
         store.pop(oldest, None)
     store[key] = value

@@ -1,0 +1,50 @@
+"""Runs of plain floats at one wavelength after the other."""
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.values.curves.curve_value import curve_values
+from spectral_paths import Ramps, wavelengths
+
+N = Ramps(1.2, 2.4, 1.3e-7)
+
+
+def plan_of(default=None):
+    (n,) = curve_values(N, op.Wavelength(default=default))
+    path = op.Source() >> op.Interface(op.Material(n), op.Parameter("theta")) >> op.Detector()
+    plan = path.compose()
+    for _ in range(6):
+        plan.run(wavelength=5e-7, theta=0.3)
+    return plan
+
+
+def test_each_wavelength_has_its_own_light():
+    plan = plan_of()
+    for wavelength in (*wavelengths(7).tolist(), 5e-7, 5e-7):
+        (n,) = N.evaluated(wavelength)
+        r = (1.0 - n) / (1.0 + n)
+        light = plan.run(wavelength=wavelength, theta=0.0)
+        assert np.allclose(light.intensity, r * r, rtol=1e-14)
+
+
+def test_the_wavelength_may_be_left_to_its_default():
+    plan = plan_of(default=6e-7)
+    at_default = plan.run(theta=0.3).stokes
+    assert np.array_equal(at_default, plan.run(wavelength=6e-7, theta=0.3).stokes)
+    assert not np.array_equal(at_default, plan.run(wavelength=5e-7, theta=0.3).stokes)
+
+
+def test_a_wavelength_out_of_range_is_refused_after_others():
+    plan = plan_of()
+    with pytest.raises(op.ParameterError, match="for which ramps is known"):
+        plan.run(wavelength=2e-5, theta=0.3)
+    with pytest.raises(op.ParameterError, match="'wavelength' has no value"):
+        plan.run(theta=0.3)
+    assert plan.run(wavelength=5e-7, theta=0.3).intensity > 0.0
+
+
+def test_a_wavelength_in_words_is_the_same_one():
+    plan = plan_of()
+    in_words = plan.run(wavelength="500 nm", theta=0.3).stokes
+    assert np.array_equal(in_words, plan.run(wavelength=500e-9, theta=0.3).stokes)
