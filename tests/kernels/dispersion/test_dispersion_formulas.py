@@ -83,7 +83,12 @@ FORMULAS = {
     "sellmeier": (sellmeier, sellmeier_published, BK7, (0.35, 0.5876, 1.06, 2.3, 0.143)),
     "cauchy": (cauchy, cauchy_published, (1.458, 0.00354, 1e-5), (0.25, 0.6328, 2.0)),
     "drude-lorentz": (gold, gold_published, GOLD, (0.2, 0.415, 0.83, 2.4, 2.969, 6.0)),
-    "tauc-lorentz": (silicon, silicon_published, SILICON, (0.05, 0.6, 1.1999, 1.3, 3.45, 9.0)),
+    "tauc-lorentz": (
+        silicon,
+        silicon_published,
+        SILICON,
+        (0.05, 0.6, 1.2 - 4e-16, 1.2 + 4e-16, 1.1999, 1.3, 3.45, 9.0),
+    ),
 }
 CASES = [(name, at) for name, (*_, places) in FORMULAS.items() for at in places]
 
