@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, shown
+from optipath.values.curves.csv_columns import read_columns
 from optipath.values.curves.curve import Curve
 from optipath.values.domains.domain import Domain
 from optipath.values.spectra.black_body import BlackBody
@@ -18,6 +19,7 @@ from optipath.values.spectra.spectral_values import one_number, one_wavelength, 
 from optipath.values.spectra.spectrum_kind import EmissionLine, SpectrumKind
 
 if TYPE_CHECKING:
+    from os import PathLike
     from typing import Self
 
 _TEMPERATURE = Domain("temperature in kelvins", minimum=1e-3, maximum=1e9)
@@ -68,6 +70,42 @@ class SpectrumMaking(Curve):
             With all that is wrong with the samples.
         """
         return cls(Sampled(wavelengths, values, outside, name or "a sampled spectrum"))
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: str | PathLike[str],
+        column: str = "power",
+        *,
+        unit: str = "",
+        outside: Any = None,
+        name: str = "",
+    ) -> Self:
+        """Return the spectrum through the samples of a file, as `sampled` does.
+
+        Parameters
+        ----------
+        path : str or PathLike
+            A file of separated values, whose first line has names: ``wavelength (nm), power``.
+        column : str, optional
+            The name of the column of values.
+        unit : str, optional
+            Of the wavelengths, where the first line has none.
+        outside, name
+            As `sampled` takes them; the name is that of the file by default.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            With all that is wrong, and the lines.
+        """
+        found = read_columns(path, [column], unit=unit)
+        values = found.columns[column]
+        return cls.sampled(found.wavelengths, values, outside=outside, name=name or found.title)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
