@@ -147,22 +147,17 @@ def test_the_reference_in_many_digits_has_spectra_and_responses():
 
 
 @pytest.mark.parametrize("spectrum", SMOOTH)
-def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum):
-    jax = pytest.importorskip("jax")
+def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum, jax):
     plan = op.Composer(engine="jax").compose(seen(spectrum, LED))
-    with jax.experimental.enable_x64():
-        for place in (4.23e-7, 5.517e-7):
-            step = 1e-12
-            near = (spectrum * 1.0).at([place - step, place + step]) * LED.at(
-                [place - step, place + step]
-            )
-            expected = (near[1] - near[0]) / (2.0 * step)
-            slope = jax.grad(lambda w: plan.run(wavelength=w).intensity)(place)
-            assert float(slope) == pytest.approx(expected, rel=1e-6, abs=1e-6 * near[0] / place)
+    for place in (4.23e-7, 5.517e-7):
+        step = 1e-12
+        near = [spectrum.at(at) * LED.at(at) for at in (place - step, place, place + step)]
+        slope = jax.grad(lambda w: plan.run(wavelength=w).intensity)(place)
+        expected = (near[2] - near[0]) / (2.0 * step)
+        assert float(slope) == pytest.approx(expected, rel=1e-5, abs=1e-6 * near[1] / place)
 
 
-def test_a_line_is_not_for_wavelengths_that_jax_traces():
-    jax = pytest.importorskip("jax")
+def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
     plan = op.Composer(engine="jax").compose(seen(LASER))
     with pytest.raises(op.ParameterError, match="traced by JAX"):
         jax.jit(lambda w: plan.run(wavelength=w).stokes)(jax.numpy.asarray(GRID))
