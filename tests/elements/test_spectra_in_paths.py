@@ -161,3 +161,7 @@ def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
     plan = op.Composer(engine="jax").compose(seen(LASER))
     with pytest.raises(op.ParameterError, match="traced by JAX"):
         jax.jit(lambda w: plan.run(wavelength=w).stokes)(jax.numpy.asarray(GRID))
+
+
+def test_elements_say_their_spectrum_in_words():
+    assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")

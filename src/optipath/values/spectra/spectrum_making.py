@@ -69,7 +69,7 @@ class SpectrumMaking(Curve):
         ValueFault
             With all that is wrong with the samples.
         """
-        return cls(Sampled(wavelengths, values, outside, name or "a sampled spectrum"))
+        return cls(Sampled(wavelengths, values, outside, _label(name, "a sampled spectrum")))
 
     @classmethod
     def from_csv(
@@ -131,7 +131,7 @@ class SpectrumMaking(Curve):
         ValueFault
             If these are no bins.
         """
-        return cls(Histogram(edges, powers, outside, name or "a histogram"))
+        return cls(Histogram(edges, powers, outside, _label(name, "a histogram")))
 
     @classmethod
     def line(cls, wavelength: Any, power: Any = 1.0, *, outside: Any = None) -> Self:
@@ -257,3 +257,9 @@ class SpectrumMaking(Curve):
             If it is none.
         """
         return cls(EvenSpectrum(one_number("value of a constant spectrum", value)))
+
+
+def _label(name: Any, usual: str) -> str:
+    if not isinstance(name, str):
+        raise ValueFault(f"the name of a spectrum is {shown(name)}; give a text")
+    return name or usual
