@@ -84,3 +84,10 @@ ended = op.path_from_vertices(
     np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
 )
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)
+lamp_spectrum: op.Spectrum = 2 * op.Spectrum.black_body(2856) + op.Spectrum.line("633 nm", 0.1)
+measured: op.Spectrum = op.Spectrum.sampled(["4e-7 m", "5e-7 m"], [1.0, 2.0], outside=0.0, name="x")
+grid = op.wavelengths("380 nm", 7e-7, "40 nm")
+bins: op.Spectrum = measured.rebin([4e-7, 4.5e-7, 5e-7], outside="drop")
+power: float = bins.power() + bins.powers.sum() + measured.values.sum()
+lit: op.PathGraph = op.Source(spectrum=lamp_spectrum) >> op.Detector(response=measured / measured)
+probe: op.Element = op.Detector(response=measured.at(op.Wavelength("probe")))

@@ -168,9 +168,8 @@ def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
     for key in ("line", "led", "width", "illuminant", "name", "unit"):
         if key in raw and not isinstance(raw[key], str):
             example = f"{raw[key]} nm" if key in ("line", "led", "width") else "..."
-            raise PresetError(
-                f"'{key}' is {shown(raw[key])}, but a text is asked for; write {key} = \"{example}\""
-            )
+            wrong = f"'{key}' is {shown(raw[key])}, but a text is asked for"
+            raise PresetError(f'{wrong}; write {key} = "{example}"')
     given = {key: raw[key] for key in ("power", "outside", "name") if key in raw}
     if form in ("wavelengths", "edges"):
         column = _NEEDED[form]

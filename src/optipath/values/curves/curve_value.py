@@ -213,6 +213,14 @@ class CurveValue(Parameter):
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name
 
+    def __repr__(self) -> str:
+        given = ", ".join([one.name for one in self.arguments])
+        shape = (
+            f"{self.scale:g} * " * (self.scale != 1.0),
+            f" + {self.offset:g}" * bool(self.offset),
+        )
+        return f"<{shape[0]}{self.spoken}{shape[1]}, by {given}>"
+
     def __eq__(self, other: object) -> bool:
         return Parameter.__eq__(self, other)
 
