@@ -95,6 +95,12 @@ def test_dark_light_beside_faint_light_costs_nothing():
     assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
 
 
+def test_dark_light_of_which_intensity_alone_is_read_costs_nothing_either():
+    stokes = [[s0, np.nan, np.nan, np.nan] for s0 in (0.0, 1.0, 0.0)]
+    light = op.Light(stokes, wavelength=[4e-7, 5e-7, 6e-7], exponent=[0, -5000, 0])
+    assert light.integrate().log10_intensity == pytest.approx(2.0 - 5000 * math.log10(2.0))
+
+
 @pytest.mark.parametrize("dtype", ["f4", "f8"])
 def test_the_precision_stays(dtype):
     light = op.Light(np.ones((3, 4), dtype) * [[1, 0, 0, 0]], wavelength=EVEN[:3])

@@ -33,6 +33,11 @@ def test_light_of_every_end_has_its_wavelengths():
     assert np.array_equal(DIMMED.trace_all(wavelength=GRID)["detector"].wavelength, GRID)
 
 
+def test_light_of_each_way_has_its_wavelengths():
+    (way,) = DIMMED.compose().paths(wavelength=GRID)
+    assert np.array_equal(way.light.wavelength, GRID)
+
+
 def test_parts_of_a_stream_have_their_wavelengths():
     plan = DIMMED.compose()
     given = {"wavelength": GRID[:, None], "a": np.linspace(0.0, 1.0, 3)}

@@ -143,7 +143,7 @@ def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tupl
         ), 0
     parts, own = normalise_exponent(at_least_single(numbers), exponent)
     # Dark light has no exponent of its own.
-    dark = ~np.any(parts != 0.0, axis=-1)
+    dark = ~np.any(np.abs(parts) > 0.0, axis=-1)
     least = np.iinfo(np.int64).min // 4
     power = np.max(np.where(dark, least, own), axis=axis)
     power = np.where(power == least, 0, power)

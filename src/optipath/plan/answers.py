@@ -164,6 +164,26 @@ class Answers:
             found[name] = Light.of(stokes, frame, exponent, noise, wavelength=later)
         return found
 
+    def as_light(self, parameters: Mapping[str, Any], stokes: Any, frame: Any) -> Light:
+        """Return light of Stokes vectors by themselves, with the frame and wavelengths of a run.
+
+        Parameters
+        ----------
+        parameters : mapping of str to Any
+            What was given.
+        stokes : ndarray, shape (..., 4)
+            The light.
+        frame : Frame or VertexFrame
+            That of an end.
+
+        Returns
+        -------
+        Light
+        """
+        by = self.wavelength
+        later = None if by is None else LaterWavelength(by, self.plan.inputs, parameters)
+        return Light.of(stokes, self.framed(frame, parameters), wavelength=later)
+
     def framed(
         self, frame: Frame | VertexFrame, parameters: Mapping[str, Any], where: Any = ()
     ) -> Any:

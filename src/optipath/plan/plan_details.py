@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any, Never
 
 from optipath.plan.choosing import by_place, only
@@ -109,6 +110,5 @@ class PlanDetails(PlanTexts):
         check_named("paths", (*given, *unnamed), self.inputs.open)
         answers = self.answers
         answers.large_angles.look(parameters)
-        return light_paths(
-            answers.whole, limit, bounces, parameters, lambda f: answers.framed(f, parameters)
-        )
+        as_light = partial(answers.as_light, parameters)
+        return light_paths(answers.whole, limit, bounces, parameters, as_light)

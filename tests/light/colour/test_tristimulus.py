@@ -147,6 +147,12 @@ def test_what_is_no_white_or_observer_is_refused(given, sentence):
         light_of(np.ones(81), VISIBLE).to_xyz(**given)
 
 
+def test_white_of_another_batch_is_refused():
+    lights, whites = (light_of(np.ones((81, n)), VISIBLE[:, None]) for n in (3, 2))
+    with pytest.raises(op.ShapeError, match=r"light \(3,\), white \(2,\)"):
+        lights.to_xyz(white=whites)
+
+
 def test_light_of_one_wavelength_has_no_colour():
     with pytest.raises(op.LightError, match="light of one wavelength, 500 nm, has no spectrum"):
         light_of(1.0, 5e-7).to_xyz()

@@ -195,7 +195,7 @@ def _refuse(colour: Srgb) -> None:
     which = (
         "the colour is" if outside.size == 1 else f"{outside.sum()} of {outside.size} colours are"
     )
-    too = f", and up to {brightest:.3g} times as bright as white" * (brightest > 1.0)
+    too = f" (a component up to {brightest:.3g} times that of white)" * (brightest > 1.0)
     raise ValueFault(
         f"{which} out of the gamut of sRGB, by up to {farthest:.3g} of its range{too}; "
         f"write out_of_gamut='clip', 'scale' or 'keep'"

@@ -13,6 +13,7 @@ from optipath.light.integration import spectral_axis, weighted_sum
 from optipath.light.underflow import times_two_to
 from optipath.light.wavelength_on_demand import WavelengthOnDemand
 from optipath.values.arrays.jax_values import is_traced, known
+from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.calls_up import calls_up
 from optipath.values.spectra.grid_bins import NANOMETRES
 
@@ -47,6 +48,7 @@ def tristimulus(light: WavelengthOnDemand, white: Any, observer: str, outside: s
         absolute: Array = LUMENS_PER_WATT * _plain(total, power)
         return absolute
     of_white, power_of_white = white_sums(light, white, standard, outside)
+    check_broadcast({"light": total.shape[:-1], "white": of_white.shape[:-1]}, fixed=("white",))
     if is_traced(total) or is_traced(of_white):
         relative: Array = _plain(total, power) / _plain(of_white, power_of_white)[..., 1:2]
         return relative
@@ -145,7 +147,7 @@ def warn_of(light: WavelengthOnDemand, observer: Observer, outside: str) -> None
     if ends_within and outside == "dark":
         warnings.warn(
             f"the light is known from {first:.6g} nm to {last:.6g} nm, and taken for dark "
-            f"beyond, where white light has up to {100 * observer.left_out(grid):.2g} % of its X, "
+            f"beyond, where white light has up to {100 * observer.left_out(grid):.3g} % of its X, "
             f"Y or Z; compute it from 380 nm to 780 nm, or write outside='nearest'",
             ColourWarning,
             stacklevel=calls_up(),

@@ -14,13 +14,13 @@ from optipath.errors import ParameterError
 from optipath.kernels.carriers.parted import energy
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.kernels.numbers.primitives import NUMPY
-from optipath.light.light import Light
 from optipath.plan.light_paths.light_path import LightPath
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
 
     from optipath.kernels.carriers.carried import Carried
+    from optipath.light.light import Light
     from optipath.plan.running.runner import Runner
 
 _FAINTEST = 1e-200
@@ -54,14 +54,14 @@ class Search:
         The path as it stands.
     parameters : mapping of str to Any
         What is given.
-    framed : callable
-        Gives the frame of a reading for these values, or what makes it.
+    as_light : callable
+        Makes light of Stokes vectors and the frame of a reading, for these values.
     """
 
     def __init__(
-        self, whole: Runner, parameters: Mapping[str, Any], framed: Callable[[Any], Any]
+        self, whole: Runner, parameters: Mapping[str, Any], as_light: Callable[[Any, Any], Light]
     ) -> None:
-        self.framed = framed
+        self.as_light = as_light
         self.program = whole.program
         self.carrier = StokesCarrier(NUMPY)
         given = whole.reader.read(parameters)
@@ -195,5 +195,5 @@ class Search:
         parts = [np.broadcast_to(part, self.batch) for part in components]
         stokes = np.stack(parts, axis=-1)
         stokes[..., reading.components :] = np.nan
-        light = Light.of(stokes, self.framed(reading.frame))
+        light = self.as_light(stokes, reading.frame)
         return LightPath(branch.route, branch.end, branch.bounces, light)

@@ -12,6 +12,7 @@ from optipath.values.whole_numbers import whole_number
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from optipath.light.light import Light
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.running.runner import Runner
 
@@ -21,7 +22,7 @@ def light_paths(
     limit: int | None,
     bounces: int | None,
     parameters: Mapping[str, Any],
-    framed: Callable[[Any], Any],
+    as_light: Callable[[Any, Any], Light],
 ) -> list[LightPath]:
     """Return the ways of light through a path, the brightest first.
 
@@ -35,8 +36,8 @@ def light_paths(
         How many reflections each may have.
     parameters : mapping of str to Any
         As a plan takes them.
-    framed : callable
-        Gives the frame of a reading for these values, or what makes it.
+    as_light : callable
+        Makes light of Stokes vectors and the frame of a reading, for these values.
 
     Returns
     -------
@@ -60,7 +61,7 @@ def light_paths(
     with whole.enough_for(batch, 4 * len(whole.program.readings) + 16):
         # Refuses light that never fades.
         whole.interpreter.lights(whole.reader.read(parameters))
-        for path in Search(whole, parameters, framed).paths(bounces):
+        for path in Search(whole, parameters, as_light).paths(bounces):
             if len(found) == limit:
                 break
             found.append(path)

@@ -81,7 +81,9 @@ class LaterWavelength:
     @cached_property
     def _found(self) -> Any:
         given = self.parameters.get(self.parameter.name, self.parameter.default)
-        found = self.parameter.resolve(given).value
+        found, present = self.parameter.resolve(given)
+        if not np.all(present):
+            found = np.where(present, found, np.nan)
         if self.where:
             _, batch = self.inputs.resolve(self.parameters)
             found = sliced(found, batch, self.where)
