@@ -140,3 +140,35 @@ def test_the_field_behind_lags_as_the_phase_of_t_says():
     way = depth / math.cos(theta)
     along_face = wave * math.sin(incidence) * depth * math.tan(theta)
     assert np.angle(field) + along_face == pytest.approx(np.angle(t_s) + wave * n * way)
+
+
+@given(n=INDICES, k=st.floats(1e-3, 10.0), angle=st.floats(0.01, 1.57))
+def test_of_three_printed_formulas_of_the_angle_two_are_that_of_the_wave_and_one_is_none(
+    n, k, angle
+):
+    with mpmath.workdps(50):
+        n, k, s = map(mpmath.mpf, (n, k, math.sin(angle)))
+        contrast = n * n - k * k
+        R = mpmath.sqrt((contrast - s * s) ** 2 + 4 * n * n * k * k)
+        by_wave = mpmath.atan(s / mpmath.sqrt((R + contrast - s * s) / 2))
+        by_snell = mpmath.asin(s / mpmath.sqrt((contrast + s * s + R) / 2))
+        other_root = (contrast + s * s - R) / 2
+        assert abs(by_wave - by_snell) < mpmath.mpf(10) ** -40
+        assert other_root < s * s
+        found = op.refraction_angle(complex(n, k), op.CosSin(math.cos(angle), math.sin(angle)))
+        assert float(found) == pytest.approx(float(by_wave), rel=1e-13)
+
+
+@pytest.mark.parametrize("m", [1.5, 0.7 + 2.03j])
+def test_the_real_wave_vector_has_the_parts_of_the_wave_and_by_the_other_root_it_has_not(m):
+    n, k, s = complex(m).real, complex(m).imag, math.sin(0.9)
+    g = np.sqrt(m * m - s * s + 0j)
+    at, angle = op.effective_index(m, 0.9), op.refraction_angle(m, 0.9)
+    ray = refracted_by_subtraction(DIRECTION, NORMAL, 1.0 / at.n, np.cos(angle))
+    np.testing.assert_allclose(at.n * ray, [s, 0.0, -g.real], rtol=1e-14)
+    root = math.sqrt((n * n - k * k - s * s) ** 2 + 4 * n * n * k * k)
+    with np.errstate(invalid="ignore"):
+        other = np.sqrt((n * n - k * k + s * s - root) / 2)
+        sin = np.minimum(s / other, 1.0)
+    # In glass it lies along the face; in a metal there is none.
+    assert (sin == pytest.approx(1.0)) if k == 0.0 else np.isnan(sin)
