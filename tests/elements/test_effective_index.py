@@ -98,6 +98,13 @@ def test_slopes_are_those_of_50_digits(jax):
                 np.testing.assert_allclose(there, expected, rtol=1e-12, atol=1e-13)
 
 
+@pytest.mark.parametrize("asked", [op.effective_index, op.refraction_angle])
+def test_no_light_arrives_at_a_right_angle_out_of_a_medium_that_absorbs(asked):
+    with pytest.raises(op.ValueFault, match="right angle out of a medium that absorbs"):
+        asked(1.5, "90 deg", outside=1.5 + 0.1j)
+    assert np.all(np.isfinite(asked(1.5, "90 deg", outside=1.2)))
+
+
 def refracted_by_subtraction(direction, normal, ratio, cos):
     """The part of a direction along the face, scaled, less the normal times a cosine."""
     along = direction - np.dot(direction, normal) * normal

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.elements.single_boundary import (
+    arriving_cosine,
     given_cosine_and_sine,
     given_incidence,
     given_index,
@@ -165,7 +166,7 @@ def refraction_angle(
     Raises
     ------
     ValueFault
-        If a value is not allowed.
+        If a value is not allowed, or light arrives at a right angle out of a medium that absorbs.
     ShapeError
         If the values do not broadcast.
     ParameterError
@@ -181,7 +182,9 @@ def refraction_angle(
     m, front = given_index("index", index), given_index("outside", outside, lit=True)
     cos, sin = given_incidence(incidence)
     check_broadcast({"index": m.shape, "incidence": cos.shape, "outside": front.shape})
-    n1, k1, n, k, cos, sin = np.broadcast_arrays(*parts_of(front), *parts_of(m), cos, sin)
+    n1, k1 = parts_of(front)
+    cos = arriving_cosine(cos, k1)
+    n1, k1, n, k, cos, sin = np.broadcast_arrays(n1, k1, *parts_of(m), cos, sin)
     with np.errstate(all="ignore"):
         c, s = refraction(NUMPY)(*phase_index(NUMPY)(n1, k1, cos, sin), n, k, cos, sin)
     return np.asarray(np.arctan2(s, c))
