@@ -86,7 +86,20 @@ def test_the_misprints_are_noted_in_the_preset():
     cases = op.load_preset("npgr026").cases
     assert "sign" in cases["3"].note
     assert all("0.666" in cases[case].note for case in "456")
-    assert not any(cases[case].note for case in "12789")
+    assert not any(cases[case].note for case in "12")
+
+
+def test_the_metals_are_named_with_what_tables_have_of_them_and_make_of_the_cases():
+    """Figures of refractiveindex.info at 516 nm: Cu and Au of Johnson and Christy."""
+    copper, gold = 1.18784 + 2.599376j, 0.70232 + 2.032392j
+    tables = {"n1": copper.real, "k1": copper.imag, "n2": gold.real, "k2": gold.imag}
+    for case in "789":
+        path = op.load_preset("npgr026", case=case)
+        note = path.cases[case].note
+        assert "X1 is copper and X2 gold, at 516 nm" in note
+        for index in (copper, gold):
+            assert f"{index.real:.3f}+{index.imag:.3f}i" in note
+        assert f"{float(path.trace(**tables).intensity):.3f}" in note
 
 
 def test_all_nine_cases_run_as_one_batch():
