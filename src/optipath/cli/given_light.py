@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath.cli.plain_json import plain
-from optipath.errors import OptipathError, printable
+from optipath.errors import OptipathError, ParameterError, printable
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.materials import Material
 from optipath.values.other_part import places_of
@@ -44,6 +44,35 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
         return False
     places = places_of(uses, parameter.name)
     return bool(places) and all(use.domain.takes_materials for use in places)
+
+
+def material_named(option: str, text: str) -> Material:
+    """Return the material of a name.
+
+    Parameters
+    ----------
+    option : str
+        Behind which it stands.
+    text : str
+        A name, or a book and a page, ``"Au/Johnson"``.
+
+    Returns
+    -------
+    Material
+
+    Raises
+    ------
+    ParameterError
+        Naming the option: if there is no such material, or no database.
+    """
+    try:
+        return Material.named(text)
+    except OptipathError as error:
+        faults = [
+            fault.replace("name one by page=", f"write {option} '{text}/PAGE'")
+            for fault in error.faults
+        ]
+        raise ParameterError(*(f"{option}: {fault}" for fault in faults)) from None
 
 
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:

@@ -10,9 +10,11 @@ from optipath.errors import PresetError
 from optipath.paths.format.crystal_tables import CRYSTAL, crystal_of
 from optipath.paths.format.curve_tables import SUM, WHEN
 from optipath.paths.format.formula_tables import formula_table
+from optipath.paths.format.page_tables import own_part, page_table
 from optipath.paths.format.samples import written_wavelengths
 from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.page_curve import PageCurve
 from optipath.values.curves.tabulated import Tabulated
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.parameters import Parameter
@@ -48,6 +50,12 @@ def material_table(material: Material, encode: Encode) -> dict[str, Any]:
     n, k = material.n, material.k
     if isinstance(n, CurveValue) and _are_parts(n, k):
         return _table(n.curve, n.given_by, "", encode)
+    first = n if isinstance(n, CurveValue) else k
+    curve = getattr(first, "curve", None)
+    if isinstance(curve, PageCurve) and curve.asked and not _are_both_curves(n, k):
+        own = {part: encode(value, "") for part, value in own_part(curve, n, k).items()}
+        if first.is_signed and not first.is_negative:
+            return _table(curve, first.given_by, "", encode) | own
     return {"n": encode(n, ""), "k": encode(k, "")}
 
 
@@ -56,9 +64,14 @@ def _are_parts(n: CurveValue, k: Any) -> bool:
     if not n.is_signed or n.is_negative or n.curve.parts[n.place] != "n":
         return False
     if not isinstance(k, CurveValue):
-        return "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
+        of_page = isinstance(n.curve, PageCurve)
+        return not of_page and "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
     same = k.curve == n.curve and k.given_by == n.given_by and k.curve.parts[k.place] == "k"
     return same and k.is_signed and not k.is_negative
+
+
+def _are_both_curves(n: Any, k: Any) -> bool:
+    return isinstance(n, CurveValue) and isinstance(k, CurveValue)
 
 
 def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]:
@@ -84,7 +97,7 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
     """
     table = _table(value.curve, value.given_by, unit, encode)
     part = value.curve.parts[value.place]
-    if part != "value" and len(value.curve.parts) > 1:
+    if part not in ("value", "n"):  # It is n where a table does not say.
         table["part"] = part
     if value.scale != 1.0:
         table["scale"] = value.scale
@@ -98,8 +111,11 @@ def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -
         return {CRYSTAL: name} | _wavelength(given_by[0], encode)
     if isinstance(curve, CurveSum):
         return _sum(curve, given_by, unit, encode)
+    table: dict[str, Any] | None
     if isinstance(curve, Tabulated):
-        table: dict[str, Any] | None = _samples(curve, unit, encode)
+        table = _samples(curve, unit, encode)
+    elif isinstance(curve, PageCurve):
+        table = page_table(curve)
     else:
         table = formula_table(curve, encode)
     if table is None:
@@ -127,7 +143,7 @@ def _sum(curve: CurveSum, given_by: tuple[Any, ...], unit: str, encode: Encode) 
         count = len(one.arguments())
         own, left = (when, *left[:count]), left[count:]
         table = _table(one, own, unit, encode)
-        if len(one.parts) > 1:
+        if one.parts[place] not in ("value", "n"):
             table["part"] = one.parts[place]
         terms.append(table | ({"scale": factor} if factor != 1.0 else {}))
     if curve.constant:
