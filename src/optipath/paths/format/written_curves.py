@@ -50,24 +50,31 @@ def material_table(material: Material, encode: Encode) -> dict[str, Any]:
     n, k = material.n, material.k
     if isinstance(n, CurveValue) and _are_parts(n, k):
         return _table(n.curve, n.given_by, "", encode)
-    first = n if isinstance(n, CurveValue) else k
-    curve = getattr(first, "curve", None)
-    if isinstance(curve, PageCurve) and curve.asked and not _are_both_curves(n, k):
-        own = {part: encode(value, "") for part, value in own_part(curve, n, k).items()}
-        if first.is_signed and not first.is_negative:
-            return _table(curve, first.given_by, "", encode) | own
+    # A page with n or k alone, the other being given beside its name.
+    for part, value in (("n", n), ("k", k)):
+        if _is_plain(value) and isinstance(value.curve, PageCurve):
+            curve = value.curve
+            if curve.asked and curve.parts == (part,) and not _are_both_curves(n, k):
+                own = own_part(curve, n, k)
+                named = _table(curve, value.given_by, "", encode)
+                return named | {key: encode(each, "") for key, each in own.items()}
     return {"n": encode(n, ""), "k": encode(k, "")}
 
 
 def _are_parts(n: CurveValue, k: Any) -> bool:
     """Tell whether n and k are those of one curve, at the same wavelength."""
-    if not n.is_signed or n.is_negative or n.curve.parts[n.place] != "n":
+    if not _is_plain(n) or n.curve.parts[n.place] != "n":
         return False
     if not isinstance(k, CurveValue):
         of_page = isinstance(n.curve, PageCurve)
         return not of_page and "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
     same = k.curve == n.curve and k.given_by == n.given_by and k.curve.parts[k.place] == "k"
-    return same and k.is_signed and not k.is_negative
+    return same and _is_plain(k)
+
+
+def _is_plain(value: Any) -> bool:
+    """Tell whether a value follows from a curve, and is no multiple of what does."""
+    return isinstance(value, CurveValue) and value.is_signed and not value.is_negative
 
 
 def _are_both_curves(n: Any, k: Any) -> bool:
