@@ -86,6 +86,11 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
         What they are given for.
     values : dict of str to Any
         By name.
+
+    Raises
+    ------
+    ParameterError
+        If it is no wavelength of light.
     """
     name = WAVELENGTH.name
     if name not in values or name in path.parameters:
@@ -96,7 +101,7 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        del values[name]
+        WAVELENGTH.resolve(values.pop(name))
         told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
         click.echo(printable(told), err=True)
 
