@@ -118,7 +118,12 @@ def test_the_path_is_copied_kept_and_written(tmp_path):
 def test_drawings_and_explanations_call_a_material_by_its_name():
     path = op.load_preset("npgr026", n1=metal())
     assert "X1  interface  index=paint  incidence=$delta" in draw(path)
-    assert "parameter wavelength: must be given" in str(path.compose().explanation())
+    explained = str(path.compose().explanation())
+    assert "parameter wavelength: must be given" in explained
+    assert "n of paint follows from wavelength" in explained
+    green = str(path.bind(wavelength="516 nm").compose().explanation())
+    assert "parameter wavelength = 516 nm" in green
+    assert "paint" not in green
 
 
 def test_questions_of_a_plan_take_the_wavelength():
