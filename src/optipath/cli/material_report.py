@@ -12,8 +12,8 @@ from optipath.cli.plain_json import plain
 from optipath.elements.fresnel import fresnel_reflection, refraction_angle
 from optipath.errors import MaterialError, OptipathError
 from optipath.values.curves.curve_value import CurveValue
-from optipath.values.curves.page_curve import PageCurve, span_text
-from optipath.values.curves.wavelength_range import WavelengthRange
+from optipath.values.curves.page_curve import PageCurve
+from optipath.values.curves.wavelength_range import WavelengthRange, span_text
 from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.materials import Material
 from optipath.values.units import format_quantity, in_unit, parse_quantity

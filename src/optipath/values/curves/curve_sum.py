@@ -56,7 +56,6 @@ class CurveSum(Curve):
         return [argument for _, curve, _ in self.terms for argument in curve.arguments()]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        """Return the sum, its terms added up in their order."""
         left = list(arguments)
         total = self.constant
         for factor, curve, place in self.terms:

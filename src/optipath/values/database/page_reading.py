@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import MaterialError, OptipathError, unknown
 from optipath.values.cures import cure
 from optipath.values.curves.dispersion_formula import nearest_asked_for
-from optipath.values.curves.page_curve import PageCurve, span_text
+from optipath.values.curves.page_curve import PageCurve
 from optipath.values.curves.tabulated import EXTRAPOLATIONS, INTERPOLATIONS
+from optipath.values.curves.wavelength_range import span_text
 from optipath.values.database.page_entries import PageEntry, entries_of
 
 if TYPE_CHECKING:
