@@ -12,7 +12,6 @@ from optipath.cli.plain_json import plain
 from optipath.elements.fresnel import fresnel_reflection, refraction_angle
 from optipath.errors import MaterialError, OptipathError
 from optipath.values.curves.curve_value import CurveValue
-from optipath.values.curves.page_curve import PageCurve
 from optipath.values.curves.wavelength_range import WavelengthRange, span_text
 from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.materials import Material
@@ -23,6 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
+
+    from optipath.values.curves.page_curve import PageCurve
 
 
 @dataclass(frozen=True)

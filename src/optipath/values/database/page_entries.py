@@ -111,7 +111,7 @@ def _entry(entry: Any) -> PageEntry:
         )
     if match[1]:
         return _table(kind, tuple(match[1]), entry.get("data"))
-    low_high = _numbers(entry, "wavelength_range" if "wavelength_range" in entry else "range")
+    low_high = _numbers(entry, "range" if "range" in entry else "wavelength_range")
     if len(low_high) != 2 or not 0.0 < float(low_high[0]) < float(low_high[1]):
         raise OptipathError("has no 'wavelength_range' of two rising numbers, in micrometres")
     coefficients = tuple(map(float, _numbers(entry, "coefficients")))
