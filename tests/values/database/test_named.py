@@ -81,6 +81,28 @@ def refusal(name, **given):
     return ""
 
 
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    ("name", "measured"),
+    [
+        ("silica", "specs/CRYSTRAN-optical/fused_silica-uv"),
+        ("silica", "main/SiO2/Franta"),
+        ("quartz-o", "specs/CRYSTRAN-optical/quartz-o"),
+        ("calcite-o", "specs/CRYSTRAN-optical/CaCO3-o"),
+        ("CaF2", "specs/CRYSTRAN-optical/CaF2"),
+        ("PMMA", "organic/poly_methyl_methacrylate/Zhang-Tomson"),
+        ("polycarbonate", "organic/polycarbonate/Zhang"),
+        ("polystyrene", "organic/polystyrene/Zhang"),
+    ],
+)
+def test_where_k_is_taken_for_0_other_pages_have_less_than_1e_5(name, measured):
+    wavelengths = np.linspace(*op.Material.named(name).span, 1000)
+    curve = op.Material.named(measured, n=1.5).k.curve
+    low, high = curve.span
+    (k,) = curve.evaluated(wavelengths[(wavelengths > low) & (wavelengths < high)])
+    assert np.all(np.abs(k) < 1e-5)
+
+
 def test_no_two_short_names_are_one():
     assert len(curated_names()) == sum(len(curated.names) for curated in CURATED)
 
@@ -137,7 +159,7 @@ def test_a_glass_is_found_by_its_own_name_and_spaces_count_as_underscores():
             "has 4 coefficients, which formula 2 cannot have; name",
         ),
         ("gold", {"wavelength": "5 um"}, "within 187.9 nm .. 1937 nm, for which gold (Johnson and"),
-        ("silica", {"wavelength": "5 um"}, "within 210 nm .. 3500 nm, for which silica (Malitson"),
+        ("silica", {"wavelength": "5 um"}, "within 210 nm .. 2100 nm, for which silica (Malitson"),
         ("gold", {"wavelength": 516}, "for nanometres write '516 nm'"),
         ("../../Au/Johnson", {}, "is unknown"),
     ],
