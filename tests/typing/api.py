@@ -87,3 +87,8 @@ ended = op.path_from_vertices(
     np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
 )
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)
+
+
+def of_pages() -> tuple[op.Material, op.Material]:
+    gold = op.Material.named("gold", page="Johnson", wavelength="516 nm")
+    return gold, op.Material.from_yaml("mine.yml", k=0.0, extrapolate="nearest")

@@ -94,16 +94,28 @@ def test_a_file_is_named_by_its_sentences(written):
         (FORMULA.replace("103.560653", ""), "6 coefficients, which formula 2 cannot have"),
         (FORMULA.replace("103.560653", "nan"), "has no numbers under 'coefficients'"),
         (TABLE.replace("0.5 1.5 0.2", "0.4 1.5 0.2"), "mine.yml has the wavelength 400 nm twice"),
-        (TABLE.replace("0.5 1.5 0.2", "0.5 nan 0.2"), "n of mine.yml: nan at 1 is no number"),
+        (TABLE.replace("0.5 1.5 0.2", "0.5 nan 0.2"), "no numbers in row 2, '0.5 nan 0.2'"),
         (TABLE.replace("nk", "k").replace(" 1.6 ", " "), "has 3 numbers in row 2"),
+        (TABLE.replace("0.5 1.5", "0.5e999999999999 1.5"), "has no numbers in row 2"),
+        (TABLE.replace("0.5 1.5", "0.5 sNaN"), "has no numbers in row 2"),
+        (FORMULA.replace("2.5\n", "1e999\n"), "has no numbers under 'wavelength_range'"),
         ("DATA: [", "is no YAML at line "),
-        ("DATA: " + "[" * 5000, "is no YAML"),
+        ("DATA: " + "[" * 100_000, "is no YAML: it is nested too deeply"),
+        ("DATA: " + "{a: " * 100_000, "is no YAML: it is nested too deeply"),
+        ("DATA: !!python/object/apply:os.getcwd []", "it has no list DATA"),
     ],
 )
 def test_a_faulty_file_is_refused_in_words(written, text, told):
     found = refusal(written(text))
     assert told in found
     assert "mine.yml" in found
+
+
+def test_references_within_references_are_not_written_out(written):
+    # Each of 40 lists holds the one before twice.
+    lists = ["a0: &a0 [x, x]", *[f"a{i}: &a{i} [*a{i - 1}, *a{i - 1}]" for i in range(1, 40)]]
+    text = "\n".join([*lists, "REFERENCES: *a39", "DATA:", " - type: *a39", " - data: *a39"])
+    assert "2 faults" in refusal(written(text))
 
 
 def test_all_faults_of_a_file_are_told_at_once(written):

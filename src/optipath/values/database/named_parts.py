@@ -99,7 +99,7 @@ def parts_of_file(
     given = {part: value for part, value in own.items() if value is not None}
     file = Path(path)
     curve = page_curve(
-        read_yaml(file, str(file)),
+        read_yaml(file, str(file), installed=False),
         file.name,
         str(file),
         wanted=_wanted(file.name, given),
@@ -140,7 +140,7 @@ def curve_of(
     usual = {"interpolation": "linear", "extrapolate": ""}
     about = found.page.place
     return page_curve(
-        read_yaml(found.page.file, about),
+        read_yaml(found.page.file, about, installed=True),
         found.label,
         about,
         wanted=_wanted(found.name, own),

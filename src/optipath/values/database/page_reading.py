@@ -92,7 +92,8 @@ def source_of(contents: Any) -> str:
     'A. Author. J. Opt. 1, 2 (1990)'
     """
     text = contents.get("REFERENCES", "") if isinstance(contents, dict) else ""
-    return " ".join(unescape(re.sub(r"<[^>]*>", " ", str(text))).split()).replace(" ,", ",")
+    words = unescape(re.sub(r"<[^>]*>", " ", text)).split() if isinstance(text, str) else []
+    return " ".join(words).replace(" ,", ",")
 
 
 def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:
