@@ -115,3 +115,8 @@ in_bins: op.Light = same_spectral.integrate(edges=["350 nm", "450 nm", "550 nm",
 tristimulus: np.ndarray = spectral.to_xyz(white=op.Spectrum.illuminant("D65"), outside="nearest")
 displayed: op.Srgb = spectral.to_srgb(white=spectral, adapt=True, out_of_gamut="clip")
 too_colourful: np.ndarray = displayed.outside
+
+
+def of_pages() -> tuple[op.Material, op.Material]:
+    gold = op.Material.named("gold", page="Johnson", wavelength="516 nm")
+    return gold, op.Material.from_yaml("mine.yml", k=0.0, extrapolate="nearest")
