@@ -51,12 +51,16 @@ def test_birefringence_of_quartz_has_all_its_digits():
 
 
 def test_slopes_of_the_birefringence_are_those_of_its_closed_form(jax):
-    birefringence = op.Crystal.named("quartz").birefringence
+    quartz = op.Crystal.named("quartz").birefringence
+
+    def birefringence(wavelength):
+        return quartz.curve.evaluated(wavelength, *quartz.given_by[1:])[0]
+
     with mpmath.workdps(50):
         exact = mpmath.diff(
             lambda w: sellmeier(QUARTZ["e"], w) - sellmeier(QUARTZ["o"], w), mpf(4.3e-7)
         )
-        assert float(jax.grad(birefringence.at)(4.3e-7)) == pytest.approx(float(exact), rel=1e-13)
+        assert float(jax.grad(birefringence)(4.3e-7)) == pytest.approx(float(exact), rel=1e-13)
 
 
 @pytest.mark.parametrize(("wavelength", "degrees"), SORET_AND_SARASIN.items())
@@ -79,9 +83,7 @@ def test_a_crystal_of_ones_own_has_the_difference_of_its_indices():
 def test_what_is_no_crystal_is_refused():
     with pytest.raises(op.ValueFault, match="did you mean 'quartz'"):
         op.Crystal.named("quarz")
-    with pytest.raises(
-        op.ValueFault, match=r"extraordinary of the crystal is 1\.6; give a Material"
-    ):
+    with pytest.raises(op.ValueFault, match=r"extraordinary of the crystal is 1\.6; give"):
         op.Crystal(op.Material(1.5), 1.6)
     with pytest.raises(op.ValueFault, match="known"):
         op.Crystal.named("quartz").birefringence.at("3 um")
