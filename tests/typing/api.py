@@ -34,6 +34,10 @@ sugar = path.add("sugar", op.Medium(length=0.1, rotation=2.0))
 ink = path.add("ink", op.Medium.from_extinction(1e-6, k=0.1, wavelength=500e-9))
 rod = path.add("rod", op.FaradayRotator(verdet="-134 rad/(T m)", field=-0.2, length="2 cm"))
 circular = path.add("circular", op.CircularPolarizer("left", leakage=op.Parameter("l", 0.1)))
+crystal: op.Crystal = op.Crystal.named("quartz")
+half: op.Waveplate = op.Waveplate.half("550 nm", crystal, order=1, angle=0.3)
+green: op.Parameter = op.tabulated(["500 nm", "600 nm"], [0.2, 0.8], label="green glass")
+verdet: op.Parameter = op.drude_rotation([-41.72], [0.08909], unit="rad/(T m)")
 quartz = path.add("quartz", op.Waveplate("2 mm", 0.0091, op.Parameter("w", 5e-7), angle=0.1))
 lamp >> rod >> circular >> quartz >> glass
 glass >> metal >> mirror >> partial >> ground >> sugar >> ink >> plate

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from optipath.errors import ValueFault, did_you_mean, shown
 from optipath.values.arrays.read_only import same_fields
+from optipath.values.curves.birefringence import BirefringenceCurve
 from optipath.values.curves.by_wavelength import drude_rotation
-from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.curve_value import CurveValue, curve_values
 from optipath.values.curves.sellmeier_curve import Sellmeier
 from optipath.values.materials import Material
@@ -164,14 +164,22 @@ class Crystal:
     @property
     def birefringence(self) -> Any:
         """n_e - n_o: positive where the ordinary ray is the fast one, as in quartz."""
-        found = self.extraordinary.n - self.ordinary.n
-        if not isinstance(found, CurveValue) or not isinstance(found.curve, CurveSum):
-            return found
-        curve = replace(found.curve, called=f"the birefringence of {self.label}")
-        return curve_values(curve, found.given_by[0])[0]
+        rays = self.extraordinary.n, self.ordinary.n
+        if not all(isinstance(ray, CurveValue) and _is_plain(ray) for ray in rays):
+            return rays[0] - rays[1]
+        one, other = [ray.curve for ray in rays]
+        if len(one.b) != len(other.b) or rays[0].given_by[0] != rays[1].given_by[0]:
+            return rays[0] - rays[1]
+        curve = BirefringenceCurve(f"the birefringence of {self.label}", one, other)
+        return curve_values(curve, rays[0].given_by[0])[0]
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
+
+
+def _is_plain(ray: CurveValue) -> bool:
+    """Tell whether an index is that of a formula of Sellmeier, and no multiple of it."""
+    return isinstance(ray.curve, Sellmeier) and ray.quantity == ray.name
 
 
 def _material(label: str, ray: _Ray, span: tuple[str, str], wavelength: Any) -> Material:

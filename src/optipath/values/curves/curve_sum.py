@@ -24,19 +24,14 @@ class CurveSum(Curve):
         Of each term the factor, the curve, and which of its parts.
     constant : float
         What is added.
-    called : str
-        What sentences call it, where that is not the sum as one writes it.
     """
 
     terms: tuple[tuple[float, Curve, int], ...]
     constant: float = 0.0
-    called: str = ""
 
     @cached_property
     def label(self) -> str:  # type: ignore[override]
-        """What sentences call it: by default the sum as one writes it."""
-        if self.called:
-            return self.called
+        """What sentences call it: the sum as one writes it."""
         text = "".join([_written(*term) for term in self.terms]).removeprefix(" + ").strip()
         return f"{text}{f' {self.constant:+g}' * bool(self.constant)}"
 

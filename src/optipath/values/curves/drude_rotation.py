@@ -20,7 +20,7 @@ _MICROMETRES = 1e6
 
 @dataclass(frozen=True, eq=False)
 class DrudeRotation(Curve):
-    """A constant and the sum of A / (w^2 - C), w in micrometres, times a unit.
+    """A constant and the sum of A / (w^2 - C), w in micrometres, times a unit; NaN at a resonance.
 
     Attributes
     ----------
@@ -76,7 +76,6 @@ class DrudeRotation(Curve):
         return self.label, self.unit, self.strengths, self.poles, self.constant, self.span
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        """Return the rotation; NaN at a resonance."""
         del arguments
         square = (wavelength * _MICROMETRES) ** 2
         total = self.constant + 0.0 * square
