@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, listed
 from optipath.kernels.dispersion.database_formulas import DATABASE_FORMULAS, coefficients_fit
+from optipath.values.cures import cure
 from optipath.values.curves.curve import Curve
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ class DispersionFormula(Curve):
             known_span=known_span,
             extrapolate=extrapolate,
             span=(0.0, float("inf")) if extrapolate else known_span,
-            beyond="ask for extrapolate='nearest'",
+            beyond=nearest_asked_for(),
         )
 
     @property
@@ -83,3 +84,8 @@ class DispersionFormula(Curve):
         inside = xp.clip(wavelength, *self.known_span) if self.extrapolate else wavelength
         found = DATABASE_FORMULAS[self.formula](xp, inside * 1e6, self.coefficients)
         return (xp.broadcast_to(found, xp.shape(wavelength)),)
+
+
+def nearest_asked_for() -> str:
+    """Return the one way to leave the range of a formula, as a cure."""
+    return cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault
+from optipath.values.cures import cure
 from optipath.values.curves.curve import Curve
 from optipath.values.units import format_quantity
 
@@ -23,8 +24,8 @@ class PageCurve(Curve):
         What it is made of, with parts of different names.
     within : tuple of float, optional
         The wavelengths at which its k, which it does not have, is 0, in metres.
-    source : str, optional
-        Where the numbers are from.
+    place, source : str, optional
+        The page or file, and where its numbers are from.
     asked : mapping of str to str, optional
         By which arguments `Material.named` makes it; none for what is read from a file.
 
@@ -43,6 +44,7 @@ class PageCurve(Curve):
     """
 
     curves: tuple[Curve, ...]
+    place: str
     source: str
     asked: Mapping[str, str]
 
@@ -52,6 +54,7 @@ class PageCurve(Curve):
         curves: Sequence[Curve],
         *,
         within: tuple[float, float] | None = None,
+        place: str = "",
         source: str = "",
         asked: Mapping[str, str] | None = None,
     ) -> None:
@@ -64,15 +67,17 @@ class PageCurve(Curve):
             label=label,
             curves=tuple(curves),
             parts=tuple([part for curve in curves for part in curve.parts]),
+            place=place,
             source=source,
             asked=dict(asked or {}),
             span=(low, high),
-            beyond=curves[lows.index(low)].beyond,
+            # The one with fewer ways to leave its range has the shorter sentence.
+            beyond=min([curve.beyond for curve in curves], key=len),
             unreal="; ".join(filter(None, [curve.unreal for curve in curves])),
         )
         if within is not None:
             clear = max(low, within[0]), min(high, within[1])
-            vars(self).update(span=clear, beyond="give k, which is not 0 elsewhere")
+            vars(self).update(span=clear, beyond=cure("give k, as k=1e-4", "give k, as k = 1e-4"))
 
     @property
     def content(self) -> tuple[Hashable, ...]:

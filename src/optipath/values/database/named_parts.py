@@ -139,7 +139,7 @@ def curve_of(
     """
     how = {"interpolation": interpolation, "extrapolate": extrapolate}
     usual = {"interpolation": "linear", "extrapolate": ""}
-    about = f"page {found.page.place}"
+    about = found.page.place
     return page_curve(
         read_yaml(found.page.file, about),
         found.label,
@@ -147,7 +147,7 @@ def curve_of(
         wanted=_wanted(found.name, own),
         within=found.clear,
         asked={"name": found.name, **{k: v for k, v in how.items() if v != usual[k]}},
-        cure=f"name another page, or mend a copy of {found.page.file} for Material.from_yaml",
+        remedy=f"name another page, or mend a copy of {found.page.file} for Material.from_yaml",
         **how,
     )
 

@@ -7,6 +7,8 @@ from html import unescape
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import MaterialError, OptipathError, unknown
+from optipath.values.cures import cure
+from optipath.values.curves.dispersion_formula import nearest_asked_for
 from optipath.values.curves.page_curve import PageCurve, span_text
 from optipath.values.curves.tabulated import EXTRAPOLATIONS, INTERPOLATIONS
 from optipath.values.database.page_entries import PageEntry, entries_of
@@ -15,10 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Mapping
 
 _ADJECTIVES = {"n": "index of refraction", "k": "extinction coefficient"}
-_CURES = {
-    "n": "give it, as n=1.5",
-    "k": "where the material is transparent, ask for k=0.0, or give the k that it has",
-}
 
 
 def page_curve(
@@ -31,7 +29,7 @@ def page_curve(
     extrapolate: str = "",
     within: tuple[float, float] | None = None,
     asked: Mapping[str, str] | None = None,
-    cure: str = "",
+    remedy: str = "",
 ) -> PageCurve:
     """Return the curve of a page.
 
@@ -49,7 +47,7 @@ def page_curve(
         Where k may be taken for 0, which is given apart; nothing where it is not.
     asked : mapping of str to str, optional
         By which arguments `Material.named` makes it.
-    cure : str, optional
+    remedy : str, optional
         What to do where the numbers of the page are at fault.
 
     Returns
@@ -64,7 +62,7 @@ def page_curve(
     faults: list[str] = []
     entries = entries_of(contents, faults)
     if faults:
-        raise MaterialError(*_cured(faults, cure), about=about)
+        raise MaterialError(*_cured(faults, remedy), about=about)
     # Of two entries that give one part, the later one counts, as the database's reader has it.
     giving = {part: entry for entry in entries for part in entry.parts}
     if lacking := [part for part in wanted if part not in giving]:
@@ -78,9 +76,10 @@ def page_curve(
             if (parts := [part for part in entry.parts if chosen.get(part) is entry])
         ]
         clear = None if extrapolate else within
-        return PageCurve(label, curves, within=clear, source=source_of(contents), asked=asked)
+        source = source_of(contents)
+        return PageCurve(label, curves, within=clear, place=about, source=source, asked=asked)
     except OptipathError as error:
-        raise MaterialError(*_cured(error.faults, cure)) from None
+        raise MaterialError(*_cured(error.faults, remedy)) from None
 
 
 def source_of(contents: Any) -> str:
@@ -97,11 +96,16 @@ def source_of(contents: Any) -> str:
 
 def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:
     has = "".join(f", only {one} within {span_text(entry.span)}" for one, entry in giving.items())
-    return f"{label} has no {part} ({_ADJECTIVES[part]}){has}; {_CURES[part]}"
+    wanted = (
+        f"where the material is transparent, ask for {cure('k=0.0', 'k = 0.0')}, or give its k"
+        if part == "k"
+        else f"give it, as {cure('n=1.5', 'n = 1.5')}"
+    )
+    return f"{label} has no {part} ({_ADJECTIVES[part]}){has}; {wanted}"
 
 
-def _cured(faults: Iterable[str], cure: str) -> list[str]:
-    return [f"{fault}; {cure}" if cure else fault for fault in faults]
+def _cured(faults: Iterable[str], remedy: str) -> list[str]:
+    return [f"{fault}; {remedy}" if remedy else fault for fault in faults]
 
 
 def _check_asked(
@@ -115,13 +119,13 @@ def _check_asked(
     by_formula = [not entry.columns for entry in entries]
     if not faults and interpolation != "linear" and all(by_formula):
         faults.append(
-            f"{label} is by a formula, of which nothing is interpolated; leave interpolation="
+            f"{label} is by a formula, of which nothing is interpolated; leave interpolation = "
             f"{interpolation!r} out"
         )
     if extrapolate == "linear" and any(by_formula):
         faults.append(
-            f"{label} is by a formula, which has no straight line beyond its range; ask for "
-            f"extrapolate='nearest', or stay within it"
+            f"{label} is by a formula, which has no straight line beyond its range; "
+            f"{nearest_asked_for()}, or stay within it"
         )
     if faults:
         raise MaterialError(*faults)
