@@ -84,11 +84,18 @@ ended = op.path_from_vertices(
     np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
 )
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)
+lamp_spectrum: op.Spectrum = 2 * op.Spectrum.black_body(2856) + op.Spectrum.line("633 nm", 0.1)
+measured: op.Spectrum = op.Spectrum.sampled(["4e-7 m", "5e-7 m"], [1.0, 2.0], outside=0.0, name="x")
+grid = op.wavelengths("380 nm", 7e-7, "40 nm")
+bins: op.Spectrum = measured.rebin([4e-7, 4.5e-7, 5e-7], outside="drop")
+power: float = bins.power() + bins.powers.sum() + measured.values.sum()
+lit: op.PathGraph = op.Source(spectrum=lamp_spectrum) >> op.Detector(response=measured / measured)
+probe: op.Element = op.Detector(response=measured.at(op.Wavelength("probe")))
 spectral: op.Light = op.Light([[1, 0, 0, 0]] * 81).at_wavelengths(np.linspace(380e-9, 780e-9, 81))
-same_spectral = op.Light([[1, 0, 0, 0]] * 3, wavelength=["400 nm", "500 nm", "600 nm"])
+said_at_once = op.Light([[1, 0, 0, 0]] * 3, wavelength=["400 nm", "500 nm", "600 nm"])
 known_wavelengths: np.ndarray | None = spectral.wavelength
-power: op.Light = spectral.integrate(response=np.ones(81))
-in_bins: op.Light = same_spectral.integrate(edges=["350 nm", "450 nm", "550 nm", "650 nm"])
+summed: op.Light = spectral.integrate(response=np.ones(81))
+in_bins: op.Light = said_at_once.integrate(edges=["350 nm", "450 nm", "550 nm", "650 nm"])
 tristimulus: np.ndarray = spectral.to_xyz(white=op.Spectrum.illuminant("D65"), outside="nearest")
 displayed: op.Srgb = spectral.to_srgb(white=spectral, adapt=True, out_of_gamut="clip")
 too_colourful: np.ndarray = displayed.outside

@@ -8,6 +8,7 @@ import click
 
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
+from optipath.cli.given_light import WAVELENGTH
 from optipath.cli.misplaced import StrictCommand
 from optipath.cli.unknown_options import refuse_outer_options
 from optipath.cli.whole_help import WholeHelp
@@ -17,6 +18,7 @@ from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names
 from optipath.values.cases import ALL
 from optipath.values.domains.quantities import READINGS
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -127,6 +129,8 @@ class PresetGroup(WholeHelp):
 
         case = case_option(path, several=self.several is not None)
         options = [_option(parameter) for parameter in parameters.values() if not parameter.bound]
+        if WAVELENGTH.name not in {*parameters, *path.choices, *names}:
+            options.append(_option(WAVELENGTH))
         options += [_place(name, choice, path) for name, choice in path.choices.items()]
         return StrictCommand(
             cmd_name,
@@ -195,10 +199,11 @@ def _option(parameter: Parameter) -> click.Option:
     words = f"words: {', '.join(parameter.all_words)}" if parameter.all_words else ""
     hints = [parameter.help, words, f"[{parameter.default_text()}]"]
     flag = "--" + parameter.name.replace("_", "-")
+    of_light = isinstance(parameter, Wavelength)  # In one of several kinds of units.
     return click.Option(
         [flag, parameter.name],
         multiple=True,
-        metavar=(parameter.unit or "number").upper(),
+        metavar="'516 NM'" if of_light else (parameter.unit or "number").upper(),
         help=printable("; ".join(h for h in hints if h)),
     )
 

@@ -68,6 +68,8 @@ def test_a_line_behind_a_filter_has_its_power_times_the_value_there():
         (lambda: LAMP / (0.0 * LAMP), "is 0 at 400 nm, where nothing can be divided"),
         (lambda: LAMP * -1.0, "give a real number of 0 or more"),
         (lambda: LAMP / 0.0, "a divisor of"),
+        (lambda: np.ones(2) * LAMP, "must be one number"),
+        (lambda: LAMP * 1e308 * 10.0, "inf at"),
         (
             lambda: LAMP + op.Spectrum.sampled([2e-7, 3e-7], [1.0, 1.0]),
             "no wavelength in common; give outside=0.0",

@@ -184,3 +184,15 @@ def test_the_end_of_a_range_is_within_it_by_its_rounding():
     assert lamp.at(830 * 1e-9) == 2.0
     path = op.Source(spectrum=op.Spectrum.illuminant("D65")) >> op.Detector()
     assert path.trace(wavelength=np.array([300, 830]) * 1e-9).intensity[1] == 60.3125
+
+
+def test_a_file_has_samples_by_the_name_of_their_column(tmp_path):
+    file = tmp_path / "lamp.csv"
+    file.write_text("# measured\nwavelength (nm); Power; noise\n400; 1; 0\n600; 3; 0\n")
+    lamp = op.Spectrum.from_csv(file)
+    assert lamp == op.Spectrum.sampled(["400 nm", "600 nm"], [1.0, 3.0], name="lamp")
+    with pytest.raises(op.ValueFault, match=r"lamp.csv.*'?respons"):
+        op.Spectrum.from_csv(file, "response")
+    file.write_text("wavelength (nm), power\n400, -1\n500, 1")
+    with pytest.raises(op.ValueFault, match="value of lamp is -1"):
+        op.Spectrum.from_csv(file)

@@ -35,6 +35,9 @@ class Curve(Unchanging, ABC):
         What else to do than to stay within these, as a sentence goes on behind "or".
     takes_grid : bool
         Whether what it is at a wavelength depends on the others that are given.
+    unit : str
+        In which people write its numbers, which are in radians, metres and teslas; ``""`` for
+        pure numbers, and where nobody says what is meant.
     unreal : str
         Why its numbers may be none, or such as nothing has, at wavelengths within these.
     """
@@ -44,6 +47,7 @@ class Curve(Unchanging, ABC):
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
     takes_grid: bool = False
+    unit: str = ""
     unreal: str = ""
 
     @property

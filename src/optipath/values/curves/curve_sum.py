@@ -24,14 +24,19 @@ class CurveSum(Curve):
         Of each term the factor, the curve, and which of its parts.
     constant : float
         What is added.
+    called : str
+        What sentences call it, where that is not the sum as one writes it.
     """
 
     terms: tuple[tuple[float, Curve, int], ...]
     constant: float = 0.0
+    called: str = ""
 
     @cached_property
     def label(self) -> str:  # type: ignore[override]
-        """What sentences call it: the sum as one writes it."""
+        """What sentences call it: by default the sum as one writes it."""
+        if self.called:
+            return self.called
         text = "".join([_written(*term) for term in self.terms]).removeprefix(" + ").strip()
         return f"{text}{f' {self.constant:+g}' * bool(self.constant)}"
 
@@ -52,6 +57,11 @@ class CurveSum(Curve):
         return any(curve.takes_grid for _, curve, _ in self.terms)
 
     @property
+    def unit(self) -> str:  # type: ignore[override]
+        """The unit of the first of them."""
+        return self.terms[0][1].unit
+
+    @property
     def content(self) -> tuple[Hashable, ...]:
         terms = [(factor, curve.digest, place) for factor, curve, place in self.terms]
         return self.label, tuple(terms), self.constant
@@ -61,7 +71,6 @@ class CurveSum(Curve):
         return [argument for _, curve, _ in self.terms for argument in curve.arguments()]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        """Return the sum, its terms added up in their order."""
         left = list(arguments)
         total = self.constant
         for factor, curve, place in self.terms:

@@ -19,6 +19,7 @@ from optipath.values.domains.domain import Domain
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
+from optipath.values.units import dimension_of, with_article
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -195,6 +196,12 @@ class CurveValue(Parameter):
             )
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
         total = CurveSum(tuple(terms), self.offset + sign * other.offset)
+        one, another = dimension_of(self.unit), dimension_of(other.unit)
+        if one != another:
+            raise ParameterError(
+                f"{self.spoken} is {with_article(one or 'pure number')}, and {other.spoken} "
+                f"{with_article(another or 'pure number')}; add up what is of one kind"
+            )
         low, high = total.span
         if not low <= high:
             raise ParameterError(
@@ -205,6 +212,14 @@ class CurveValue(Parameter):
 
     def same_specification(self, other: Parameter) -> bool:
         return isinstance(other, CurveValue) and self.name == other.name
+
+    def __repr__(self) -> str:
+        given = ", ".join([one.name for one in self.arguments])
+        shape = (
+            f"{self.scale:g} * " * (self.scale != 1.0),
+            f" + {self.offset:g}" * bool(self.offset),
+        )
+        return f"<{shape[0]}{self.spoken}{shape[1]}, by {given}>"
 
     def __eq__(self, other: object) -> bool:
         return Parameter.__eq__(self, other)
@@ -249,6 +264,7 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
     made = CurveValue(
         _name(curve, place, given_by),
         None,
+        unit=curve.unit,
         bound=bound,
         curve=curve,
         place=place,

@@ -54,7 +54,7 @@ class Sellmeier(FormulaCurve):
     resonances: tuple[Any, ...] | None
     offset: Any
     k: Any
-    unreal = "the formula has n^2 below 0, or a resonance"
+    unreal = "its formula has n^2 below 0 there, or a resonance"
 
     def __init__(
         self,
@@ -100,7 +100,7 @@ class Sellmeier(FormulaCurve):
         if self.c is None:
             poles = [pole * pole for pole in poles]
         square = sellmeier_square(xp, wavelength * MICROMETRES, offset, strengths, poles)
-        return index_of_square(xp, square), k + 0.0 * square
+        return index_of_square(xp, square), k + 0.0 * wavelength
 
 
 class Cauchy(FormulaCurve):
@@ -148,4 +148,4 @@ class Cauchy(FormulaCurve):
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         k, *coefficients = arguments
         n = cauchy_index(xp, wavelength * MICROMETRES, coefficients)
-        return n, k + 0.0 * n
+        return n, k + 0.0 * wavelength

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.errors import ValueFault
 from optipath.values.arrays.jax_values import is_traced, known, namespace
 from optipath.values.curves.curve_value import curve_values
@@ -24,8 +26,6 @@ from optipath.values.spectra.spectrum_making import SpectrumMaking
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
-
-    import numpy as np
 
     from optipath.values.spectra.spectrum_kind import SpectrumKind
 
@@ -57,6 +57,8 @@ class Spectrum(SpectrumMaking):
     >>> lamp + Spectrum.line("532 nm", power=50.0)
     <Spectrum: a sampled spectrum + the line at 532 nm>
     """
+
+    __array_ufunc__ = None  # NumPy's arrays leave products to it.
 
     @property
     def content(self) -> tuple[Hashable, ...]:
@@ -214,7 +216,8 @@ class Spectrum(SpectrumMaking):
 
     def _by_number(self, other: Any, what: str, *, above: bool = False) -> Spectrum:
         number = one_number(f"{what} of {self.label}", other, _ABOVE if above else NON_NEGATIVE)
-        return Spectrum(self.kind.times(1.0 / number if above else number))
+        with np.errstate(over="ignore"):  # Samples that are not finite are refused.
+            return Spectrum(self.kind.times(1.0 / number if above else number))
 
     def __repr__(self) -> str:
         return f"<Spectrum: {self.label}>"

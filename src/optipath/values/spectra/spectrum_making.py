@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, shown
+from optipath.values.curves.csv_columns import read_columns
 from optipath.values.curves.curve import Curve
 from optipath.values.domains.domain import Domain
 from optipath.values.spectra.black_body import BlackBody
@@ -18,6 +19,7 @@ from optipath.values.spectra.spectral_values import one_number, one_wavelength, 
 from optipath.values.spectra.spectrum_kind import EmissionLine, SpectrumKind
 
 if TYPE_CHECKING:
+    from os import PathLike
     from typing import Self
 
 _TEMPERATURE = Domain("temperature in kelvins", minimum=1e-3, maximum=1e9)
@@ -67,7 +69,43 @@ class SpectrumMaking(Curve):
         ValueFault
             With all that is wrong with the samples.
         """
-        return cls(Sampled(wavelengths, values, outside, name or "a sampled spectrum"))
+        return cls(Sampled(wavelengths, values, outside, _label(name, "a sampled spectrum")))
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: str | PathLike[str],
+        column: str = "power",
+        *,
+        unit: str = "",
+        outside: Any = None,
+        name: str = "",
+    ) -> Self:
+        """Return the spectrum through the samples of a file, as `sampled` does.
+
+        Parameters
+        ----------
+        path : str or PathLike
+            A file of separated values, whose first line has names: ``wavelength (nm), power``.
+        column : str, optional
+            The name of the column of values.
+        unit : str, optional
+            Of the wavelengths, where the first line has none.
+        outside, name
+            As `sampled` takes them; the name is that of the file by default.
+
+        Returns
+        -------
+        Spectrum
+
+        Raises
+        ------
+        ValueFault
+            With all that is wrong, and the lines.
+        """
+        found = read_columns(path, [column], unit=unit)
+        values = found.columns[column]
+        return cls.sampled(found.wavelengths, values, outside=outside, name=name or found.title)
 
     @classmethod
     def histogram(cls, edges: Any, powers: Any, *, outside: Any = None, name: str = "") -> Self:
@@ -93,7 +131,7 @@ class SpectrumMaking(Curve):
         ValueFault
             If these are no bins.
         """
-        return cls(Histogram(edges, powers, outside, name or "a histogram"))
+        return cls(Histogram(edges, powers, outside, _label(name, "a histogram")))
 
     @classmethod
     def line(cls, wavelength: Any, power: Any = 1.0, *, outside: Any = None) -> Self:
@@ -219,3 +257,9 @@ class SpectrumMaking(Curve):
             If it is none.
         """
         return cls(EvenSpectrum(one_number("value of a constant spectrum", value)))
+
+
+def _label(name: Any, usual: str) -> str:
+    if not isinstance(name, str):
+        raise ValueFault(f"the name of a spectrum is {shown(name)}; give a text")
+    return name or usual

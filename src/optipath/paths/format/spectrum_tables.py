@@ -1,0 +1,227 @@
+"""Tables of spectra in preset files: ``{ illuminant = "D65" }``, ``{ line = "633 nm" }``."""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import add
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import PresetError, shown
+from optipath.paths.format.faults import Faults, unknown_keys
+from optipath.paths.format.samples import samples_of, wavelengths_of, written_wavelengths
+from optipath.paths.format.schema import as_meant
+from optipath.spelling import closest
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.spectra.black_body import BlackBody
+from optipath.values.spectra.even_spectrum import EvenSpectrum
+from optipath.values.spectra.gaussian_line import GaussianLine
+from optipath.values.spectra.histogram import Histogram
+from optipath.values.spectra.illuminant import Illuminant
+from optipath.values.spectra.lines import Lines
+from optipath.values.spectra.sampled import Sampled
+from optipath.values.spectra.spectrum import Spectrum
+from optipath.values.spectra.sum_of_kinds import SumOfKinds
+from optipath.values.units import format_quantity
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.values.domains.domain import Domain
+    from optipath.values.parameters import Parameter
+    from optipath.values.spectra.spectrum_kind import EmissionLine, SpectrumKind
+
+    Decode = Callable[[Any, Domain], Any]
+
+_FORMS = {
+    "wavelengths": ("values", "unit", "outside", "name"),
+    "edges": ("powers", "unit", "outside", "name"),
+    "line": ("power", "outside"),
+    "led": ("width", "power"),
+    "black_body": (),
+    "illuminant": (),
+    "constant": (),
+    "sum": (),
+}
+"""The keys by which the kinds are known, and those that stand beside them."""
+_NEEDED = {"wavelengths": "values", "edges": "powers", "led": "width"}
+_WHEN, _SCALE, _OFFSET = "wavelength", "scale", "offset"
+
+
+def decode_spectrum(
+    raw: Mapping[str, Any], parameters: Mapping[str, Parameter], decode: Decode
+) -> Any:
+    """Return what stands for a spectrum at the wavelength of a run.
+
+    Parameters
+    ----------
+    raw : mapping
+        What stands in the file.
+    parameters : mapping of str to Parameter
+        What is declared.
+    decode : callable
+        Returns the value of one entry, which may be a parameter.
+
+    Returns
+    -------
+    CurveValue or ndarray
+        A number where the wavelength is one.
+
+    Raises
+    ------
+    OptipathError
+        With all faults of the table.
+    """
+    faults = Faults()
+    when: Any = parameters.get(_WHEN) or Wavelength()
+    if _WHEN in raw:
+        when = faults.attempt(f".{_WHEN}", decode, raw[_WHEN], WAVELENGTH)
+    whole = {key: value for key, value in raw.items() if key != _WHEN}
+    found = faults.attempt("", spectrum_of, whole)
+    if faults or found is None:
+        raise PresetError(*[fault.removeprefix(": ") for fault in faults])
+    return found.at(when)
+
+
+def spectrum_of(raw: Any) -> Spectrum:
+    """Return the spectrum of a table.
+
+    Parameters
+    ----------
+    raw : mapping
+        What stands in the file.
+
+    Returns
+    -------
+    Spectrum
+
+    Raises
+    ------
+    OptipathError
+        With all faults of the table.
+
+    Examples
+    --------
+    >>> spectrum_of({"line": "633 nm", "power": 2.0})
+    <Spectrum: the line at 633 nm>
+    """
+    if not isinstance(raw, dict):
+        raise PresetError(f"must be a table of a spectrum, {_known()}, not {shown(raw)}")
+    meant = [form for form in _FORMS if form in raw] or [
+        form for key in raw if (form := closest(key, _FORMS))
+    ]
+    if not meant:
+        raise PresetError(f"a table of a spectrum needs one of the keys {_known()}")
+    form, *others = meant
+    if others:
+        raise PresetError(f"'{form}' and '{others[0]}' are two spectra; write {{ sum = [...] }}")
+    keys = (form, *_FORMS[form], _SCALE, _OFFSET)
+    faults = unknown_keys(raw, keys)
+    raw = as_meant(raw, keys)
+    needed = _NEEDED.get(form)
+    if needed and needed not in raw:
+        faults.append(f"a table with '{form}' needs '{needed}'")
+    if faults:
+        raise PresetError(*faults)
+    found = _terms(raw) if form == "sum" else _single(raw, form)
+    if _SCALE in raw:
+        found = found * raw[_SCALE]
+    return found + Spectrum.constant(raw[_OFFSET]) if _OFFSET in raw else found
+
+
+def spectrum_table(spectrum: Spectrum) -> dict[str, Any]:
+    """Return the table of a spectrum, of which the same one is read.
+
+    Parameters
+    ----------
+    spectrum : Spectrum
+        Of any kind.
+
+    Returns
+    -------
+    dict
+
+    Examples
+    --------
+    >>> spectrum_table(Spectrum.line("633 nm", power=2.0) * 3)
+    {'line': '633 nm', 'power': 6.0}
+    """
+    return _table(spectrum.kind)
+
+
+def _known() -> str:
+    return ", ".join([f"'{form}'" for form in _FORMS])
+
+
+def _terms(raw: Mapping[str, Any]) -> Spectrum:
+    terms = raw["sum"]
+    if not isinstance(terms, list) or not terms:
+        raise PresetError(f"'sum' must be a list of tables, not {shown(terms)}")
+    faults = Faults()
+    found = [faults.attempt(f".sum[{i}]", spectrum_of, term) for i, term in enumerate(terms)]
+    if faults:
+        raise PresetError(*faults)
+    return reduce(add, found)  # type: ignore[return-value]
+
+
+def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
+    for key in ("line", "led", "width", "illuminant", "name", "unit"):
+        if key in raw and not isinstance(raw[key], str):
+            example = f"{raw[key]} nm" if key in ("line", "led", "width") else "..."
+            wrong = f"'{key}' is {shown(raw[key])}, but a text is asked for"
+            raise PresetError(f'{wrong}; write {key} = "{example}"')
+    given = {key: raw[key] for key in ("power", "outside", "name") if key in raw}
+    if form in ("wavelengths", "edges"):
+        column = _NEEDED[form]
+        faults = Faults()
+        places = faults.attempt(f".{form}", wavelengths_of, raw[form], raw.get("unit"))
+        numbers = faults.attempt(f".{column}", samples_of, raw[column], "")
+        if faults:
+            raise PresetError(*faults)
+        make = Spectrum.sampled if form == "wavelengths" else Spectrum.histogram
+        return make(places, numbers, **given)
+    if form == "led":
+        return Spectrum.led(raw["led"], raw["width"], **given)
+    made: Spectrum = getattr(Spectrum, form)(raw[form], **given)
+    return made
+
+
+def _table(kind: SpectrumKind) -> dict[str, Any]:
+    if isinstance(kind, SumOfKinds):
+        return {"sum": [_table(term) for term in kind.terms]}
+    if isinstance(kind, Lines):
+        tables = [_line(line) for line in kind.lines]
+        return tables[0] if len(tables) == 1 else {"sum": tables}
+    if isinstance(kind, (Sampled, Histogram)):
+        return _columns(kind)
+    if isinstance(kind, GaussianLine):
+        return {"led": _nm(kind.peak), "width": _nm(kind.width), "power": kind.power}
+    if isinstance(kind, EvenSpectrum):
+        return {"constant": kind.value}
+    if isinstance(kind, BlackBody):
+        return {"black_body": kind.temperature} | _scale(kind.factor)
+    assert isinstance(kind, Illuminant)  # noqa: S101 - there are no others
+    return {"illuminant": kind.name} | _scale(kind.factor)
+
+
+def _columns(kind: Sampled | Histogram) -> dict[str, Any]:
+    if isinstance(kind, Sampled):
+        table = written_wavelengths(kind.wavelengths) | {"values": kind.values.tolist()}
+    else:
+        written = written_wavelengths(kind.edges)
+        table = {"edges": written.pop("wavelengths"), **written, "powers": kind.powers.tolist()}
+    outside = {} if kind.outside is None else {"outside": kind.outside}
+    return table | outside | {"name": kind.label}
+
+
+def _line(line: EmissionLine) -> dict[str, Any]:
+    outside = {} if line.outside is None else {"outside": line.outside}
+    return {"line": _nm(line.wavelength), "power": line.power} | outside
+
+
+def _nm(metres: float) -> str:
+    return format_quantity(metres, "nm")
+
+
+def _scale(factor: float) -> dict[str, Any]:
+    return {} if factor == 1.0 else {_SCALE: factor}

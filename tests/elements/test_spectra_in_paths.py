@@ -1,0 +1,167 @@
+"""Sources with a spectrum, and detectors with a response."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import optipath as op
+from chains import ENGINES
+from optipath.lab.accuracy.path_reference import exact_stokes
+from optipath.values.spectra.grid_bins import grid_widths
+
+GRID = op.wavelengths("380 nm", "700 nm", "40 nm")
+LASER = op.Spectrum.line("633 nm", power=2.0)
+LED = op.Spectrum.led("550 nm", "100 nm")
+SMOOTH = [
+    op.Spectrum.sampled(["300 nm", "500 nm", "800 nm"], [1.0, 2.0, 0.5]),
+    op.Spectrum.histogram(np.linspace(300e-9, 800e-9, 11), np.arange(10.0)),
+    op.Spectrum.black_body(3000.0),
+    op.Spectrum.illuminant("A"),
+    op.Spectrum.illuminant("D65"),
+    op.Spectrum.constant(3.0),
+    LED,
+]
+
+
+def seen(spectrum, response=None, stokes=None):
+    return (
+        op.Source(2.0, stokes, spectrum=spectrum)
+        >> op.Polarizer(op.Parameter("angle", 0.3))
+        >> op.Detector(response=response)
+    )
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("spectrum", [*SMOOTH, LASER, SMOOTH[0] + 3.0 * LASER])
+def test_light_is_multiplied_by_spectrum_and_response(spectrum, engine):
+    plan = op.Composer(engine=engine).compose(seen(spectrum, LED, [1.0, 0.5, 0.0, 0.0]))
+    plain = seen(None, None, [1.0, 0.5, 0.0, 0.0]).trace().stokes
+    expected = (spectrum.at(GRID) * LED.at(GRID))[:, None] * plain
+    for _ in range(3):
+        np.testing.assert_allclose(plan.run(wavelength=GRID).stokes, expected, rtol=1e-14)
+
+
+@pytest.mark.parametrize("spectrum", SMOOTH)
+def test_one_wavelength_alone_has_the_bits_of_the_spectral_run(spectrum):
+    path = seen(spectrum, LED)
+    together = path.trace(wavelength=GRID).stokes
+    alone = [path.trace(wavelength=place).stokes for place in GRID]
+    np.testing.assert_array_equal(together, alone)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize(
+    "grid", [GRID, GRID[::-1], np.array([400.0, 630.0, 640.0, 641.0, 700.0]) * 1e-9]
+)
+def test_a_line_keeps_its_power_on_any_grid(grid, engine):
+    plan = op.Composer(engine=engine).compose(seen(LASER))
+    light = plan.run(wavelength=grid)
+    # Half of an intensity of 2 by a power of 2 is behind the polariser.
+    assert np.dot(light.intensity, grid_widths(grid)) == pytest.approx(2.0, rel=1e-14)
+
+
+def test_a_line_keeps_its_power_along_other_axes_and_in_streams():
+    plan, angles = seen(LASER).compose(), np.linspace(0.0, 1.0, 7)
+    grid = np.linspace(600e-9, 700e-9, 50)
+    light = plan.run(wavelength=grid[:, None], angle=angles)
+    np.testing.assert_allclose(grid_widths(grid) @ light.intensity, 2.0, rtol=1e-14)
+    parts = list(plan.stream(60, wavelength=grid[:, None], angle=angles))
+    assert len(parts) > 1
+    whole = np.concatenate([part.light.intensity.reshape(-1) for part in parts])
+    np.testing.assert_array_equal(whole, light.intensity.reshape(-1))
+
+
+@pytest.mark.parametrize(
+    ("wavelength", "sentence"),
+    [
+        (5e-7, "one wavelength alone"),
+        (GRID[:1], "one wavelength alone"),
+        (np.r_[GRID, GRID[-1:]], "are repeated"),
+        (GRID[[0, 4, 2]], "neither rise nor fall"),
+        (GRID[:8].reshape(2, 4)[::-1], "neither rise nor fall"),
+        (GRID[:4], "none of its power is there; run it at wavelengths around it"),
+    ],
+)
+def test_what_is_no_grid_for_a_line_is_refused(wavelength, sentence):
+    with pytest.raises(op.ParameterError, match=sentence):
+        seen(LASER).trace(wavelength=wavelength)
+
+
+def test_a_line_may_be_left_out_where_that_is_said():
+    dark = seen(op.Spectrum.line("633 nm", outside=0.0)).trace(wavelength=GRID[:4])
+    np.testing.assert_array_equal(dark.intensity, 0.0)
+
+
+def test_a_line_waits_for_its_grid_where_the_wavelength_has_a_default():
+    wavelength = op.Wavelength(default="500 nm")
+    path = op.Source(spectrum=LASER.at(wavelength)) >> op.Detector()
+    assert path.trace(wavelength=GRID).intensity[6] == pytest.approx(2.0 / 40.0, rel=1e-14)
+    with pytest.raises(op.ParameterError, match="one wavelength alone"):
+        path.trace()
+
+
+def test_a_wavelength_may_be_bound():
+    path, other = seen(SMOOTH[0] + LASER, LED), seen(SMOOTH[0], LED)
+    bound = path.bind(wavelength=GRID)
+    np.testing.assert_array_equal(bound.trace().stokes, path.trace(wavelength=GRID).stokes)
+    assert other.bind(wavelength=5e-7).trace() == other.trace(wavelength=5e-7)
+
+
+def test_beyond_a_spectrum_is_an_error_that_names_the_place():
+    path = seen(op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 2.0], name="the lamp"))
+    with pytest.raises(op.ParameterError, match=r"source.spectrum.*the lamp.*outside=0.0"):
+        path.trace(wavelength="600 nm")
+
+
+@pytest.mark.parametrize("response", [LASER, SMOOTH[1], LED + LASER])
+def test_power_is_no_response(response):
+    with pytest.raises(op.ValueFault, match="which is power and no response"):
+        op.Detector(response=response)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_response_may_be_a_number_of_any_size(engine):
+    plain, seven = op.Source(3.0) >> op.Detector(), op.Source(3.0) >> op.Detector(response=7.0)
+    assert op.Composer(engine=engine).compose(seven).run().intensity == 21.0
+    np.testing.assert_allclose(
+        seven.compose().mueller().matrix, 7.0 * plain.compose().mueller().matrix
+    )
+    with pytest.raises(op.ValueFault, match="Detector response is -1"):
+        op.Detector(response=-1.0)
+
+
+@pytest.mark.parametrize("options", [{"model": "full"}, {"composing": "jones"}])
+def test_all_ways_of_composing_read_the_same(options):
+    path = seen(SMOOTH[0], LED, [1.0, 0.0, 1.0, 0.0])
+    found = op.Composer(**options).compose(path).run(wavelength=GRID).stokes
+    np.testing.assert_allclose(found, path.trace(wavelength=GRID).stokes, rtol=1e-14, atol=1e-16)
+
+
+def test_the_reference_in_many_digits_has_spectra_and_responses():
+    path = seen(SMOOTH[2], LED, [1.0, 0.5, 0.0, 0.0])
+    (exact,) = exact_stokes(path, wavelength=5.2e-7).values()
+    np.testing.assert_allclose(
+        path.trace(wavelength=5.2e-7).stokes, [float(part) for part in exact], rtol=1e-14
+    )
+
+
+@pytest.mark.parametrize("spectrum", SMOOTH)
+def test_slopes_in_the_wavelength_are_those_of_the_spectrum(spectrum, jax):
+    plan = op.Composer(engine="jax").compose(seen(spectrum, LED))
+    for place in (4.23e-7, 5.517e-7):
+        step = 1e-12
+        near = [spectrum.at(at) * LED.at(at) for at in (place - step, place, place + step)]
+        slope = jax.grad(lambda w: plan.run(wavelength=w).intensity)(place)
+        expected = (near[2] - near[0]) / (2.0 * step)
+        assert float(slope) == pytest.approx(expected, rel=1e-5, abs=1e-6 * near[1] / place)
+
+
+def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
+    plan = op.Composer(engine="jax").compose(seen(LASER))
+    with pytest.raises(op.ParameterError, match="traced by JAX"):
+        jax.jit(lambda w: plan.run(wavelength=w).stokes)(jax.numpy.asarray(GRID))
+
+
+def test_elements_say_their_spectrum_in_words():
+    assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")
