@@ -35,6 +35,7 @@ GIVEN = {
     "Rotator": (0.1,),
     "RefractingVertex": (1.5, [[0, 0, 1], [0, 0, 0], [0, 0, -1]], 1),
     "SpecularVertex": (1.5, CORNER, 1),
+    "Srgb": (np.full(3, 0.2), np.full(3, 0.2)),
     "VerticesByAngles": ((0.1,),),
     "Waveplate": (1e-3, 0.01, [5e-7, 6e-7]),
 }
@@ -76,8 +77,9 @@ def test_an_object_of_a_public_class_equals_its_copies(name):
         CHAIN.trace(a=0.1),
         CHAIN.trace(a=[0.1, 0.2]),
         op.Light([1.0, 0.5, 0.0, 0.0], exponent=-5000),
+        op.Light([1.0, 0.5, 0.0, 0.0], wavelength=5e-7),
     ],
-    ids=["one", "several", "one in space", "several in space", "faint"],
+    ids=["one", "several", "one in space", "several in space", "faint", "of a wavelength"],
 )
 def test_light_that_was_traced_equals_its_copies(light):
     for copied in COPIES:

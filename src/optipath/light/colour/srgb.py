@@ -12,7 +12,7 @@ from optipath.light.colour.observer import observer_called
 from optipath.light.colour.triples import times
 from optipath.light.colour.tristimulus import tristimulus, white_sums
 from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
-from optipath.values.arrays.read_only import Unchanging, locked
+from optipath.values.arrays.read_only import Unchanging, locked, same
 
 if TYPE_CHECKING:
     from optipath.light.wavelength_on_demand import WavelengthOnDemand
@@ -88,6 +88,13 @@ class Srgb(Unchanging):
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Array:  # noqa: FBT001 - NumPy's
         return np.array(known(self.values), dtype=dtype, copy=copy)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Srgb):
+            return NotImplemented
+        return same(self.linear, other.linear) and same(self.values, other.values)
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         return f"Srgb({self.values!r})"
