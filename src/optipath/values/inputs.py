@@ -15,6 +15,7 @@ from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.cures import how_to_give
+from optipath.values.curves.curve_value import computed_values
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.materials import Material
@@ -114,7 +115,7 @@ class Inputs:
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
                     faults += self._of_a_fit(fault.faults, name, value)
-        resolved |= {v.name: v.computed(resolved) for v in self.computed if v.follows(resolved)}
+        resolved |= computed_values(self.computed, resolved)
         found: dict[str, tuple[int, ...]] = {}
         refused: set[str] = set()
         for use in self.distinct_uses:

@@ -202,7 +202,8 @@ class ScalarRunner:
         optional = {key.name for key in given.numbers if key.part == "present"}
         # A plain float has no imaginary part, and the function has been made for none.
         parts = Counter(key.name for key in given.numbers if key.part not in ("present", "imag"))
-        real = {name for name, p in self.inputs.open.items() if type(p.default) in _REAL}
+        opened = self.inputs.open
+        real = {name for name, p in opened.items() if type(p.default) in _REAL}
         following = self.following.defaults if self.following else {}
         real |= {value.name for value in self.inputs.computed}
         if any(key.part == "imag" and key.name not in real for key in given.numbers):
@@ -212,15 +213,14 @@ class ScalarRunner:
             # One number may be given to several kernels.
             if key.part not in ("value", "real") or key.is_affine or key.name not in real:
                 return None
-            open_one = self.inputs.open.get(key.name)
-            order.append((key.name, None if open_one is None else open_one.default))
+            order.append((key.name, opened[key.name].default if key.name in opened else None))
         asked = {name for name, _ in order} | following.keys()
-        if any(p.default is None for name, p in self.inputs.open.items() if name not in asked):
+        if any(p.default is None for name, p in opened.items() if name not in asked):
             return None  # What nothing needs must be given all the same.
         return (
             function.path,
             order,
-            frozenset(n for n in asked if n not in optional and parts[n] <= 1),
+            frozenset(n for n in asked & opened.keys() if n not in optional and parts[n] <= 1),
         )
 
 

@@ -100,8 +100,13 @@ class CurveValue(Parameter):
         -------
         Resolved
         """
-        numbers = [_number(one, given) for one in self.given_by]
-        return Resolved(self.curve.evaluated(*numbers)[self.place], THERE)
+        return Resolved(self.parts(given)[self.place], THERE)
+
+    def parts(self, given: Mapping[str, Resolved]) -> tuple[Any, ...]:
+        """Return the numbers of all parts of its curve, of which its own are one."""
+        found: tuple[Any, ...]
+        found = self.curve.evaluated(*[_number(one, given) for one in self.given_by])
+        return found
 
     def bound_to(self, values: Mapping[str, Parameter]) -> CurveValue:
         """Return what it is once parameters that it is computed of have values.
@@ -247,6 +252,34 @@ def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
     if not any(isinstance(one, Parameter) for one in given_by):
         return curve.evaluated(*given_by)
     return tuple([_of(curve, place, given_by) for place in range(len(curve.parts))])
+
+
+def computed_values(
+    values: Iterable[CurveValue], given: Mapping[str, Resolved]
+) -> dict[str, Resolved]:
+    """Return the numbers of those values of which all is given; each curve is evaluated once.
+
+    Parameters
+    ----------
+    values : iterable of CurveValue
+        The values.
+    given : mapping of str to Resolved
+        What they are computed of, by name.
+
+    Returns
+    -------
+    dict of str to Resolved
+        By the names of the values.
+    """
+    found: dict[str, Resolved] = {}
+    parts: dict[Any, tuple[Any, ...]] = {}
+    for value in values:
+        if value.follows(given):
+            same = id(value.curve), *map(id, value.given_by)
+            if same not in parts:
+                parts[same] = value.parts(given)
+            found[value.name] = Resolved(parts[same][value.place], THERE)
+    return found
 
 
 def parameters_among(values: Iterable[Any]) -> Iterator[Parameter]:

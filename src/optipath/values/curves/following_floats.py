@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from optipath.values.curves.curve_value import computed_values
 from optipath.values.resolved import THERE, Resolved
 
 if TYPE_CHECKING:
@@ -53,6 +54,7 @@ class FollowingFloats:
                     return None
             pairs = zip(self.defaults, numbers, strict=True)
             resolved = {name: Resolved(number, THERE) for name, number in pairs}
-            found = {v.name: v.computed(resolved).value.item() for v in self.computed}
+            computed = computed_values(self.computed, resolved)
+            found = {name: of_it.value.item() for name, of_it in computed.items()}
             self._last = numbers, found
         return {**given, **found}
