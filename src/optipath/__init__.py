@@ -72,6 +72,8 @@ if TYPE_CHECKING:
     from optipath.plan.plan import Plan
     from optipath.values.angles import CosSin
     from optipath.values.cases import Case
+    from optipath.values.crystals import Crystal
+    from optipath.values.curves.by_wavelength import drude_rotation, tabulated
     from optipath.values.domains.quantities import (
         Absorption,
         Amplitude,
@@ -111,6 +113,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "ComposerError",
     "CosSin",
     "Coupling",
+    "Crystal",
     "Depolarizer",
     "Detector",
     "Diattenuator",
@@ -167,6 +170,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Wavelength",
     "Waveplate",
     "YesOrNo",
+    "drude_rotation",
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
@@ -176,6 +180,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "polarization",
     "preset_names",
     "refraction_angle",
+    "tabulated",
     "there_and_back",
     "vertices_from_angles",
 ]
@@ -224,6 +229,8 @@ _HOMES = {
     "plan.plan": ["Plan"],
     "values.angles": ["CosSin"],
     "values.cases": ["Case"],
+    "values.crystals": ["Crystal"],
+    "values.curves.by_wavelength": ["drude_rotation", "tabulated"],
     "values.domains.quantities": [
         "Absorption",
         "Amplitude",

@@ -13,7 +13,7 @@ from optipath.cli.console import JSON, PlainConsole, say_json
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress_bar import progress_bar
 from optipath.lab.bench.timing import duration
-from optipath.paths.presets.loader import bound_preset, load_preset
+from optipath.paths.presets.loader import beside, bound_preset, load_preset
 from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def _opened(chosen: Chosen) -> PathGraph:
         for name, value in path.cases[case].values.items()
         if dimension_of(known[name].unit) != "angle" or known[name].optional
     }
-    return bound_preset(path, chosen.preset, None, {**kept, **chosen.values})
+    return bound_preset(path, chosen.preset, None, beside(chosen.opened, kept, chosen.values))
 
 
 def _tables(report: Report) -> list[Table]:

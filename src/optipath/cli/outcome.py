@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.cli.given_light import WAVELENGTH, material_as_json, materials_among
 from optipath.cli.plain_json import plain
 from optipath.paths.format.writer import complex_parts_of
 from optipath.values.cases import Case
@@ -80,6 +81,15 @@ class Outcome:
         return approximation.errors_for({})
 
     @property
+    def materials(self) -> dict[str, Any]:
+        """The materials that were given, with their n and k at the wavelength of the run."""
+        wavelength = self.path.parameters.get(WAVELENGTH.name)
+        return {
+            name: material_as_json(label, material, wavelength and wavelength.default)
+            for name, label, material in materials_among(self.chosen.values)
+        }
+
+    @property
     def note(self) -> str:
         """The note of the case, if these are the values it belongs to."""
         return "" if self.chosen.values else self.case.note
@@ -99,6 +109,7 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
             name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
             for name, p in parameters.items()
         },
+        **({"materials": outcome.materials} if outcome.materials else {}),
         **({"choices": outcome.chosen.places} if outcome.chosen.places else {}),
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": outcome.model,

@@ -8,6 +8,7 @@ import click
 
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
+from optipath.cli.given_light import WAVELENGTH
 from optipath.cli.misplaced import StrictCommand
 from optipath.cli.unknown_options import refuse_outer_options
 from optipath.cli.whole_help import WholeHelp
@@ -17,6 +18,7 @@ from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names
 from optipath.values.cases import ALL
 from optipath.values.domains.quantities import READINGS
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -127,6 +129,8 @@ class PresetGroup(WholeHelp):
 
         case = case_option(path, several=self.several is not None)
         options = [_option(parameter) for parameter in parameters.values() if not parameter.bound]
+        if WAVELENGTH.name not in {*parameters, *path.choices, *names}:
+            options.append(_option(WAVELENGTH))
         options += [_place(name, choice, path) for name, choice in path.choices.items()]
         return StrictCommand(
             cmd_name,
@@ -198,9 +202,16 @@ def _option(parameter: Parameter) -> click.Option:
     return click.Option(
         [flag, parameter.name],
         multiple=True,
-        metavar=(parameter.unit or "number").upper(),
+        metavar=_unit(parameter),
         help=printable("; ".join(h for h in hints if h)),
     )
+
+
+def _unit(parameter: Parameter) -> str:
+    """Return what stands behind an option: a number in this unit, or a text."""
+    if isinstance(parameter, Wavelength):
+        return "'516 NM'"
+    return (parameter.unit or "number").upper()
 
 
 def _place(name: str, choice: PlaceChoice, path: PathGraph) -> click.Option:

@@ -9,6 +9,7 @@ import numpy as np
 from rich.table import Table
 
 from optipath.cli.console import PlainConsole, cell, headed, title
+from optipath.cli.given_light import materials_among
 from optipath.cli.outcome import TOLD
 from optipath.cli.plain_json import plain
 from optipath.errors import listed
@@ -96,6 +97,8 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
     table = Table(box=None, show_header=False)
     for name, parameter in outcome.path.parameters.items():
         table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
+    for name, label, _ in materials_among(outcome.chosen.values):
+        table.add_row(*map(cell, (name, label, outcome.chosen.opened.parameters[name].help)))
     for name, word in outcome.chosen.places.items():
         table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))
     console.print(table)
@@ -120,8 +123,9 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
     first = next(iter(outcomes.values()))
     counted = f"{len(outcomes)} case{'s' * (len(outcomes) != 1)}"
     console.print(title(f"{first.chosen.preset}, {counted}", first.path.description))
-    for name, value in first.chosen.values.items():
-        parameter = first.path.parameters.get(name)
+    labels = {name: label for name, label, _ in materials_among(first.chosen.values)}
+    for name, value in (first.chosen.values | labels).items():
+        parameter = None if name in labels else first.path.parameters.get(name)
         text = value if parameter is None else numbers.value_of(parameter)
         console.print(cell(f"{name} {text}"))
     table = headed("case", "at", "S0", "S1", "S2", "S3")

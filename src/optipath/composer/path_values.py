@@ -17,7 +17,9 @@ from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.inputs import Inputs
 from optipath.values.parameters import Parameter
+from optipath.values.units import dimension_of
 from optipath.values.use import Use
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -90,7 +92,8 @@ class Values:
         """The parameters by name: in declared order, then as they are met."""
         found: dict[str, Parameter] = {}
         for use in self._given:
-            if use.value.name not in found:
+            known = found.get(use.value.name)
+            if known is None or (_yields(known) and not _yields(use.value)):
                 found[use.value.name] = use.value.alone()
         declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
         return {name: found[name] for name in dict.fromkeys([*declared, *found])}
@@ -145,7 +148,8 @@ class Values:
         looked_at = set()
         told: set[str] = set()
         for use in sorted(self.uses, key=self._is_taken_over):
-            if _named(use) in faulty:
+            follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
+            if _named(use) in faulty or follows:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
@@ -175,7 +179,9 @@ class Values:
         for use in self._given:
             name = use.value.name
             known = self.parameters[name]
-            if use.value is not known and not use.value.same_specification(known):
+            alike = use.value is known or use.value.same_specification(known)
+            taken = _yields(use.value) and dimension_of(known.unit) == "length"
+            if not alike and not taken:
                 yield self._difference(use, known)
             if use.domain.tail != self._tails[name]:
                 yield (
@@ -233,6 +239,11 @@ class Values:
         element = self.graph.nodes[name]["element"]
         ways = [(coupling.enters, coupling.leaves) for coupling in couplings_of(element)]
         return bool(element.straight) and ways == [("in", "out")]
+
+
+def _yields(value: Parameter) -> bool:
+    """Tell whether a parameter takes over what others of its name say."""
+    return isinstance(value, Wavelength) and value.yields
 
 
 def _named(use: Use) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+import math
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from optipath.elements.coupling import Coupling, Operation, turned
+from optipath.elements.designed_plates import plate_for
 from optipath.elements.element import Element
 from optipath.kernels.catalogue import WAVEPLATE
 from optipath.values.domains.quantities import (
@@ -14,6 +16,10 @@ from optipath.values.domains.quantities import (
     PartLength,
     Wavelength,
 )
+
+if TYPE_CHECKING:
+    from optipath.values.crystals import Crystal
+    from optipath.values.parameters import Parameter
 
 
 class Waveplate(Element, kind="waveplate"):
@@ -45,6 +51,14 @@ class Waveplate(Element, kind="waveplate"):
     >>> plate = Waveplate(10.25 * 589e-9 / 0.0091, 0.0091, 589e-9)
     >>> print(plate.mueller().matrix[2, 2:].round(12) + 0.0)
     [ 0. -1.]
+
+    A plate of zero order at 550 nm, with the dispersion of quartz at other wavelengths:
+
+    >>> from optipath import Detector, Source
+    >>> plate = Waveplate.quarter(at="550 nm", crystal="quartz", angle="-45 deg")
+    >>> path = Source(stokes=[1, 1, 0, 0]) >> plate >> Detector()
+    >>> print(path.trace(wavelength=["450 nm", "550 nm", "650 nm"]).docp.round(3))
+    [0.923 1.    0.966]
     """
 
     mirrored: ClassVar[tuple[str, ...]] = ("angle",)
@@ -54,6 +68,109 @@ class Waveplate(Element, kind="waveplate"):
     wavelength: Wavelength
     angle: Axis = 0.0
     azimuth: Angle = 0.0
+
+    @classmethod
+    def quarter(
+        cls,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        **others: Any,
+    ) -> Self:
+        """Return a quarter-wave plate by the wavelength at which it is one.
+
+        Parameters
+        ----------
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal : str, Crystal, Parameter or float, optional
+            What it is made of: a name of `Crystal.named`, or the birefringence.
+        order : int, optional
+            How many whole waves it retards by besides.
+        **others : float, array_like or Parameter
+            ``angle``, of the fast axis at that wavelength, and ``azimuth``.
+
+        Returns
+        -------
+        Waveplate
+            At the wavelength of the run, so that a path of it takes ``wavelength=``.
+
+        Raises
+        ------
+        ValueFault
+            If any is no such value.
+
+        Examples
+        --------
+        >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
+        615.5
+        """
+        return cls.retarding(math.pi / 2, at, crystal, order=order, **others)
+
+    @classmethod
+    def half(
+        cls,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        **others: Any,
+    ) -> Self:
+        """Return a half-wave plate by the wavelength at which it is one.
+
+        Parameters
+        ----------
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal, order, **others
+            As in `quarter`.
+
+        Returns
+        -------
+        Waveplate
+
+        Raises
+        ------
+        ValueFault
+            If any is no such value.
+        """
+        return cls.retarding(math.pi, at, crystal, order=order, **others)
+
+    @classmethod
+    def retarding(
+        cls,
+        retardance: Any,
+        at: Any,
+        crystal: str | Crystal | Parameter | float = "quartz",
+        *,
+        order: int = 0,
+        **others: Any,
+    ) -> Self:
+        """Return a plate by its retardance at a wavelength.
+
+        Its thickness is (order + retardance / 2 pi) at / abs(n_e - n_o).
+
+        Parameters
+        ----------
+        retardance : float or str
+            Beyond whole waves, in radians, not negative; 0 with an order of 1 is a full-wave plate.
+        at : float or str
+            The wavelength, in metres, or ``"550 nm"``.
+        crystal, order, **others
+            As in `quarter`.
+
+        Returns
+        -------
+        Waveplate
+
+        Raises
+        ------
+        ValueFault
+            If any is no such value.
+        """
+        thickness, birefringence, wavelength = plate_for(retardance, at, crystal, order)
+        return cls(thickness, birefringence, wavelength, **others)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the retarder, its axes turned by the angle."""

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.path_values import Values, value_faults
 from optipath.errors import OptipathError, ParameterError
+from optipath.paths.bound_materials import materials_placed
+from optipath.paths.exchanged_values import exchanged
 from optipath.values.arrays.read_only import changed
-from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.axis import axes_for
 from optipath.values.large_angles import LargeAngles
-from optipath.values.made import checked_later
+from optipath.values.materials import Material
 from optipath.values.other_part import of_complex
 from optipath.values.parameters import ABSENT, Parameter
 from optipath.values.unknown_parameter import unknown_parameter
@@ -45,6 +46,14 @@ def bind(
     ParameterError
         With every unknown parameter and every value that is not allowed.
     """
+    if any(isinstance(value, Material) for value in values.values()):
+        values, placed = materials_placed(values, Values(graph).uses)
+        if placed and not for_good:
+            raise ParameterError(
+                f"parameter '{min(placed)}' cannot have a Material that depends on other "
+                f"parameters as its default; bind it, by path.bind({min(placed)}=...)"
+            )
+        graph = exchanged(graph, placed)
     known_values = Values(graph)
     parameters, inputs = known_values.parameters, known_values.inputs()
     known_names = [*parameters, *graph.graph.get("choices", ())]
@@ -70,33 +79,9 @@ def bind(
                 bound[name] = changed(found, bound=for_good)
             except OptipathError as fault:
                 faults += of_complex(fault.faults, Values(graph).uses, name, value)
-    copy = graph.copy()
-    with checked_later():  # The check below names parameters and nodes.
-        for node in copy.nodes.values():
-            if any(parameter.name in bound for parameter in node["element"].parameters()):
-                node["element"] = _with_bound_fields(node["element"], bound)
-    for link in copy.edges.values():
-        link["azimuth"] = _bound_value(link["azimuth"], bound)
+    copy = exchanged(graph, bound)
     faults += value_faults(copy)
     if faults:
         raise ParameterError(*faults)
     LargeAngles(inputs).look(values)
     return copy
-
-
-def _with_bound_fields(whole: Any, bound: Mapping[str, Parameter]) -> Any:
-    others = {f.name: _bound_value(getattr(whole, f.name), bound) for f in fields(whole)}
-    same = all(others[name] is getattr(whole, name) for name in others)
-    return whole if same else replace(whole, **others)
-
-
-def _bound_value(value: Any, bound: Mapping[str, Parameter]) -> Any:
-    if isinstance(value, CurveValue):
-        return value.bound_to(bound)
-    if isinstance(value, Parameter):
-        parameter = bound.get(value.name)
-        return value if parameter is None else parameter.like(value)
-    if isinstance(value, tuple):
-        return tuple(_bound_value(one, bound) for one in value)
-    # What is made of several values, as a material and a chain of vertices are.
-    return _with_bound_fields(value, bound) if is_dataclass(value) else value

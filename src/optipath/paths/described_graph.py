@@ -11,12 +11,14 @@ from optipath.elements.chaining import NamedElement, begun
 from optipath.elements.terminal import Detector
 from optipath.errors import ParameterError, PathError, shown
 from optipath.paths.binding import bind
+from optipath.paths.bound_materials import cases_left
 from optipath.paths.element_graph import ElementGraph
 from optipath.paths.joining import join
 from optipath.paths.place_choice import PlaceChoice, choice_faults, put_in_place
 from optipath.paths.reversed_graph import reversed_graph
 from optipath.values.by_name import check_named
 from optipath.values.cases import Case
+from optipath.values.materials import Material
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -106,8 +108,9 @@ class DescribedGraph(ElementGraph):
         ----------
         *unnamed
             None: values are given by name.
-        **values : float, str or array_like
-            In radians and metres, or texts with units.
+        **values : float, str, array_like or Material
+            In radians and metres, or texts with units. A `Material` for the n of an index gives
+            its k as well; one that depends on the wavelength leaves the path that parameter.
 
         Returns
         -------
@@ -121,7 +124,10 @@ class DescribedGraph(ElementGraph):
         if unnamed:
             opened = [name for name, p in self.parameters.items() if not p.bound]
             check_named("bind", unnamed, opened)
-        return self._with(self._given(values, for_good=True))
+        path = self._with(self._given(values, for_good=True))
+        if any(isinstance(value, Material) for value in values.values()):
+            path.cases = cases_left(self.cases, {*path.parameters, *self.choices})
+        return path
 
     def with_defaults(self, /, **values: Any) -> Self:
         """Return a copy of the path in which parameters have these values by default.

@@ -18,6 +18,7 @@ from optipath.values.cures import how_to_give
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.materials import Material
+from optipath.values.open_materials import given_too_late
 from optipath.values.other_part import of_complex
 from optipath.values.ranges import Ranges
 from optipath.values.resolved import THERE, Resolved
@@ -254,7 +255,9 @@ class Inputs:
     __hash__ = None  # type: ignore[assignment]
 
     def _ask_in_doubt(self, name: str, value: Any) -> None:
-        """Raise at the first place where a value may be one or several."""
+        """Raise at the first place where a value may be one or several, or is not known yet."""
+        if late := given_too_late(name, value):
+            raise ParameterError(late)
         for use in self.uses:
             if use.value.name == name and (doubt := use.doubt(value)):
                 raise ParameterError(doubt)

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import UnitError
 from optipath.values.materials import Material
+from optipath.values.open_materials import waits_for
 from optipath.values.parameters import Parameter
 from optipath.values.units import parse_quantity
 
@@ -49,6 +50,48 @@ def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) 
     return ""
 
 
+def places_of(uses: Iterable[Use], name: str) -> list[Use]:
+    """Return where a parameter stands.
+
+    Parameters
+    ----------
+    uses : iterable of Use
+        The numbers of a path.
+    name : str
+        The parameter.
+
+    Returns
+    -------
+    list of Use
+    """
+    return [u for u in uses if isinstance(u.value, Parameter) and u.value.name == name]
+
+
+def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
+    """Return what k is wherever a parameter stands as the n of an index.
+
+    Parameters
+    ----------
+    uses : iterable of Use
+        The numbers of a path.
+    name : str
+        The parameter that is n.
+
+    Returns
+    -------
+    dict of str to Any
+        By place; nothing where it stands as an index by itself, or as something else.
+    """
+    values = {use.owner: use.value for use in uses}
+    found = {}
+    for owner, value in values.items():
+        place, _, part = owner.rpartition(".")
+        if isinstance(value, Parameter) and value.name == name and part == "n":
+            k = f"{place}.k"
+            found |= {k: values[k]} if k in values else {}
+    return found
+
+
 def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any) -> list[str]:
     """Return sentences on a value; those on a complex one with how its other part is given.
 
@@ -73,7 +116,7 @@ def of_complex(faults: Iterable[str], uses: Iterable[Use], name: str, value: Any
 
 def _is_complex(value: Any) -> bool:
     if isinstance(value, Material):
-        return not isinstance(value.k, (int, float)) or value.k != 0.0
+        return not waits_for(value) and not (isinstance(value.k, (int, float)) and value.k == 0.0)
     if isinstance(value, str):
         try:
             value = parse_quantity(value, "")

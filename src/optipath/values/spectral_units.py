@@ -63,3 +63,14 @@ def wavelength_of(text: str) -> float | None:
     if not 0.0 < number < math.inf:
         raise UnitError(f"'{text}' stands for no wavelength; give a number above 0")
     return _TIMES_WAVELENGTH[match[2]] / number
+
+
+def spectral_unit_meant(word: str) -> str | None:
+    """Return the unit of `wavelength_of` that differs in capital letters alone, if any.
+
+    Examples
+    --------
+    >>> spectral_unit_meant("ev"), spectral_unit_meant("nm")
+    ('eV', None)
+    """
+    return next((unit for unit in _TIMES_WAVELENGTH if unit.lower() == word.lower()), None)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, UnitError
+from optipath.values.cures import cure
 from optipath.values.parameters import Parameter
-from optipath.values.spectral_units import wavelength_of
+from optipath.values.spectral_units import spectral_unit_meant, wavelength_of
+from optipath.values.units import unit_of
 
 _MOST_NANOMETRES = 1e6
 
@@ -55,8 +57,18 @@ class Wavelength(Parameter):
                 object.__setattr__(self, field, read)
         super().__post_init__()
 
+    @property
+    def yields(self) -> bool:
+        """Whether it has nothing of its own, so that another of its name may say all of it."""
+        return self.same_specification(Wavelength(self.name))
+
     def parse(self, text: str, default_unit: str = "") -> Any:
         read = wavelength_of(text)
+        if read is None and (meant := spectral_unit_meant(unit_of(text))):
+            raise UnitError(
+                f"parameter '{self.name}': unit '{unit_of(text)}' of '{text}' is unknown; did you "
+                f"mean '{meant}'?"
+            )
         return super().parse(text, default_unit) if read is None else read
 
     def _check_range(self, array: Any) -> None:
@@ -68,5 +80,5 @@ class Wavelength(Parameter):
                 raise
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
-                f"for nanometres write '{first:g} nm', or {first:g}e-9"
+                f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}"
             ) from error

@@ -10,12 +10,16 @@ import numpy as np
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.elements.vertices.vertex_domain import VerticesDomain
 from optipath.errors import OptipathError, PresetError, UnitError, did_you_mean, shown
+from optipath.paths.format.curve_tables import FORMS, decode_curve, is_curve
 from optipath.paths.format.faults import unknown_keys
 from optipath.paths.format.lists import decode_list, entry_domain
 from optipath.paths.format.references import named, referred
 from optipath.paths.format.schema import as_meant
 from optipath.paths.format.tables_of_angles import chain_by_angles, table_of_angles
+from optipath.paths.format.written_curves import material_table, number_table
+from optipath.spelling import closest
 from optipath.values.arrays.array_likes import array_of
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.axis import axes_for
 from optipath.values.domains.choice import Choice
 from optipath.values.domains.domain import Domain
@@ -74,6 +78,8 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return FOLLOWS
     if isinstance(raw, str) and "$" in raw:
         return referred(raw, parameters)
+    if is_curve(raw):
+        return decode_curve(raw, domain, parameters, lambda one, of: decode(one, of, parameters))
     if isinstance(raw, dict) and raw.keys() & _AFFINE:
         return _affine(raw, domain, parameters)
     if isinstance(raw, dict) and isinstance(domain, (IndexDomain, OutsideDomain)):
@@ -177,12 +183,14 @@ def encode(value: Any, unit: str, complex_parts: tuple[str, ...] = INDEX.complex
     """
     if isinstance(value, np.generic):
         value = value.item()
+    if isinstance(value, CurveValue):
+        return number_table(value, unit, encode)
     if isinstance(value, Parameter):
         return _parameter(value, unit)
     if value is FOLLOWS:
         return FOLLOWS.word
     if isinstance(value, Material):
-        return {"n": encode(value.n, unit), "k": encode(value.k, unit)}
+        return material_table(value, encode)
     if isinstance(value, VerticesByAngles):
         return table_of_angles(value, lambda angle: encode(angle, ANGLE.unit))
     if isinstance(value, str):
@@ -234,8 +242,8 @@ def _parameter(value: Parameter, unit: str) -> Any:
 def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dict[str, Any]:
     """Return the parts of a complex number or a material that is written as a table."""
     names = domain.complex_parts or INDEX.complex_parts
-    faults = unknown_keys(raw, names)
-    if names[0] not in raw:
+    faults = unknown_keys(raw, (*names, *FORMS) if names == INDEX.complex_parts else names)
+    if names[0] not in raw and not any(closest(key, FORMS) for key in raw):
         faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
     pure, given = Domain(domain.name), [key for key in names if key in raw]
     parts = {key: faults.attempt(f".{key}", decode, raw[key], pure, parameters) for key in given}

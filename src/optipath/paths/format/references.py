@@ -73,3 +73,50 @@ def referred(raw: str, parameters: Mapping[str, Parameter]) -> Parameter:
         raise PresetError(f"'{raw}' is no name of a parameter; write {table_for(raw)}")
     known = [f"${parameter}" for parameter in parameters]
     raise PresetError(f"parameter '{raw}' is not declared{did_you_mean(raw, known)}")
+
+
+def references_in(raw: Any) -> set[str]:
+    """Return the names of the parameters that a part of a document refers to.
+
+    Examples
+    --------
+    >>> mirror = {"index": {"n": "$n1", "k": 0.1}, "azimuth": {"parameter": "rho", "scale": -2}}
+    >>> sorted(references_in([mirror, "-$phi"]))
+    ['n1', 'phi', 'rho']
+    """
+    found, left = set(), [raw]
+    while left:
+        entry = left.pop()
+        if isinstance(entry, str):
+            sign, dollar, name = entry.partition("$")
+            if dollar and sign in ("", "-"):
+                found.add(name)
+        elif isinstance(entry, dict):
+            left += entry.values()
+            multiple = entry.get("parameter")
+            if isinstance(multiple, str):
+                found.add(multiple)
+        elif isinstance(entry, list):
+            left += entry
+    return found
+
+
+def wavelength_names(raw: Any) -> set[str]:
+    """Return the names of the parameters that stand as a wavelength in a part of a document.
+
+    That which is called ``wavelength`` is one of them, since materials take it by themselves.
+
+    Examples
+    --------
+    >>> sorted(wavelength_names([{"wavelength": "$lam"}, {"thickness": "$d"}]))
+    ['lam', 'wavelength']
+    """
+    found, left = {"wavelength"}, [raw]
+    while left:
+        entry = left.pop()
+        if isinstance(entry, dict):
+            found |= references_in(entry.get("wavelength"))
+            left += entry.values()
+        elif isinstance(entry, list):
+            left += entry
+    return found

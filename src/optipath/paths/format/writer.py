@@ -15,6 +15,7 @@ from optipath.errors import PathError, did_you_mean
 from optipath.paths.format.codec import encode
 from optipath.paths.format.faults import Faults
 from optipath.paths.format.lists import entry_domain
+from optipath.paths.format.references import wavelength_names
 from optipath.paths.format.schema import FORMAT
 from optipath.paths.place_choice import choice_faults
 from optipath.values.cases import name_faults
@@ -23,6 +24,7 @@ from optipath.values.domains.indices import INDEX
 from optipath.values.domains.pair import is_pair
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.parameters import Parameter
+from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -65,11 +67,17 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         top["loops"] = loops
     tables: list[str] = [_lines("", top)]
     parts = complex_parts_of(graph)
+    elements = {
+        name: faults.attempt(name, _element, node["element"], node["frames"])
+        for name, node in graph.nodes.items()
+    }
+    wavelengths = wavelength_names([*elements.values()])
     for name, parameter in parameters.items():
         row = _parameter(parameter, parts.get(name))
+        if name in wavelengths and dimension_of(parameter.unit) == "length":
+            row.setdefault("range", [-np.inf, np.inf])  # Without it, it has that of wavelengths.
         tables.append(_lines(f"[parameters.{_key(name)}]", row))
-    for name, element in graph.nodes(data="element"):
-        described = faults.attempt(name, _element, element, graph.nodes[name]["frames"])
+    for name, described in elements.items():
         if described is not None:
             tables.append(_lines(f"[elements.{_key(name)}]", described))
     for (start, end, (leaves, enters)), about in graph.edges.items():

@@ -161,7 +161,28 @@ def bound_preset(
         As `load_preset` does.
     """
     known, faults = _of_case(path, preset, case)
-    return _bound(path, {**known, **values}, faults)
+    return _bound(path, beside(path, known, values), faults)
+
+
+def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values of a case and others, which take precedence: of a `Material`, its k as well.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What they are given for.
+    known, values : mapping of str to Any
+        Those of the case, and the others.
+
+    Returns
+    -------
+    dict of str to Any
+    """
+    # Not for every import of the library.
+    from optipath.paths.bound_materials import given_by_materials  # noqa: PLC0415
+
+    gone = given_by_materials(path, values)
+    return {name: value for name, value in known.items() if name not in gone} | {**values}
 
 
 def _of_case(

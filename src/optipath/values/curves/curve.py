@@ -33,6 +33,9 @@ class Curve(Unchanging, ABC):
         The least and the largest wavelength that it may be asked for, in metres.
     beyond : str
         What else to do than to stay within these, as a sentence goes on behind "or".
+    unit : str
+        In which people write its numbers, which are in radians, metres and teslas; ``""`` for
+        pure numbers, and where nobody says what is meant.
     unreal : str
         Why its numbers may be none, or such as nothing has, at wavelengths within these.
     """
@@ -41,6 +44,7 @@ class Curve(Unchanging, ABC):
     label: str
     span: tuple[float, float] = (0.0, np.inf)
     beyond: str = ""
+    unit: str = ""
     unreal: str = ""
 
     @property

@@ -47,6 +47,11 @@ class CurveSum(Curve):
         return next((curve.beyond for _, curve, _ in self.terms if curve.beyond), "")
 
     @property
+    def unit(self) -> str:  # type: ignore[override]
+        """The unit of the first of them."""
+        return self.terms[0][1].unit
+
+    @property
     def content(self) -> tuple[Hashable, ...]:
         terms = [(factor, curve.digest, place) for factor, curve, place in self.terms]
         return self.label, tuple(terms), self.constant

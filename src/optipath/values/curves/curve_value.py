@@ -19,10 +19,11 @@ from optipath.values.domains.domain import Domain
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
+from optipath.values.units import dimension_of, with_article
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Hashable, Iterable, Iterator, Mapping
 
     from optipath.values.curves.curve import Curve
 
@@ -195,6 +196,12 @@ class CurveValue(Parameter):
             )
         terms = [(one.scale * by, one.curve, one.place) for one, by in ((self, 1.0), (other, sign))]
         total = CurveSum(tuple(terms), self.offset + sign * other.offset)
+        one, another = dimension_of(self.unit), dimension_of(other.unit)
+        if one != another:
+            raise ParameterError(
+                f"{self.spoken} is {with_article(one or 'pure number')}, and {other.spoken} "
+                f"{with_article(another or 'pure number')}; add up what is of one kind"
+            )
         low, high = total.span
         if not low <= high:
             raise ParameterError(
@@ -249,6 +256,7 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
     made = CurveValue(
         _name(curve, place, given_by),
         None,
+        unit=curve.unit,
         bound=bound,
         curve=curve,
         place=place,
@@ -269,11 +277,19 @@ def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
 def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
     """Return a name that nobody can give, and that equal values alone share."""
     keys = [Operand(one).key() for one in given_by]
-    bound = [
-        np.asarray(p.default).tobytes() for p in given_by if isinstance(p, Parameter) and p.bound
-    ]
+    bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
     mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=4).hexdigest()
     return f"{curve.parts[place]} of {curve.label} [{mark}]"
+
+
+def _content(number: Any) -> Hashable:
+    """Return what equal numbers share; what JAX traces is equal to itself alone."""
+    return id(number) if is_traced(number) else np.asarray(number).tobytes()
+
+
+def _content(number: Any) -> Hashable:
+    """Return what equal numbers share; what JAX traces is equal to itself alone."""
+    return id(number) if is_traced(number) else np.asarray(number).tobytes()
 
 
 def _number(one: Any, given: Mapping[str, Resolved]) -> Any:

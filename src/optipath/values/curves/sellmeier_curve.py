@@ -15,6 +15,8 @@ from optipath.values.curves.coefficients import (
 from optipath.values.curves.formula_curve import EVERYWHERE, FormulaCurve
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from optipath.values.curves.coefficients import Coefficient
 
 
@@ -92,12 +94,24 @@ class Sellmeier(FormulaCurve):
         ]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
+        square = sellmeier_square(xp, wavelength * MICROMETRES, *self.terms(arguments))
+        return (index_of_square(xp, square),)
+
+    def terms(self, arguments: Sequence[Any]) -> tuple[Any, Sequence[Any], Sequence[Any]]:
+        """Return the offset, the strengths, and the poles in square micrometres.
+
+        Parameters
+        ----------
+        arguments : sequence of array_like
+            As `arguments` lists them.
+
+        Returns
+        -------
+        tuple
+        """
         offset, *rest = arguments
         strengths, poles = rest[: len(self.b)], rest[len(self.b) :]
-        if self.c is None:
-            poles = [pole * pole for pole in poles]
-        square = sellmeier_square(xp, wavelength * MICROMETRES, offset, strengths, poles)
-        return (index_of_square(xp, square),)
+        return offset, strengths, [p * p for p in poles] if self.c is None else poles
 
 
 class Cauchy(FormulaCurve):

@@ -40,6 +40,8 @@ class Tabulated(Curve):
         By straight lines, or by cubics that overshoot no sample (`monotone_slopes`).
     extrapolate : {"", "nearest", "linear"}, optional
         What it is beyond its samples: an error, the last sample, or the straight line on.
+    unit : str, optional
+        In which people write the samples, which are given in radians, metres and teslas.
 
     Raises
     ------
@@ -62,6 +64,7 @@ class Tabulated(Curve):
         *,
         interpolation: str = "linear",
         extrapolate: str = "",
+        unit: str = "",
     ) -> None:
         faults = [
             *unknown("interpolation", interpolation, INTERPOLATIONS),
@@ -91,6 +94,7 @@ class Tabulated(Curve):
             columns=tuple([locked(column) for column in values]),
             interpolation=interpolation,
             extrapolate=extrapolate,
+            unit=unit,
             span=(0.0, np.inf) if extrapolate else (float(places[0]), float(places[-1])),
             beyond=cure(
                 "ask for extrapolate='nearest' or 'linear'",
@@ -113,7 +117,7 @@ class Tabulated(Curve):
     @property
     def content(self) -> tuple[Hashable, ...]:
         numbers = (self.wavelengths, *self.columns)
-        told = (self.label, self.parts, self.interpolation, self.extrapolate)
+        told = (self.label, self.parts, self.interpolation, self.extrapolate, self.unit)
         return (*told, *[column.tobytes() for column in numbers])
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import shown
+from optipath.paths.format.references import wavelength_names
 from optipath.paths.presets.reader.parameter_tables import read_parameter
 from optipath.values.parameters import Parameter
 from optipath.values.units import USUAL_UNITS, dimension_of, with_article
@@ -51,10 +52,11 @@ def read_declarations(
     """
     found, tables = Declarations(), document.get("parameters", {})
     readable = tables_of(document, "parameters", faults)
+    wavelengths = wavelength_names(document.get("elements"))
     # Without the tables, nobody knows what they have declared.
     for name in tables if isinstance(tables, dict) else references:
         table = readable.get(name)
-        parameter = None if table is None else read_parameter(name, table, faults)
+        parameter = None if table is None else read_parameter(name, table, wavelengths, faults)
         if parameter is None:
             found.doubtful.add(name)
             parameter = Parameter(name if name.isidentifier() else "unknown")
@@ -87,32 +89,6 @@ def tables_of(document: dict[str, Any], section: str, faults: Faults) -> dict[st
         for name in wrong
     ]
     return {name: table for name, table in entries if name not in wrong}
-
-
-def references_in(raw: Any) -> set[str]:
-    """Return the names of the parameters that a part of a document refers to.
-
-    Examples
-    --------
-    >>> mirror = {"index": {"n": "$n1", "k": 0.1}, "azimuth": {"parameter": "rho", "scale": -2}}
-    >>> sorted(references_in([mirror, "-$phi"]))
-    ['n1', 'phi', 'rho']
-    """
-    found, left = set(), [raw]
-    while left:
-        entry = left.pop()
-        if isinstance(entry, str):
-            sign, dollar, name = entry.partition("$")
-            if dollar and sign in ("", "-"):
-                found.add(name)
-        elif isinstance(entry, dict):
-            left += entry.values()
-            multiple = entry.get("parameter")
-            if isinstance(multiple, str):
-                found.add(multiple)
-        elif isinstance(entry, list):
-            left += entry
-    return found
 
 
 def unit_faults(values: Values, parameters: Declarations) -> dict[str, str]:

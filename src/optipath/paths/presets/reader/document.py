@@ -12,6 +12,7 @@ from optipath.errors import PathError, did_you_mean, shown, unknown
 from optipath.paths.format import schema
 from optipath.paths.format.codec import decode, which_pair
 from optipath.paths.format.faults import Faults, joined
+from optipath.paths.format.references import references_in
 from optipath.paths.format.writer import as_toml, complex_domains
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.place_choice import PlaceChoice, choice_faults
@@ -19,7 +20,6 @@ from optipath.paths.port_names import find_port
 from optipath.paths.presets.reader.case_tables import read_case
 from optipath.paths.presets.reader.declarations import (
     read_declarations,
-    references_in,
     tables_of,
     unit_faults,
 )
@@ -73,12 +73,13 @@ def read(document: Table) -> PathGraph:
     pairs = _pair_faults(path, document)
     faults += chain(*pairs.values())
     doubtful = {*parameters.doubtful, *unfit, *pairs, STAND_IN.name}
-    _cases(path, document, parameters, doubtful, values.uses, lost, faults)
+    known = {**values.parameters, **parameters}
+    _cases(path, document, known, doubtful, values.uses, lost, faults)
     if len(faults) == before:
         faults += [
             f"parameter '{name}' is declared, but no element takes it"
             for name in parameters
-            if name not in references
+            if name not in references and name not in values.parameters
         ]
     if faults:
         whole = bool(path.graph) and not lost
@@ -139,7 +140,7 @@ def _links(
 def _cases(
     path: PathGraph,
     document: Table,
-    parameters: Declarations,
+    parameters: Parameters,
     doubtful: set[str],
     uses: Sequence[Use],
     lost: set[str],

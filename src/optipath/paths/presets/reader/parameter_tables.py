@@ -9,20 +9,24 @@ from optipath.paths.format import schema
 from optipath.paths.format.codec import decode, decode_given
 from optipath.paths.format.schema import texts_in
 from optipath.values.domains.domain import Domain
+from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.parameters import Parameter
 from optipath.values.specification import checked_name
 from optipath.values.unit_names import unit_meant
 from optipath.values.units import UNITS, dimension_of, units_of, with_article
+from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Container, Mapping
 
     from optipath.paths.format.faults import Faults
 
 _WITH_UNIT = re.compile(rf"[-+.\d][-+.\deE]*\s*({'|'.join(map(re.escape, UNITS))})", re.ASCII)
 
 
-def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Parameter | None:
+def read_parameter(
+    name: str, table: dict[str, Any], wavelengths: Container[str], faults: Faults
+) -> Parameter | None:
     """Return the parameter that a table declares; None where the table is faulty.
 
     Parameters
@@ -31,6 +35,8 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
         What it is called.
     table : dict
         What stands in the file.
+    wavelengths : container of str
+        The parameters that are wavelengths where they are lengths.
     faults : Faults
         Takes what is wrong.
 
@@ -50,7 +56,8 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
     dimension = faults.attempt(where, dimension_of, unit)
     if dimension is None or not named:
         return None
-    domain = Domain("value", dimension, own_unit=unit)
+    of_light = name in wavelengths and dimension == "length"
+    domain = WAVELENGTH if of_light else Domain("value", dimension, own_unit=unit)
     words = {
         word: faults.attempt(f"{where}.words.{word}", decode, raw, domain, {})
         for word, raw in table.get("words", {}).items()
@@ -58,7 +65,9 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
     keys: dict[str, Any] = {key: table[key] for key in ("help", "optional") if key in table}
     keys |= {"unit": unit, "words": {word: n for word, n in words.items() if n is not None}}
     keys |= _range(where, table, domain, faults)
-    default, bare = None, faults.attempt(where, Parameter, name, None, **keys)
+    kind = Wavelength if of_light else Parameter
+    keys.setdefault("help", "")
+    default, bare = None, faults.attempt(where, kind, name, None, **keys)
     given = table.get("default")
     waits = isinstance(given, str) and given in words and words[given] is None
     if given is not None and bare is not None and not waits:
@@ -66,7 +75,7 @@ def read_parameter(name: str, table: dict[str, Any], faults: Faults) -> Paramete
     if len(faults) > before:
         return None
     bound = table.get("bound", False)
-    return faults.attempt(where, Parameter, name, default, bound=bound, **keys)
+    return faults.attempt(where, kind, name, default, bound=bound, **keys)
 
 
 def _range(where: str, table: Mapping[str, Any], domain: Domain, faults: Faults) -> dict[str, Any]:

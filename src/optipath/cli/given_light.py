@@ -1,0 +1,103 @@
+"""Materials and wavelengths that are given by options: ``--n1 gold --wavelength "516 nm"``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from optipath.cli.plain_json import plain
+from optipath.errors import OptipathError, printable
+from optipath.values.curves.curve_value import CurveValue
+from optipath.values.materials import Material
+from optipath.values.other_part import places_of
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+WAVELENGTH = Wavelength(help="wavelength in vacuum, by which materials that have a name are taken")
+"""What is offered where a preset has no parameter of this name."""
+
+
+def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
+    """Tell whether a text is the name of a material, for the index of refraction that stands there.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        What it is given for.
+    text : str
+        What stands behind the option.
+    uses : sequence of Use
+        The numbers of the path.
+
+    Returns
+    -------
+    bool
+    """
+    if not text[:1].isalpha() or text in parameter.all_words or text in ("inf", "nan"):
+        return False
+    places = places_of(uses, parameter.name)
+    return bool(places) and all(use.domain.takes_materials for use in places)
+
+
+def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
+    """Take a wavelength out of some values where nothing depends on it, and say so.
+
+    Parameters
+    ----------
+    preset : str
+        The name of a preset, or a file.
+    path : PathGraph
+        What they are given for.
+    values : dict of str to Any
+        By name.
+    """
+    name = WAVELENGTH.name
+    if name not in values or name in path.parameters:
+        return
+    media = {given: value for given, value in values.items() if isinstance(value, Material)}
+    try:
+        needed = name in path.bind(**media).parameters
+    except OptipathError:
+        return  # Which is told of the material.
+    if not needed:
+        del values[name]
+        told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
+        click.echo(printable(told), err=True)
+
+
+def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Material]]:
+    """Yield what is a material among some values: its parameter, what it is called, and itself."""
+    for name, value in values.items():
+        if isinstance(value, Material):
+            curves = [v.curve for v in (value.n, value.k) if isinstance(v, CurveValue)]
+            yield name, curves[0].label if curves else str(value), value
+
+
+def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:
+    """Return what a material is called and comes to, as JSON can hold it.
+
+    Parameters
+    ----------
+    label : str
+        What it is called.
+    material : Material
+        With its n and k.
+    wavelength : float or ndarray
+        Where it is taken, in metres.
+
+    Returns
+    -------
+    dict of str to Any
+    """
+    parts = {part: getattr(material, part) for part in ("n", "k")}
+    return {"name": label} | {
+        part: plain(value.at(wavelength) if isinstance(value, CurveValue) else value)
+        for part, value in parts.items()
+    }

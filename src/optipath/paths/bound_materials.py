@@ -1,0 +1,159 @@
+"""Materials that are bound to the parameter of an index: they give n, and k with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from optipath.composer.path_values import Values
+from optipath.errors import ParameterError
+from optipath.values.arrays.read_only import same
+from optipath.values.materials import Material
+from optipath.values.open_materials import waits_for
+from optipath.values.other_part import extinctions_beside, places_of
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Mapping, Sequence
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.cases import Case
+    from optipath.values.use import Use
+
+
+def materials_placed(
+    values: Mapping[str, Any], uses: Sequence[Use]
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return what is bound once each material among some values gives its n and its k.
+
+    Parameters
+    ----------
+    values : mapping of str to Any
+        What is given for parameters, by name.
+    uses : sequence of Use
+        The numbers of the path.
+
+    Returns
+    -------
+    plain : dict of str to Any
+        What is bound as any value is.
+    placed : dict of str to Any
+        What takes the place of a parameter, since it is known only when the path runs.
+
+    Raises
+    ------
+    ParameterError
+        With a sentence for each material that cannot give its k, or stands for no index.
+    """
+    plain, placed, faults = dict(values), {}, []
+    for name, material in values.items():
+        places = places_of(uses, name)
+        if not isinstance(material, Material) or not places or places[0].value.bound:
+            continue
+        if doubts := [doubt for use in places if (doubt := use.doubt(material))]:
+            faults.append(doubts[0])
+            continue
+        beside = extinctions_beside(uses, name)
+        given: dict[str, Any] = {name: material.n} if beside else {name: material}
+        if beside:
+            given |= {k.name: material.k for k in beside.values() if isinstance(k, Parameter)}
+        elif not waits_for(material):
+            continue  # One complex number.
+        if wrong := _faults(name, material, beside, places, values, uses):
+            faults += wrong
+            continue
+        for part, value in given.items():
+            plain.pop(part, None)
+            is_number = not isinstance(value, (Parameter, Material))
+            (plain if is_number else placed)[part] = value
+    if faults:
+        raise ParameterError(*dict.fromkeys(faults))
+    return plain, placed
+
+
+def given_by_materials(path: PathGraph, values: Mapping[str, Any]) -> set[str]:
+    """Return the parameters that are the k of materials among some values.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What they are given for.
+    values : mapping of str to Any
+        By name.
+
+    Returns
+    -------
+    set of str
+    """
+    names = [name for name, value in values.items() if isinstance(value, Material)]
+    uses = Values(path.graph).uses if names else ()
+    found = [k for name in names for k in extinctions_beside(uses, name).values()]
+    return {k.name for k in found if isinstance(k, Parameter)}
+
+
+def _faults(
+    name: str,
+    material: Material,
+    beside: Mapping[str, Any],
+    places: Sequence[Use],
+    values: Mapping[str, Any],
+    uses: Sequence[Use],
+) -> list[str]:
+    """Return why a material cannot stand where the parameter does, or give its k there."""
+    faults = [
+        f"parameter '{name}' stands as {use.value.formula} at {use.owner}, for which no Material "
+        f"can be given; let '{name}' itself stand there"
+        for use in places
+        if not use.value.is_signed or use.value.is_negative
+    ]
+    for owner, k in beside.items():
+        if not isinstance(k, Parameter):
+            if not same(k, material.k):
+                faults.append(
+                    f"{owner} is {k:g} where the path is built, but {material} has a k of its "
+                    f"own; make it a parameter there"
+                )
+        elif k.name in values:
+            faults.append(
+                f"parameter '{k.name}' is given by '{name}', a Material, which has its own k; "
+                f"leave {k.name} out"
+            )
+        elif k.bound or not k.is_signed or k.is_negative:
+            faults.append(
+                f"{owner} is {k.formula}, so that no Material can give it; let the parameter "
+                f"'{k.name}' itself stand there, and leave it open"
+            )
+        elif others := {use.owner for use in places_of(uses, k.name)} - {*beside}:
+            faults.append(
+                f"parameter '{k.name}' stands at {min(others)} besides, of which '{name}' says "
+                f"nothing; use two names"
+            )
+    if beside and len({use.owner for use in places}) > len(beside):
+        faults.append(
+            f"parameter '{name}' is n beside a k in one place, and stands without a k in another; "
+            f"use two names"
+        )
+    return faults
+
+
+def cases_left(cases: Mapping[str, Case], known: Container[str]) -> dict[str, Case]:
+    """Return the cases of a path in which parameters are there no more.
+
+    Parameters
+    ----------
+    cases : mapping of str to Case
+        Named sets of values.
+    known : container of str
+        The parameters and choices that are left.
+
+    Returns
+    -------
+    dict of str to Case
+        What was published for others stands in them no more.
+    """
+    found = {}
+    for name, case in cases.items():
+        left = {given: value for given, value in case.values.items() if given in known}
+        same_values = len(left) == len(case.values)
+        found[name] = case if same_values else replace(case, values=left, published={}, note="")
+    return found

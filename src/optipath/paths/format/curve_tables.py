@@ -1,0 +1,184 @@
+"""Tables of what depends on the wavelength: a material where an index stands, or one number."""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import add, sub
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import PresetError, shown
+from optipath.paths.format.crystal_tables import CRYSTAL, number_of_crystal
+from optipath.paths.format.faults import Faults, unknown_keys
+from optipath.paths.format.formula_tables import BESIDE, FORMULAS, formula_of
+from optipath.paths.format.samples import sampled_curve
+from optipath.paths.format.schema import as_meant
+from optipath.values.curves.curve_value import curve_values
+from optipath.values.curves.wavelength_range import WavelengthRange
+from optipath.values.domains.domain import Domain
+from optipath.values.domains.indices import IndexDomain, OutsideDomain
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.materials import K, Material, N
+from optipath.values.parameters import Parameter
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from optipath.values.curves.curve import Curve
+
+    Decode = Callable[[Any, Domain], Any]
+
+NAMED, SAMPLES, SUM, DIFFERENCE = "material", "wavelengths", "sum", "difference"
+FORMS = (NAMED, SAMPLES, *FORMULAS, CRYSTAL, SUM, DIFFERENCE)
+"""The keys by which a table is known for one of these."""
+
+WHEN = "wavelength"
+"""The key, and the name of the parameter that is taken where it is left out."""
+
+_OF_SAMPLES = ("unit", "interpolation", "extrapolate", "name")
+_OF_NUMBER = ("part", "scale", "offset")
+_OF_PAGES = {"page": str, "interpolation": str, "extrapolate": str, "n": N, "k": K}
+
+
+def is_curve(raw: Any) -> bool:
+    """Tell whether a value is a table of what depends on the wavelength.
+
+    Examples
+    --------
+    >>> is_curve({"material": "gold"}), is_curve({"n": 1.5}), is_curve("gold")
+    (True, False, False)
+    """
+    return isinstance(raw, dict) and not raw.keys().isdisjoint(FORMS)
+
+
+def decode_curve(
+    raw: Mapping[str, Any], domain: Domain, parameters: Mapping[str, Parameter], decode: Decode
+) -> Any:
+    """Return what stands for a table of what depends on the wavelength.
+
+    Parameters
+    ----------
+    raw : mapping
+        What stands in the file.
+    domain : Domain
+        What the field may be.
+    parameters : mapping of str to Parameter
+        What is declared.
+    decode : callable
+        Returns the value of one entry, which may be a parameter.
+
+    Returns
+    -------
+    Material, Parameter or float
+        A material where an index stands; elsewhere one number, known or not.
+
+    Raises
+    ------
+    OptipathError
+        With all faults of the table.
+    """
+    form, *others = [key for key in FORMS if key in raw]
+    if others:
+        raise PresetError(f"'{form}' and '{others[0]}' say one thing twice; leave one of them out")
+    for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED, CRYSTAL):
+        if key in raw and not isinstance(raw[key], str):
+            raise PresetError(f"'{key}' must be a text, not {shown(raw[key])}")
+    of_index = isinstance(domain, (IndexDomain, OutsideDomain))
+    if form in (SUM, DIFFERENCE) and not of_index:
+        return _together(raw, form, domain, decode)
+    if form in (SUM, DIFFERENCE):
+        one = f"{{ n = {{ {form} = ... }} }}"
+        raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
+    whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
+    found = _parts(whole, form, domain, of_index, parameters, decode)
+    if of_index:
+        return Material(**found)
+    return _placed(_chosen(found, raw), raw, domain, decode)
+
+
+def _parts(
+    raw: Mapping[str, Any],
+    form: str,
+    domain: Domain,
+    of_index: bool,  # noqa: FBT001 - it goes no further
+    parameters: Mapping[str, Parameter],
+    decode: Decode,
+) -> dict[str, Any]:
+    """Return the numbers that a table gives, by the names of the parts of its curve."""
+    columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
+    own = {NAMED: tuple(_OF_PAGES), SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
+    keys = own.get(form, BESIDE)
+    faults = unknown_keys(raw, (form, *keys, WHEN))
+    raw = as_meant(raw, (form, *keys, WHEN))
+    if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
+        faults.append(f"a table of {SAMPLES} needs 'n', a list with a number for each")
+    if WHEN in raw:
+        when = faults.attempt(f".{WHEN}", decode, raw[WHEN], WAVELENGTH)
+    else:
+        when = parameters.get(WHEN) or Wavelength()
+    if faults:
+        raise PresetError(*faults)
+    if form == NAMED:
+        return _by_name(raw, when, decode)
+    if form == CRYSTAL:
+        return {CRYSTAL: number_of_crystal(raw[CRYSTAL], domain, when)}
+    curve = (
+        sampled_curve(raw, columns, domain) if form == SAMPLES else formula_of(raw, form, decode)
+    )
+    return _at(curve, when)
+
+
+def _at(curve: Curve, when: Any) -> dict[str, Any]:
+    if not isinstance(when, Parameter):
+        WavelengthRange.of(curve).check(WHEN, when)
+    return dict(zip(curve.parts, curve_values(curve, when), strict=True))
+
+
+def _by_name(raw: Mapping[str, Any], when: Any, decode: Decode) -> dict[str, Any]:
+    """Return n and k of a material of the database."""
+    faults = Faults()
+    given = {
+        key: raw[key] if of is str else faults.attempt(f".{key}", decode, raw[key], of)
+        for key, of in _OF_PAGES.items()
+        if key in raw
+    }
+    if faults:
+        raise PresetError(*faults)
+    found = Material.named(raw[NAMED], wavelength=when, **given)
+    return {"n": found.n, "k": found.k}
+
+
+def _chosen(found: Mapping[str, Any], raw: Mapping[str, Any]) -> Any:
+    """Return the number of a table where one is asked for: n where it has both."""
+    part = raw.get("part", next(iter(found)))
+    if part not in found:
+        raise PresetError(f"'part' is '{part}', but the table has {' and '.join(found)}")
+    return found[part]
+
+
+def _together(raw: Mapping[str, Any], form: str, domain: Domain, decode: Decode) -> Any:
+    """Return a sum or a difference of numbers by wavelength."""
+    faults = unknown_keys(raw, (form, *_OF_NUMBER[1:]))
+    terms = raw[form]
+    if not isinstance(terms, list) or len(terms) < 2 or (form == DIFFERENCE and len(terms) > 2):
+        many = "two tables" if form == DIFFERENCE else "two tables or more"
+        faults.append(f"'{form}' must be a list of {many}, not {shown(terms)}")
+        raise PresetError(*faults)
+    found = [faults.attempt(f".{form}[{i}]", decode, term, domain) for i, term in enumerate(terms)]
+    if faults:
+        raise PresetError(*faults)
+    return _placed(reduce(sub if form == DIFFERENCE else add, found), raw, domain, decode)
+
+
+def _placed(value: Any, raw: Mapping[str, Any], domain: Domain, decode: Decode) -> Any:
+    """Return a multiple of a value with an offset, where the table says so."""
+    faults = Faults()
+    if "scale" in raw:
+        scale = faults.attempt(".scale", decode, raw["scale"], Domain("scale"))
+        value = value if scale is None else scale * value
+    if "offset" in raw:
+        offset = faults.attempt(".offset", decode, raw["offset"], domain)
+        value = value if offset is None else value + offset
+    if faults:
+        raise PresetError(*faults)
+    return value

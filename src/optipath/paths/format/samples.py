@@ -1,0 +1,181 @@
+"""Samples of curves in preset files: wavelengths with their unit, and numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import PresetError, UnitError, shown
+from optipath.paths.format.faults import Faults
+from optipath.values.curves.tabulated import Tabulated
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.materials import K, N
+from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.domains.domain import Domain
+
+_NM = "nm"
+
+
+def sampled_curve(raw: Mapping[str, Any], columns: tuple[str, ...], domain: Domain) -> Tabulated:
+    """Return the curve through the samples of a table.
+
+    Parameters
+    ----------
+    raw : mapping
+        What stands in the file, its keys known.
+    columns : tuple of str
+        Which keys have samples: ``"n"`` and ``"k"``, of which one may be there, or ``"values"``.
+    domain : Domain
+        What ``"values"`` may be.
+
+    Returns
+    -------
+    Tabulated
+
+    Raises
+    ------
+    OptipathError
+        With all faults of the samples.
+    """
+    faults, domains = Faults(), {"n": N, "k": K, "values": domain}
+    of_numbers = columns == ("values",)
+    given = [key for key in columns if key in raw or of_numbers]
+    axis = faults.attempt(".wavelengths", wavelengths_of, raw["wavelengths"], raw.get("unit"))
+    samples = []
+    for key in given:
+        read = faults.attempt(f".{key}", samples_of, raw.get(key), domains[key].unit)
+        samples.append(read)
+        if read is not None and not of_numbers:
+            faults.attempt(f".{key}", domains[key].check, key, read)
+    if faults:
+        raise PresetError(*faults)
+    how = {key: raw[key] for key in ("interpolation", "extrapolate") if key in raw}
+    usual = f"{domain.name} by wavelength" if of_numbers else "the table"
+    parts = tuple(key.removesuffix("s") for key in given)
+    return Tabulated(raw.get("name", usual), parts, axis, samples, **how)
+
+
+def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
+    """Return wavelengths in metres.
+
+    Parameters
+    ----------
+    raw : Any
+        What stands in the file: texts with units, or numbers.
+    unit : str, optional
+        The unit of numbers: of length, energy, wave number or frequency.
+
+    Returns
+    -------
+    list of float
+
+    Raises
+    ------
+    PresetError, UnitError
+        Naming the first entry that is none.
+
+    Examples
+    --------
+    >>> wavelengths_of([500, 520], "nm"), wavelengths_of(["0.5 um"])
+    ([5e-07, 5.2e-07], [5e-07])
+    """
+    return [_wavelength(entry, place, unit) for place, entry in enumerate(_list(raw))]
+
+
+def _wavelength(entry: Any, place: int, unit: Any) -> float:
+    if unit is not None and not isinstance(unit, str):
+        raise PresetError(f'the unit must be a text, such as "nm", not {shown(unit)}')
+    if isinstance(entry, str):
+        return float(WAVELENGTH.parse(entry))
+    number = _real(entry, place)
+    if unit is None:
+        raise UnitError(
+            f'{shown(entry)} has no unit, but a wavelength is asked for; add unit = "nm" to the '
+            f'table, or write "{entry} nm"'
+        )
+    return float(WAVELENGTH.parse(f"{number!r} {unit}"))
+
+
+def samples_of(raw: Any, unit: str) -> list[float]:
+    """Return the samples of one quantity in base units.
+
+    Parameters
+    ----------
+    raw : Any
+        What stands in the file: numbers, or texts with a unit where there is one.
+    unit : str
+        The usual unit of the quantity; none for pure numbers.
+
+    Returns
+    -------
+    list of float
+
+    Raises
+    ------
+    PresetError, UnitError
+        Naming the first entry that is none.
+
+    Examples
+    --------
+    >>> samples_of([1.5, 1.6], ""), samples_of(["1 deg/mm"], "deg/mm")
+    ([1.5, 1.6], [17.453292519943293])
+    """
+    return [_sample(entry, place, unit) for place, entry in enumerate(_list(raw))]
+
+
+def _sample(entry: Any, place: int, unit: str) -> float:
+    if isinstance(entry, str):
+        number = parse_quantity(entry, dimension_of(unit))
+        if isinstance(number, complex):
+            raise PresetError(f"[{place}] is {shown(entry)}, but a real number is asked for")
+        return number
+    number = _real(entry, place)
+    if unit:
+        asked = with_article(dimension_of(unit))
+        raise UnitError(
+            f'{shown(entry)} has no unit, but {asked} is asked for; write "{entry} {unit}"'
+        )
+    return number
+
+
+def _list(raw: Any) -> list[Any]:
+    if isinstance(raw, list) and raw:
+        return raw
+    raise PresetError(f"must be a list of one sample or more, not {shown(raw)}")
+
+
+def _real(entry: Any, place: int) -> float:
+    if isinstance(entry, bool) or not isinstance(entry, (int, float)) or not np.isfinite(entry):
+        raise PresetError(f"[{place}] is {shown(entry)}, but a finite number is asked for")
+    return float(entry)
+
+
+def written_wavelengths(metres: Any) -> dict[str, Any]:
+    """Return wavelengths as a table has them, from which the same numbers are read.
+
+    Parameters
+    ----------
+    metres : array_like, shape (n,)
+        In metres.
+
+    Returns
+    -------
+    dict
+        Numbers and their unit; texts where rounding would change them.
+
+    Examples
+    --------
+    >>> written_wavelengths([5e-07, 5.2e-07])
+    {'wavelengths': [500.0, 520.0], 'unit': 'nm'}
+    """
+    metres = np.asarray(metres).tolist()
+    texts = [format_quantity(one, _NM) for one in metres]
+    numbers = [float(text.split()[0]) for text in texts]
+    if wavelengths_of(numbers, _NM) == metres:
+        return {"wavelengths": numbers, "unit": _NM}
+    return {"wavelengths": texts}

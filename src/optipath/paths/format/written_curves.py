@@ -1,0 +1,139 @@
+"""Writing what depends on the wavelength as the tables that `curve_tables` reads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import PresetError
+from optipath.paths.format.crystal_tables import CRYSTAL, crystal_of
+from optipath.paths.format.curve_tables import SUM, WHEN
+from optipath.paths.format.formula_tables import formula_table
+from optipath.paths.format.samples import written_wavelengths
+from optipath.values.curves.curve_sum import CurveSum
+from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.tabulated import Tabulated
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.values.curves.curve import Curve
+    from optipath.values.materials import Material
+
+    Encode = Callable[[Any, str], Any]
+
+
+def material_table(material: Material, encode: Encode) -> dict[str, Any]:
+    """Return the table of a material: of its curve, or of n and k apart.
+
+    Parameters
+    ----------
+    material : Material
+        What stands for an index.
+    encode : callable
+        Returns what stands in a file for a value, in a unit.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    PresetError
+        If n or k follows from a curve that has no form in files.
+    """
+    n, k = material.n, material.k
+    if isinstance(n, CurveValue) and _are_parts(n, k):
+        return _table(n.curve, n.given_by, "", encode)
+    return {"n": encode(n, ""), "k": encode(k, "")}
+
+
+def _are_parts(n: CurveValue, k: Any) -> bool:
+    """Tell whether n and k are those of one curve, at the same wavelength."""
+    if not n.is_signed or n.is_negative or n.curve.parts[n.place] != "n":
+        return False
+    if not isinstance(k, CurveValue):
+        return "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
+    same = k.curve == n.curve and k.given_by == n.given_by and k.curve.parts[k.place] == "k"
+    return same and k.is_signed and not k.is_negative
+
+
+def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]:
+    """Return the table of one number by wavelength, or of a multiple of it with an offset.
+
+    Parameters
+    ----------
+    value : CurveValue
+        What stands for the number.
+    unit : str
+        The unit of numbers where it stands.
+    encode : callable
+        Returns what stands in a file for a value, in a unit.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    PresetError
+        If its curve has no form in files.
+    """
+    table = _table(value.curve, value.given_by, unit, encode)
+    part = value.curve.parts[value.place]
+    if part != "value" and len(value.curve.parts) > 1:
+        table["part"] = part
+    if value.scale != 1.0:
+        table["scale"] = value.scale
+    if value.offset:
+        table["offset"] = encode(value.offset, unit)
+    return table
+
+
+def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
+    if name := crystal_of(curve):
+        return {CRYSTAL: name} | _wavelength(given_by[0], encode)
+    if isinstance(curve, CurveSum):
+        return _sum(curve, given_by, unit, encode)
+    of_samples = isinstance(curve, Tabulated)
+    table = _samples(curve, unit, encode) if of_samples else formula_table(curve, encode)
+    if table is None:
+        raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
+    return table | _wavelength(given_by[0], encode)
+
+
+def _samples(curve: Tabulated, unit: str, encode: Encode) -> dict[str, Any]:
+    table = written_wavelengths(curve.wavelengths)
+    for part, column in zip(curve.parts, curve.columns, strict=True):
+        key, of = ("values", unit) if part == "value" else (part, "")
+        table[key] = encode(np.asarray(column), of)
+    if curve.interpolation != "linear":
+        table["interpolation"] = curve.interpolation
+    if curve.extrapolate:
+        table["extrapolate"] = curve.extrapolate
+    return table | {"name": curve.label}
+
+
+def _sum(curve: CurveSum, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
+    """Return the table of a sum; what is added stands with its first term."""
+    when, *left = given_by
+    terms = []
+    for factor, one, place in curve.terms:
+        count = len(one.arguments())
+        own, left = (when, *left[:count]), left[count:]
+        table = _table(one, own, unit, encode)
+        if len(one.parts) > 1:
+            table["part"] = one.parts[place]
+        terms.append(table | ({"scale": factor} if factor != 1.0 else {}))
+    if curve.constant:
+        terms[0]["offset"] = encode(curve.constant, unit)
+    return {SUM: terms}
+
+
+def _wavelength(given: Any, encode: Encode) -> dict[str, Any]:
+    """Return the key of a wavelength; none for the parameter of that name."""
+    usual = isinstance(given, Parameter) and given.name == WHEN and given.quantity == WHEN
+    return {} if usual else {WHEN: encode(given, WAVELENGTH.unit)}
