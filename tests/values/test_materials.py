@@ -195,3 +195,18 @@ def test_all_faults_of_a_formula_are_told_at_once():
     with pytest.raises(op.ValueFault) as fault:
         op.Material.drude_lorentz(-9, -0.1, -1, background="a", span="here")
     assert len(fault.value.faults) == 5
+
+
+def test_slopes_of_what_a_material_is_at_a_wavelength_are_those_of_its_formula(jax):
+    # Of n^2 = 1 + b w^2 / (w^2 - c): dn/dw = -b c w / (n (w^2 - c)^2), w in um.
+    material = op.Material.sellmeier([1.2], [0.01])
+    n = float(material.at(5e-7).n)
+    expected = -1.2 * 0.01 * 0.5 / (n * (0.25 - 0.01) ** 2) * 1e6
+    assert float(jax.grad(lambda w: material.at(w).n)(5e-7)) == pytest.approx(expected, rel=1e-13)
+
+
+def test_a_wavelength_that_jax_traces_may_be_bound(jax):
+    path = op.Source() >> op.Interface(bk7(), 0.3) >> op.Detector()
+    by_run = jax.grad(lambda w: path.trace(wavelength=w).stokes[0])(5e-7)
+    bound = jax.grad(lambda w: path.bind(wavelength=w).trace().stokes[0])(5e-7)
+    assert float(bound) == pytest.approx(float(by_run), rel=1e-12)

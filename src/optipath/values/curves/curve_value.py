@@ -23,7 +23,7 @@ from optipath.values.units import dimension_of, with_article
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Hashable, Iterable, Iterator, Mapping
 
     from optipath.values.curves.curve import Curve
 
@@ -318,11 +318,19 @@ def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
 def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
     """Return a name that nobody can give, and that equal values alone share."""
     keys = [Operand(one).key() for one in given_by]
-    bound = [
-        np.asarray(p.default).tobytes() for p in given_by if isinstance(p, Parameter) and p.bound
-    ]
+    bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
     mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=4).hexdigest()
     return f"{curve.parts[place]} of {curve.label} [{mark}]"
+
+
+def _content(number: Any) -> Hashable:
+    """Return what equal numbers share; what JAX traces is equal to itself alone."""
+    return id(number) if is_traced(number) else np.asarray(number).tobytes()
+
+
+def _content(number: Any) -> Hashable:
+    """Return what equal numbers share; what JAX traces is equal to itself alone."""
+    return id(number) if is_traced(number) else np.asarray(number).tobytes()
 
 
 def _number(one: Any, given: Mapping[str, Resolved]) -> Any:
