@@ -9,7 +9,7 @@ import numpy as np
 
 from optipath.errors import ParameterError, UnitError, ValueFault
 from optipath.values.arrays.jax_values import is_traced
-from optipath.values.arrays.read_only import same_fields
+from optipath.values.arrays.read_only import same, same_fields
 from optipath.values.cures import cure
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.curves.material_formulas import MaterialFormulas
@@ -179,8 +179,10 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
 
     def __repr__(self) -> str:
         n, k = self.n, self.k
-        if isinstance(n, CurveValue) and isinstance(k, CurveValue) and n.curve == k.curve:
-            return f"Material '{n.curve.label}', {span_text(self.span)}"
+        if isinstance(n, CurveValue):
+            alike = k.curve == n.curve if isinstance(k, CurveValue) else same(k, 0.0)
+            if alike:
+                return f"Material '{n.curve.label}', {span_text(self.span)}"
         return f"Material(n={_written(n)}, k={_written(k)})"
 
     __eq__ = same_fields

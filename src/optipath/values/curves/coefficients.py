@@ -23,7 +23,6 @@ class _AboveZero(Domain):
 REAL = Domain("coefficient")
 POSITIVE = _AboveZero("coefficient", minimum=5e-324)
 NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
-EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 
 MICROMETRES = 1e6
 """How many there are in a metre: the unit of published coefficients."""

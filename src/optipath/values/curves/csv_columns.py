@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, shown
-from optipath.values.curves.csv_header import axis_of, places_of
+from optipath.values.curves.csv_header import axis_of, has_numbers, places_of
 from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.spectral_units import wavelength_of
 from optipath.values.units import parse_quantity
@@ -81,7 +81,7 @@ def read_columns(
     (number, header), *rows = lines
     faults: list[str] = []
     at, of_axis = axis_of(number, header, unit, faults)
-    places = places_of(number, header, names, cures or {}, faults)
+    places = {} if has_numbers(header) else places_of(number, header, names, cures or {}, faults)
     if not faults and not rows:
         faults.append(f"line {number} is the only one; write a line for each wavelength behind it")
     if faults:

@@ -62,7 +62,7 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
     heads = [_name_and_unit(head) for head in header]
     found = [place for place, (name, _) in enumerate(heads) if name in _AXES]
     if not found:
-        if all(_is_number(cell) for cell in header):
+        if has_numbers(header):
             what = f"line {number} has numbers, and no names of columns"
         else:
             what = f"line {number} names no column of wavelengths, but {listed(header)}"
@@ -131,15 +131,21 @@ def places_of(
             faults.append(f"line {number} has {len(places)} columns '{name}'; keep one")
         else:
             others = [head for head in heads if head not in _AXES]
-            cure = f", or {cures[name]}" if name in cures else ""
+            cure = f"; or {cures[name]}" if name in cures else ""
             meant = did_you_mean(name, others) if others else ""
             faults.append(f"line {number} names no column '{name}'{meant}{cure}")
     return found
 
 
-def _is_number(cell: str) -> bool:
+def has_numbers(header: list[str]) -> bool:
+    """Tell whether a first line has numbers alone, and no names.
+
+    Examples
+    --------
+    >>> has_numbers(["500", "1.5"]), has_numbers(["wavelength (nm)", "n"])
+    (True, False)
+    """
     try:
-        float(cell)
+        return bool([float(cell) for cell in header])
     except ValueError:
         return False
-    return True

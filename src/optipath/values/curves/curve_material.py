@@ -32,8 +32,8 @@ class CurveMaterial:
         raise NotImplementedError
 
     @classmethod
-    def of_curve(cls, curve: Curve, wavelength: Any = None) -> Self:
-        """Return the material of a curve with the parts n and k.
+    def of_curve(cls, curve: Curve, wavelength: Any = None, k: Any = 0.0) -> Self:
+        """Return the material of a curve with the parts n and k, or with n alone.
 
         Parameters
         ----------
@@ -41,6 +41,9 @@ class CurveMaterial:
             What its n and k are.
         wavelength : float, str, array_like or Parameter, optional
             In vacuum.
+        k : float or Parameter, optional
+            The extinction coefficient, the same at all wavelengths, of a curve of n alone. That
+            it is 0 is known to whoever composes a path, that a curve of k is 0 is not.
 
         Returns
         -------
@@ -52,11 +55,12 @@ class CurveMaterial:
             If the curve is not known at the wavelength.
         """
         if isinstance(wavelength, Parameter) or wavelength is None:
-            wavelength = in_unit_of(wavelength or Wavelength(), WAVELENGTH)
-            return cls(*curve_values(curve, wavelength))
-        there = Wavelength().resolve(wavelength).value
-        WavelengthRange.of(curve).check("the wavelength", there)
-        found = curve_values(curve, there)
-        if isinstance(found[0], CurveValue):
-            return cls(*found)  # Its coefficients are given later.
-        return cls(*[value.at(there) for value in curve_values(curve, Wavelength())])
+            values = curve_values(curve, in_unit_of(wavelength or Wavelength(), WAVELENGTH))
+        else:
+            there = Wavelength().resolve(wavelength).value
+            WavelengthRange.of(curve).check("the wavelength", there)
+            values = curve_values(curve, there)
+            if not isinstance(values[0], CurveValue):  # Else its coefficients are given later.
+                values = tuple([one.at(there) for one in curve_values(curve, Wavelength())])
+        n, *rest = values
+        return cls(n, rest[0] if rest else k)

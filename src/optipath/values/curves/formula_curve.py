@@ -40,7 +40,7 @@ class FormulaCurve(Curve):
         With all coefficients that are no numbers, or not such as the formula takes.
     """
 
-    parts = ("n", "k")
+    parts: tuple[str, ...] = ("n", "k")
 
     def __init__(self, label: str, span: Any, **given: Any) -> None:
         vars(self).update(label=label, beyond="take another formula", **given)

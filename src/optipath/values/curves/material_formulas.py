@@ -64,8 +64,8 @@ class MaterialFormulas(CurveMaterial):
         1.5168
         """
         label = name or "a Sellmeier formula"
-        curve = Sellmeier(label, b, c, resonances=resonances, offset=offset, k=k, span=span)
-        return cls.of_curve(curve, wavelength)
+        curve = Sellmeier(label, b, c, resonances=resonances, offset=offset, span=span)
+        return cls.of_curve(curve, wavelength, k)
 
     @classmethod
     def cauchy(
@@ -103,8 +103,8 @@ class MaterialFormulas(CurveMaterial):
         >>> Material.cauchy([1.5, 0.004], wavelength="500 nm")
         Material(n=1.516, k=0.0)
         """
-        curve = Cauchy(name or "a Cauchy formula", coefficients, k=k, span=span)
-        return cls.of_curve(curve, wavelength)
+        curve = Cauchy(name or "a Cauchy formula", coefficients, span=span)
+        return cls.of_curve(curve, wavelength, k)
 
     @classmethod
     def drude_lorentz(

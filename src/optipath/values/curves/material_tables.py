@@ -65,26 +65,20 @@ class MaterialTables(CurveMaterial):
         Material 'gold', 500 nm .. 521 nm
         """
         label = name or "a table of n and k"
-        columns = [np.full(np.shape(wavelengths), c) if np.ndim(c) == 0 else c for c in (n, k)]
+        columns: dict[str, Any] = {"n": np.full(np.shape(wavelengths), n) if np.ndim(n) == 0 else n}
+        constant = np.ndim(k) == 0
+        if not constant:
+            columns["k"] = k
         curve = Tabulated(
             label,
-            ("n", "k"),
+            tuple(columns),
             wavelengths,
-            columns,
+            [*columns.values()],
             interpolation=interpolation,
             extrapolate=extrapolate,
         )
-        faults = []
-        for part, column in zip(curve.parts, curve.columns, strict=True):
-            if np.any(bad := column < 0.0):
-                at = f"{curve.wavelengths[bad][0] * 1e9:.10g} nm"
-                faults.append(
-                    f"{part} of {label} is {column[bad][0]:g} at {at}; give none below 0"
-                    f"{' (the field is exp(-iwt): k > 0 absorbs)' * (part == 'k')}"
-                )
-        if faults:
-            raise ValueFault(*faults)
-        return cls.of_curve(curve, wavelength)
+        _refuse_negative(curve)
+        return cls.of_curve(curve, wavelength, k if constant else 0.0)
 
     @classmethod
     def from_csv(
@@ -137,3 +131,15 @@ class MaterialTables(CurveMaterial):
             name=name or table.title,
             wavelength=wavelength,
         )
+
+
+def _refuse_negative(curve: Tabulated) -> None:
+    faults = [
+        f"{part} of {curve.label} is {column[bad][0]:g} at "
+        f"{curve.wavelengths[bad][0] * 1e9:.10g} nm; give none below 0"
+        f"{' (the field is exp(-iwt): k > 0 absorbs)' * (part == 'k')}"
+        for part, column in zip(curve.parts, curve.columns, strict=True)
+        if np.any(bad := column < 0.0)
+    ]
+    if faults:
+        raise ValueFault(*faults)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import ValueFault
 from optipath.kernels.dispersion.sellmeier import cauchy_index, index_of_square, sellmeier_square
 from optipath.values.curves.coefficients import (
-    EXTINCTION,
     MICROMETRES,
     NOT_NEGATIVE,
     REAL,
@@ -32,8 +31,8 @@ class Sellmeier(FormulaCurve):
         C, in square micrometres.
     resonances : sequence of float or Parameter, optional
         In place of c, the wavelengths of which these are the squares, in micrometres.
-    offset, k : float or Parameter, optional
-        The first term, and the extinction coefficient.
+    offset : float or Parameter, optional
+        The first term.
     span : pair of float or str, optional
         The wavelengths that it holds for.
 
@@ -53,7 +52,7 @@ class Sellmeier(FormulaCurve):
     c: tuple[Any, ...] | None
     resonances: tuple[Any, ...] | None
     offset: Any
-    k: Any
+    parts = ("n",)
     unreal = "its formula has n^2 below 0 there, or a resonance"
 
     def __init__(
@@ -64,7 +63,6 @@ class Sellmeier(FormulaCurve):
         *,
         resonances: Any = None,
         offset: Any = 1.0,
-        k: Any = 0.0,
         span: Any = EVERYWHERE,
     ) -> None:
         if (c is None) == (resonances is None):
@@ -81,7 +79,7 @@ class Sellmeier(FormulaCurve):
             raise ValueFault(
                 f"{label} has {len(b)} of b and {len(poles)} of {other}; give one for each"
             )
-        super().__init__(label, span, b=b, c=c, resonances=resonances, offset=offset, k=k)
+        super().__init__(label, span, b=b, c=c, resonances=resonances, offset=offset)
 
     def arguments(self) -> list[Coefficient]:
         name = "resonances" if self.c is None else "c"
@@ -89,18 +87,17 @@ class Sellmeier(FormulaCurve):
         poles = self.c or self.resonances or ()
         return [
             ("offset", self.offset, REAL),
-            ("k", self.k, EXTINCTION),
             *[(f"b[{place}]", value, REAL) for place, value in enumerate(self.b)],
             *[(f"{name}[{place}]", value, domain) for place, value in enumerate(poles)],
         ]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        offset, k, *rest = arguments
+        offset, *rest = arguments
         strengths, poles = rest[: len(self.b)], rest[len(self.b) :]
         if self.c is None:
             poles = [pole * pole for pole in poles]
         square = sellmeier_square(xp, wavelength * MICROMETRES, offset, strengths, poles)
-        return index_of_square(xp, square), k + 0.0 * wavelength
+        return (index_of_square(xp, square),)
 
 
 class Cauchy(FormulaCurve):
@@ -112,8 +109,6 @@ class Cauchy(FormulaCurve):
         What sentences call it.
     coefficients : sequence of float or Parameter
         A, B, C, ...: a pure number, one in square micrometres, one in um^4, ...
-    k : float or Parameter, optional
-        The extinction coefficient.
     span : pair of float or str, optional
         The wavelengths that it holds for.
 
@@ -130,22 +125,15 @@ class Cauchy(FormulaCurve):
     """
 
     coefficients: tuple[Any, ...]
-    k: Any
+    parts = ("n",)
 
-    def __init__(
-        self, label: str, coefficients: Any, *, k: Any = 0.0, span: Any = EVERYWHERE
-    ) -> None:
+    def __init__(self, label: str, coefficients: Any, *, span: Any = EVERYWHERE) -> None:
         row = several(f"coefficients of {label}", coefficients)
-        super().__init__(label, span, coefficients=row, k=k)
+        super().__init__(label, span, coefficients=row)
 
     def arguments(self) -> list[Coefficient]:
         names = [f"coefficients[{place}]" for place in range(len(self.coefficients))]
-        return [
-            ("k", self.k, EXTINCTION),
-            *[(name, value, REAL) for name, value in zip(names, self.coefficients, strict=True)],
-        ]
+        return [(name, value, REAL) for name, value in zip(names, self.coefficients, strict=True)]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        k, *coefficients = arguments
-        n = cauchy_index(xp, wavelength * MICROMETRES, coefficients)
-        return n, k + 0.0 * wavelength
+        return (cauchy_index(xp, wavelength * MICROMETRES, arguments),)

@@ -1,0 +1,197 @@
+"""Materials of two numbers, of samples, of files and of formulas."""
+
+import pickle
+from copy import deepcopy
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.errors import OptipathError
+
+WAVELENGTHS = ["188 nm", "500 nm", "521 nm", "1937 nm"]
+N = [1.28, 0.97, 0.62, 0.92]
+K = [1.188, 1.87, 2.08, 13.78]
+BK7 = (1.03961212, 0.231792344, 1.01046945), (0.00600069867, 0.0200179144, 103.560653)
+
+
+def gold(**options):
+    return op.Material.tabulated(WAVELENGTHS, N, K, name="gold", **options)
+
+
+def bk7(**options):
+    return op.Material.sellmeier(*BK7, name="BK7", **options)
+
+
+def test_samples_are_linear_between_wavelengths():
+    found = gold().at("516 nm")
+    assert found.n == pytest.approx(0.97 - 0.35 * 16 / 21, rel=1e-14)
+    assert found.k == pytest.approx(1.87 + 0.21 * 16 / 21, rel=1e-14)
+    assert type(found.n) is float
+
+
+def test_glass_has_its_published_index():
+    # Of SCHOTT's data sheet: at the lines d, F and C.
+    lines = ["587.5618 nm", "486.1327 nm", "656.2725 nm"]
+    assert bk7().at(lines).n.round(5).tolist() == [1.5168, 1.52238, 1.51432]
+
+
+def test_resonances_may_be_given_by_their_wavelengths():
+    # I. H. Malitson, J. Opt. Soc. Am. 55, 1205 (1965): fused silica, n_D = 1.45845 at 20 C.
+    b, resonances = (0.6961663, 0.4079426, 0.8974794), (0.0684043, 0.1162414, 9.896161)
+    found = op.Material.sellmeier(b, resonances=resonances).at("587.56 nm")
+    assert round(found.n, 5) == 1.45846
+
+
+def test_energies_and_arrays_are_wavelengths():
+    energy = gold().at("2.4 eV")
+    assert energy.n == pytest.approx(gold().at(1.2398419843320026e-6 / 2.4).n, rel=1e-14)
+    several = gold().at(["516 nm", 521e-9])
+    assert several.n.tolist() == [gold().at("516 nm").n, 0.62]
+
+
+def test_a_wavelength_that_is_given_makes_a_constant_material():
+    constant = gold(wavelength="516 nm")
+    assert constant == gold().at("516 nm")
+    assert constant.refractive_index == constant.n + 1j * constant.k
+    assert constant.at("3 um") is constant
+    assert constant.span == (0.0, np.inf)
+
+
+def test_the_range_can_be_read():
+    assert gold().span == (188e-9, 1937e-9)
+    assert gold(extrapolate="nearest").span == (0.0, np.inf)
+    assert bk7(span=("310 nm", "2.5 um")).span == (310e-9, 2.5e-6)
+
+
+@pytest.mark.parametrize(
+    ("material", "written"),
+    [
+        (op.Material(1.5, 0.1), "Material(n=1.5, k=0.1)"),
+        (gold(), "Material 'gold', 188 nm .. 1937 nm"),
+        (bk7(), "Material 'BK7', any wavelength"),
+        (op.Material(bk7().n, 0.1), "Material(n=n of BK7, k=0.1)"),
+        (
+            op.Material.tauc_lorentz([(1, 3, 1, 2)]),
+            "Material 'a Tauc-Lorentz model', any wavelength",
+        ),
+    ],
+)
+def test_what_is_shown_can_be_read(material, written):
+    assert repr(material) == written
+
+
+def test_equal_materials_are_equal_and_others_are_not():
+    assert gold() == gold()
+    assert gold() != gold(interpolation="monotone")
+    assert gold() != gold(wavelength=op.Wavelength("other"))
+    assert pickle.loads(pickle.dumps(gold())) == gold()
+    assert deepcopy(bk7()) == bk7()
+
+
+def test_a_number_for_k_is_the_same_at_all_wavelengths():
+    assert op.Material.tabulated(WAVELENGTHS, N).at("1 um").k == 0.0
+    assert op.Material.tabulated(WAVELENGTHS, 1.5, 0.2).at("1 um") == op.Material(1.5, 0.2)
+
+
+def test_a_metal_is_that_of_its_electrons():
+    # By complex arithmetic, at the photon energy of 1 um.
+    energy = 1.2398419843320026
+    eps = (
+        4.0 - 9.0**2 / (energy * (energy + 0.02j)) + 0.3 * 81 / (3.0**2 - energy**2 - 0.5j * energy)
+    )
+    index = np.sqrt(eps)
+    metal = op.Material.drude_lorentz(9.0, 0.02, 1.0, [(0.3, 3.0, 0.5)], 4.0, wavelength="1 um")
+    assert metal.refractive_index == pytest.approx(index, rel=1e-13)
+
+
+def test_coefficients_may_be_parameters():
+    material = op.Material.sellmeier([op.Parameter("b", 1.25)], [0.0])
+    assert material.at("500 nm") == op.Material(1.5, 0.0)
+    path = op.Source() >> op.Interface(material, 0.3) >> op.Detector()
+    found = path.trace(b=[1.25, 3.0], wavelength="500 nm").stokes
+    for light, n in zip(found, (1.5, 2.0), strict=True):
+        expected = op.Source() >> op.Interface(n, 0.3) >> op.Detector()
+        assert np.array_equal(light, expected.trace().stokes)
+
+
+def test_another_parameter_may_be_the_wavelength():
+    material = bk7(wavelength=op.Parameter("laser"))
+    path = op.Source() >> op.Interface(material, 0.3) >> op.Detector()
+    expected = op.Source() >> op.Interface(bk7().at("500 nm"), 0.3) >> op.Detector()
+    assert path.trace(laser="500 nm") == expected.trace()
+
+
+def test_a_file_is_a_material(tmp_path):
+    file = tmp_path / "silver.csv"
+    file.write_text("wavelength (nm),n,k\n400,0.05,2.1\n700,0.04,4.5\n")
+    silver = op.Material.from_csv(file)
+    assert repr(silver) == "Material 'silver', 400 nm .. 700 nm"
+    assert silver.at("550 nm").k == pytest.approx(3.3, rel=1e-14)
+    file.write_text("wavelength (nm),n\n400,1.5\n700,1.4\n")
+    with pytest.raises(OptipathError, match="names no column 'k'; there are: n; or give k="):
+        op.Material.from_csv(file)
+    assert op.Material.from_csv(file, k=0.0).at("400 nm") == op.Material(1.5, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("ask", "words"),
+    [
+        (
+            lambda: gold().refractive_index,
+            "n of gold depends on the wavelength; give .at('550 nm')",
+        ),
+        (
+            lambda: gold().at("3 um"),
+            "188 nm .. 1937 nm, for which gold is known, or ask for extrapolate='nearest' or 'lin",
+        ),
+        (lambda: gold().at(516), "516 metres, which is no wavelength of light; for nanometres"),
+        (lambda: gold(wavelength="3 um"), "within 188 nm .. 1937 nm, for which gold is known"),
+        (lambda: bk7(span="1 um"), "span of BK7 is '1 um'; give the least and the largest"),
+        (lambda: bk7(span=("1 um", "2 nm")), "give the least and the largest wavelength"),
+        (
+            lambda: op.Material.sellmeier([1.0], [0.25], name="x").at("450 nm"),
+            "n of x at 450 nm has no value (its formula has n^2 below 0 there, or a resonance)",
+        ),
+        (lambda: op.Material.sellmeier([1.0], [0.25], name="x").at("500 nm"), "has no value"),
+        (
+            lambda: op.Material.tabulated(WAVELENGTHS, N, [0, 0, -1, 0]),
+            "k of a table of n and k is -1",
+        ),
+        (
+            lambda: op.Material.tabulated([188, 500], [1, 2]),
+            "is 188 metres, which is no wavelength",
+        ),
+        (lambda: op.Material.sellmeier([1], [1, 2]), "has 1 of b and 2 of c; give one for each"),
+        (lambda: op.Material.sellmeier([1]), "needs c, in square micrometres, or resonances"),
+        (lambda: op.Material.sellmeier(1, [1]), "b of a Sellmeier formula must be a row"),
+        (lambda: op.Material.sellmeier([1, "a"], [1, 2]), "b[1] of a Sellmeier formula: 'a'"),
+        (lambda: op.Material.cauchy([1.5, np.nan]), "coefficients[1] of a Cauchy formula is nan"),
+        (lambda: op.Material.cauchy([[1.5, 1.6]]), "give one number, or a Parameter for several"),
+        (lambda: op.Material.drude_lorentz(-9, 0.1), "plasma of a Drude-Lorentz model is -9"),
+        (
+            lambda: op.Material.drude_lorentz(9, 0.1, 1.0, [(1, 2, 0)]),
+            "oscillators[0] damping of a Drude-Lorentz model is 0; give a real coefficient above 0",
+        ),
+        (
+            lambda: op.Material.drude_lorentz(9, 0.1, 1.0, [(1, 2)]),
+            "[(strength, energy, damping), ",
+        ),
+        (lambda: op.Material.tauc_lorentz((1, 2, 3, 4)), "give a row of 4 numbers for each"),
+        (lambda: op.Material.tauc_lorentz([(1, 2, 4, 1)]), "a broadening below twice the energy"),
+        (
+            lambda: op.Material.sellmeier([op.Parameter("b")], [0.1], name="x").at("1 um"),
+            "n of x follows from parameter 'b' besides, which has no value; give the parameter a",
+        ),
+    ],
+)
+def test_what_cannot_be_is_told_in_words(ask, words):
+    with pytest.raises(OptipathError) as fault:
+        ask()
+    assert words in str(fault.value)
+
+
+def test_all_faults_of_a_formula_are_told_at_once():
+    with pytest.raises(op.ValueFault) as fault:
+        op.Material.drude_lorentz(-9, -0.1, -1, background="a", span="here")
+    assert len(fault.value.faults) == 5
