@@ -43,6 +43,19 @@ cube: op.Mueller = op.PolarizingBeamSplitter("1000:1", 50.0).mueller("in", "refl
 chained: op.PathGraph = op.Source(100.0) >> op.Polarizer(0.3).named("analyser") >> op.Detector()
 doubled_pass: op.PathGraph = op.there_and_back(op.Retarder(1.0, 0.3).named("plate"), op.Mirror())
 there_again: op.PathGraph = (op.Source() >> doubled_pass >> op.Detector()).reversed(op.Source(2.0))
+gold: op.Material = op.Material.tabulated(["500 nm", "600 nm"], [0.9, 0.3], [1.8, 2.8], name="gold")
+flint: op.Material = op.Material.sellmeier(
+    [op.Parameter("b", 1.2)], c=[0.01], span=("0.3 um", 2e-6)
+)
+gold_there: op.Material = gold.at(["516 nm", 5.2e-7])
+shortest: float = gold.span[0]
+film: op.Light = (
+    op.Source()
+    >> op.Interface(op.Material.tauc_lorentz([(122.0, 3.45, 2.54, 1.2)]), 0.3)
+    >> op.Interface(op.Material.drude_lorentz(9.0, 0.02, oscillators=[(0.3, 3.0, 0.5)]), 0.3)
+    >> op.Interface(op.Material.cauchy([1.5, 0.004], wavelength="500 nm"), 0.3)
+    >> op.Detector()
+).trace(wavelength="550 nm")
 plate_back: op.Retarder = op.Retarder(1.0, 0.3).reversed()
 longer: op.PathGraph = op.PathGraph() >> op.Source() >> op.Polarizer() >> op.Detector()
 light: op.Light = path.trace(theta=0.1, angle=[[0.1], [0.2]])

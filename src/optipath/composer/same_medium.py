@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.values.agreement import Agreement, is_single, text_of
 from optipath.values.cures import cure
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.follows import FOLLOWS
 from optipath.values.parameters import Parameter
 
@@ -78,7 +79,8 @@ class SameMedium(Agreement):
                 f"{_called(behind)}; light of several media merges there: give each light a face "
                 f"of its own"
             )
-        cures = [] if self._is_one_parameter or 0 in varying else [self._cure(*numbers[0::2])]
+        fixed = self._is_one_parameter or isinstance(self.operands[1].value, CurveValue)
+        cures = [] if fixed or 0 in varying else [self._cure(*numbers[0::2])]
         if not self.enters.endswith(".back"):
             cures.append(f"{cure('op.FOLLOWS', FOLLOWS.in_file)} for {self.field}")
         elif not cures:

@@ -19,6 +19,7 @@ from optipath.light.mueller.matrix import Mueller
 from optipath.values.agreement import first_faults
 from optipath.values.arrays.memory import enough_for
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.made import faults_of
 from optipath.values.operands import Operand
 from optipath.values.written_units import units_are_written
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
     from optipath.elements.coupling import Coupling
     from optipath.elements.own_ways import OwnWays
+    from optipath.values.use import Use
 
 NO_FRAMES: Mapping[str, Frame] = MappingProxyType({})
 """Of an element that does not stand in the world."""
@@ -128,9 +130,7 @@ def checked_alone(element: Any, enters: str, frames: Mapping[str, Frame] = NO_FR
             f"and alone it has none; give numbers"
         )
     uses = element.uses(owner) + element.uses_entered(owner, enters)
-    open_ones = [
-        f"parameter '{use.value.name}' of {owner} has no value yet" for use in uses if use.is_open
-    ]
+    open_ones = [_open(owner, use) for use in uses if use.is_open]
     shapes = {use.owner: use.known_shape() for use in uses if not use.is_open}
     faults = list(dict.fromkeys(faults_of(uses) + open_ones))
     faults = faults or broadcast_fault(shapes) or element.frame_faults(owner, frames)
@@ -162,6 +162,16 @@ def _refuse_unphysical(ways: list[OwnWays]) -> None:
     known = [each for each in ways if each.are_known()]
     if faults := [text for each in known for _, text in each.faults(Operand.numbers)]:
         raise PathError(*faults)
+
+
+def _open(owner: str, use: Use) -> str:
+    """Say that a value is not known yet."""
+    if isinstance(use.value, CurveValue):
+        return (
+            f"{use.value.spoken} of {owner} depends on the wavelength, and alone it has none; give "
+            f"what stands there .at('550 nm')"
+        )
+    return f"parameter '{use.value.name}' of {owner} has no value yet"
 
 
 def _twice_turned(owner: str, element: Any, enters: str) -> list[str]:

@@ -13,6 +13,7 @@ from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.angles import CosSin
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.shapes import broadcast_fault, place_text
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.operands import NOTHING, Operand
 from optipath.values.parameters import Parameter
 
@@ -239,6 +240,8 @@ def text_of(operand: Operand, number: float, unit: str = "") -> str:
     number_text = f"{number:.{10 if unit else 12}g}{unit}"
     if not isinstance(value, Parameter):
         return number_text
+    if isinstance(value, CurveValue):
+        return f"{number_text} ({value.formula_of(value.spoken)})"
     if value.formula != value.name:
         return f"{value.formula} = {number_text}"
     return f"{number_text} (parameter '{value.name}')"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,14 @@ from optipath.values.domains.wavelengths import WAVELENGTH, WavelengthDomain
 from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.values.curves.curve import Curve
+
+_LONGEST = 12
+"""How many characters an end of a range may have."""
+
+_PICOMETRES = 1e12
 
 
 @dataclass(frozen=True)
@@ -49,7 +57,17 @@ def span_text(span: tuple[float, float]) -> str:
     --------
     >>> span_text((1.88e-7, 1.937e-6)), span_text((0.0, np.inf))
     ('188 nm .. 1937 nm', 'any wavelength')
+    >>> span_text((4.959367937328011e-07, 1e-6))
+    '495.937 nm .. 1000 nm'
     """
     if span == (0.0, np.inf):
         return "any wavelength"
-    return " .. ".join([format_quantity(end, WAVELENGTH.unit) for end in span])
+    return " .. ".join([_end(span[0], math.ceil), _end(span[1], math.floor)])
+
+
+def _end(wavelength: float, inward: Callable[[float], int]) -> str:
+    """Return an end of a range; one of many digits as a wavelength within the range."""
+    text = format_quantity(wavelength, WAVELENGTH.unit)
+    if len(text) <= _LONGEST or not math.isfinite(wavelength):
+        return text
+    return f"{inward(wavelength * _PICOMETRES) / 1e3:.10g} nm"
