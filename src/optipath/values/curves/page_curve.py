@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import ValueFault
 from optipath.values.cures import cure
 from optipath.values.curves.curve import Curve
-from optipath.values.units import format_quantity
+from optipath.values.curves.wavelength_range import span_text
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping, Sequence
@@ -81,20 +81,8 @@ class PageCurve(Curve):
 
     @property
     def content(self) -> tuple[Hashable, ...]:
-        return (self.label, *[(type(one).__name__, one.content) for one in self.curves])
+        return (self.label, self.span, *[(type(one).__name__, one.content) for one in self.curves])
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments
         return tuple([part for curve in self.curves for part in curve.numbers(xp, wavelength)])
-
-
-def span_text(span: tuple[float, float]) -> str:
-    """Return a range of wavelengths as text, in nanometres or micrometres.
-
-    Examples
-    --------
-    >>> span_text((1.879e-7, 1.937e-6)), span_text((2e-7, 2e-4))
-    ('187.9 nm .. 1937 nm', '0.2 um .. 200 um')
-    """
-    unit = "nm" if span[1] < 1e-5 else "um"
-    return " .. ".join([format_quantity(end, unit) for end in span])

@@ -69,7 +69,9 @@ def catalog_pages() -> tuple[CatalogPage, ...]:
         If there is no database.
     """
     found: dict[str, CatalogPage] = {}
-    for page in _pages(read_yaml(database_folder() / "catalog-nk.yml", "the catalogue")):
+    for page in _pages(
+        read_yaml(database_folder() / "catalog-nk.yml", "the catalogue", installed=True)
+    ):
         found.setdefault(page.place, page)
     return tuple(found.values())
 

@@ -66,10 +66,13 @@ CURATED = (
         "from far ultraviolet to near infrared; the table of Weaver has a wavelength twice",
     ),
     CuratedName(
-        ("mercury",), "main/Hg/Inagaki", "Inagaki et al. 1981", "liquid, the page of widest use"
+        ("mercury",),
+        "main/Hg/Inagaki",
+        "Inagaki et al. 1981",
+        "liquid, from far ultraviolet to infrared",
     ),
     CuratedName(
-        ("silicon",), "main/Si/Green-2008", "Green 2008", "crystal at 300 K, checked by its author"
+        ("silicon",), "main/Si/Green-2008", "Green 2008", "crystal at 300 K, self-consistent"
     ),
     CuratedName(
         ("germanium",), "main/Ge/Nunley", "Nunley et al, 2016", "crystal, of the widest range"
@@ -95,8 +98,8 @@ CURATED = (
         ("silica", "fused silica"),
         "main/SiO2/Malitson",
         "Malitson 1965",
-        "the usual formula",
-        (0.21e-6, 3.5e-6),
+        "the usual formula; water in it absorbs from 2.2 um on",
+        (0.21e-6, 2.1e-6),
     ),
     CuratedName(("quartz-o",), "main/SiO2/Ghosh-o", "Ghosh 1999", _O, (0.198e-6, 2.0531e-6)),
     CuratedName(("quartz-e",), "main/SiO2/Ghosh-e", "Ghosh 1999", _E, (0.198e-6, 2.0531e-6)),
@@ -127,7 +130,11 @@ CURATED = (
     CuratedName(("BBO-o",), "main/BaB2O4/Tamosauskas-o", "Tamošauskas et al. 2018", _O),
     CuratedName(("BBO-e",), "main/BaB2O4/Tamosauskas-e", "Tamošauskas et al. 2018", _E),
     CuratedName(
-        ("CaF2", "fluorite"), "main/CaF2/Malitson", "Malitson 1963", "usual", (0.23e-6, 8e-6)
+        ("CaF2", "fluorite"),
+        "main/CaF2/Malitson",
+        "Malitson 1963",
+        "the usual formula",
+        (0.23e-6, 7.5e-6),
     ),
     CuratedName(
         ("BK7",),
@@ -158,7 +165,7 @@ CURATED = (
         ("polycarbonate",),
         "organic/polycarbonate/Sultanova",
         "Sultanova et al. 2009",
-        "without film or absorption bands",
+        "visible light and near infrared",
         (0.437e-6, 1.052e-6),
         "organic/(C16H14O3)n - polycarbonate/nk/Sultanova.yml",
     ),
@@ -166,7 +173,7 @@ CURATED = (
         ("polystyrene",),
         "organic/polystyrene/Sultanova",
         "Sultanova et al. 2009",
-        "without film or absorption bands",
+        "visible light and near infrared",
         (0.437e-6, 1.052e-6),
         "organic/(C8H8)n - polystyrene/nk/Sultanova.yml",
     ),

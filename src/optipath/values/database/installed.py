@@ -10,7 +10,7 @@ from typing import Any
 
 from optipath.errors import MaterialError, MissingExtraError
 
-_LARGEST = 16 * 1024 * 1024
+_LARGEST = 4 * 1024 * 1024
 
 
 @cache
@@ -37,7 +37,7 @@ def database_folder() -> Path:
     return folder
 
 
-def read_yaml(file: Path, about: str) -> Any:
+def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
     """Return what a YAML file holds, all of it as texts, lists and dicts.
 
     Parameters
@@ -46,6 +46,8 @@ def read_yaml(file: Path, about: str) -> Any:
         The file.
     about : str
         What sentences call it.
+    installed : bool
+        Whether it belongs to the database, and is not somebody's own.
 
     Returns
     -------
@@ -62,11 +64,14 @@ def read_yaml(file: Path, about: str) -> Any:
         import yaml  # noqa: PLC0415 - an extra
     except ImportError:
         raise MissingExtraError("YAML files of materials", "PyYAML", "materials") from None
-    # Numbers stay texts, of which no digit is lost; the quick loader is not everywhere.
-    loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+    # Numbers stay texts, of which no digit is lost. The quick loader, which is not everywhere,
+    # has no limit of depth, and would end Python where somebody else's file is too deep.
+    loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader) if installed else yaml.BaseLoader
     try:
         if file.stat().st_size > _LARGEST:
-            raise MaterialError(f"{about} is too large for a material; give a file below 16 MB")
+            raise MaterialError(
+                f"{about} is too large for a material; give a file of at most 4 MiB"
+            )
         return yaml.load(file.read_text("utf-8"), Loader=loader)  # noqa: S506 - a BaseLoader
     except OSError as error:
         raise MaterialError(f"{about} cannot be read: {error.strerror or error}") from None

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
+from optipath.values.curves.curve_material import CurveMaterial
 from optipath.values.database.named_parts import parts_by_name, parts_of_file
 
 if TYPE_CHECKING:
     from os import PathLike
 
 
-class MaterialPages:
+class MaterialPages(CurveMaterial):
     """Materials by name, and out of files as the database has them."""
-
-    def __init__(self, n: Any, k: Any = 0.0) -> None:
-        raise NotImplementedError
 
     @classmethod
     def named(

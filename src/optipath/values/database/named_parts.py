@@ -5,15 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from optipath.errors import MaterialError
 from optipath.values.curves.curve_value import curve_values
-from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.database.curated_names import alike
 from optipath.values.database.installed import read_yaml
 from optipath.values.database.named_pages import VACUUM, NamedPage, named_page
 from optipath.values.database.page_reading import page_curve
+from optipath.values.domains.domain import in_unit_of
+from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.parameters import Parameter
 from optipath.values.wavelength import Wavelength
 
@@ -100,7 +99,7 @@ def parts_of_file(
     given = {part: value for part, value in own.items() if value is not None}
     file = Path(path)
     curve = page_curve(
-        read_yaml(file, str(file)),
+        read_yaml(file, str(file), installed=False),
         file.name,
         str(file),
         wanted=_wanted(file.name, given),
@@ -141,7 +140,7 @@ def curve_of(
     usual = {"interpolation": "linear", "extrapolate": ""}
     about = found.page.place
     return page_curve(
-        read_yaml(found.page.file, about),
+        read_yaml(found.page.file, about, installed=True),
         found.label,
         about,
         wanted=_wanted(found.name, own),
@@ -163,9 +162,8 @@ def _wanted(name: str, own: Mapping[str, Any]) -> list[str]:
 
 def _at(curve: PageCurve, wavelength: Any) -> dict[str, Any]:
     """Return the parts of a curve, known if the wavelength is."""
-    when = Wavelength() if wavelength is None else wavelength
-    if not isinstance(when, Parameter):
-        when = WavelengthRange.of(curve).check(f"wavelength of {curve.label}", when)
-        numbers = curve_values(curve, when)
-        return dict(zip(curve.parts, [n if np.ndim(n) else n.item() for n in numbers], strict=True))
-    return dict(zip(curve.parts, curve_values(curve, when), strict=True))
+    if wavelength is None or isinstance(wavelength, Parameter):
+        when = in_unit_of(wavelength or Wavelength(), WAVELENGTH)
+        return dict(zip(curve.parts, curve_values(curve, when), strict=True))
+    several = curve_values(curve, Wavelength())
+    return {part: one.at(wavelength) for part, one in zip(curve.parts, several, strict=True)}

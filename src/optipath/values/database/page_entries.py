@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
     from optipath.values.curves.curve import Curve
 
+_POWERS = 300
+"""Up to which power of ten a number is a double in any case."""
+
 _TYPE = re.compile(r"tabulated (nk|n|k)|formula (\d{1,3})")
 
 
@@ -102,16 +105,16 @@ def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
 
 
 def _entry(entry: Any) -> PageEntry:
-    kind = str(entry.get("type")) if isinstance(entry, dict) else ""
-    match = _TYPE.fullmatch(kind)
-    if match is None:
+    kind = entry.get("type") if isinstance(entry, dict) else None
+    match = _TYPE.fullmatch(kind) if isinstance(kind, str) else None
+    if not isinstance(kind, str) or match is None:
         raise OptipathError(
             f"is of type {shown(kind)}; give 'tabulated nk', 'tabulated n', 'tabulated k' or "
             f"'formula 1' to 'formula 9'"
         )
     if match[1]:
         return _table(kind, tuple(match[1]), entry.get("data"))
-    low_high = _numbers(entry, "wavelength_range" if "wavelength_range" in entry else "range")
+    low_high = _numbers(entry, "range" if "range" in entry else "wavelength_range")
     if len(low_high) != 2 or not 0.0 < float(low_high[0]) < float(low_high[1]):
         raise OptipathError("has no 'wavelength_range' of two rising numbers, in micrometres")
     coefficients = tuple(map(float, _numbers(entry, "coefficients")))
@@ -125,11 +128,11 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
     lines = [(at, line.split()) for at, line in enumerate(data.splitlines(), 1) if line.strip()]
     rows, faults = [], []
     for at, words in lines:
-        try:
-            wavelength, *values = map(Decimal, words)
-        except InvalidOperation:
+        numbers = _decimals(words)
+        if not numbers:
             faults.append(f"('{kind}') has no numbers in row {at}, {' '.join(words)!r}")
             continue
+        wavelength, *values = numbers
         if len(values) != len(parts):
             faults.append(
                 f"('{kind}') has {len(words)} numbers in row {at}, {' '.join(words)!r}; give "
@@ -145,13 +148,19 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
 
 def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:
     text = entry.get(key)
-    try:
-        found = [Decimal(word) for word in text.split()] if isinstance(text, str) else []
-    except InvalidOperation:
-        found = []
-    if not found or not all(number.is_finite() for number in found):
+    found = _decimals(text.split()) if isinstance(text, str) else []
+    if not found:
         raise OptipathError(f"has no numbers under '{key}', but {shown(text)}")
     return found
+
+
+def _decimals(words: Sequence[str]) -> list[Decimal]:
+    """Return numbers, none of them rounded; nothing where one is no finite number."""
+    try:
+        found = [Decimal(word) for word in words]
+    except InvalidOperation:
+        return []
+    return found if all(n.is_finite() and n.adjusted() < _POWERS for n in found) else []
 
 
 def _metres_of(span: Sequence[Decimal]) -> tuple[float, float]:

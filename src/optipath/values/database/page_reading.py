@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import MaterialError, OptipathError, unknown
 from optipath.values.cures import cure
 from optipath.values.curves.dispersion_formula import nearest_asked_for
-from optipath.values.curves.page_curve import PageCurve, span_text
+from optipath.values.curves.page_curve import PageCurve
 from optipath.values.curves.tabulated import EXTRAPOLATIONS, INTERPOLATIONS
+from optipath.values.curves.wavelength_range import span_text
 from optipath.values.database.page_entries import PageEntry, entries_of
 
 if TYPE_CHECKING:
@@ -91,7 +92,8 @@ def source_of(contents: Any) -> str:
     'A. Author. J. Opt. 1, 2 (1990)'
     """
     text = contents.get("REFERENCES", "") if isinstance(contents, dict) else ""
-    return " ".join(unescape(re.sub(r"<[^>]*>", " ", str(text))).split()).replace(" ,", ",")
+    words = unescape(re.sub(r"<[^>]*>", " ", text)).split() if isinstance(text, str) else []
+    return " ".join(words).replace(" ,", ",")
 
 
 def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:

@@ -56,7 +56,7 @@ class FoundPage(NamedTuple):
         dict of str to tuple
         """
         try:
-            entries = entries_of(read_yaml(self.page.file, self.page.place), [])
+            entries = entries_of(read_yaml(self.page.file, self.page.place, installed=True), [])
         except OptipathError:
             return {}
         found = {part: entry.span for entry in entries for part in entry.parts}
