@@ -15,7 +15,7 @@ _CURVES = [
     'wavelengths = [300, 900], unit = "nm", values = [0.1, 0.2], interpolation = "monotone"',
     'wavelengths = [300, 900], unit = "nm", values = ["1 deg", "2 deg"], scale = 2',
     "sellmeier = { b = [1.04, 0.23], c = [0.006, 0.02], offset = 1.1 }",
-    "cauchy = { coefficients = [1.5, 0.004], k = 0.01 }",
+    "cauchy = { coefficients = [1.5, 0.004] }, k = 0.01",
     "drude_lorentz = { plasma = 9, damping = 0.02, oscillators = [[0.02, 0.4, 0.2]] }",
     "tauc_lorentz = { oscillators = [[122, 3.45, 2.54, 1.2]], background = 1.15 }",
     "difference = [{ cauchy = { coefficients = [1.5] } }, { cauchy = { coefficients = [1.4] } }]",

@@ -18,7 +18,7 @@ from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import IndexDomain, OutsideDomain
 from optipath.values.domains.wavelengths import WAVELENGTH
-from optipath.values.materials import Material
+from optipath.values.materials import K, Material
 from optipath.values.parameters import Parameter
 from optipath.values.wavelength import Wavelength
 
@@ -96,6 +96,8 @@ def decode_curve(
         raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
     whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
     found = _parts(whole, form, domain, of_index, parameters, decode)
+    if of_index and form in FORMULAS and "k" in raw:
+        return _with_k(found, raw, form, decode)
     if of_index:
         return Material(**found)
     return _placed(_chosen(found, raw), raw, domain, decode)
@@ -112,7 +114,7 @@ def _parts(
     """Return the numbers that a table gives, by the names of the parts of its curve."""
     columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
     own = {NAMED: OF_PAGES, SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
-    keys = own.get(form, BESIDE)
+    keys = own.get(form, (*BESIDE, "k") if of_index else BESIDE)
     faults = unknown_keys(raw, (form, *keys, WHEN))
     raw = as_meant(raw, (form, *keys, WHEN))
     if form == SAMPLES and columns == ("n", "k") and of_index and "n" not in raw:
@@ -131,6 +133,19 @@ def _parts(
         sampled_curve(raw, columns, domain) if form == SAMPLES else formula_of(raw, form, decode)
     )
     return _at(curve, when)
+
+
+def _with_k(
+    found: Mapping[str, Any], raw: Mapping[str, Any], form: str, decode: Decode
+) -> Material:
+    """Return the material of a formula of n, with the k that stands beside it."""
+    if "k" in found:
+        raise PresetError(f"'{form}' gives k as well; leave k out")
+    faults = Faults()
+    k = faults.attempt(".k", decode, raw["k"], K)
+    if faults:
+        raise PresetError(*faults)
+    return Material(found["n"], k)
 
 
 def _at(curve: Curve, when: Any) -> dict[str, Any]:
