@@ -11,6 +11,11 @@ from optipath.errors import ParameterError, UnitError, ValueFault
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.cures import cure
+from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.material_formulas import MaterialFormulas
+from optipath.values.curves.material_tables import MaterialTables
+from optipath.values.curves.wavelength_range import span_text
+from optipath.values.database.material_pages import MaterialPages
 from optipath.values.domains.domain import Domain
 from optipath.values.made import make_sound
 from optipath.values.parameters import Parameter
@@ -69,8 +74,11 @@ _PARTS = {"n": N, "k": K}
 
 
 @dataclass(frozen=True, eq=False)
-class Material:
+class Material(MaterialTables, MaterialFormulas, MaterialPages):
     """A homogeneous medium, given by its complex index of refraction n + ik.
+
+    Both may follow from the wavelength: `Material.tabulated`, `from_csv`, `sellmeier`, `cauchy`,
+    `drude_lorentz` and `tauc_lorentz` make such ones, and `at` tells what they are there.
 
     Parameters
     ----------
@@ -113,7 +121,12 @@ class Material:
         (0.608+2.12j)
         """
         for name in _PARTS:
-            if isinstance(part := getattr(self, name), Parameter):
+            if isinstance(part := getattr(self, name), CurveValue):
+                raise ParameterError(
+                    f"{part.spoken} depends on the wavelength; give .at('550 nm'), or let the "
+                    f"Material itself stand in the path"
+                )
+            if isinstance(part, Parameter):
                 raise ParameterError(
                     f"{name} of a Material is the parameter '{part.name}', which is not known yet; "
                     f"let the Material itself stand in the path"
@@ -121,5 +134,58 @@ class Material:
         without = not is_traced(self.k) and not np.any(self.k)
         return self.n if without else self.n + 1j * self.k
 
+    def at(self, wavelength: Any) -> Material:
+        """Return what it is at a wavelength: a constant material.
+
+        Parameters
+        ----------
+        wavelength : float, str or array_like
+            In vacuum, in metres, or texts such as ``"516 nm"`` and ``"2.4 eV"``.
+
+        Returns
+        -------
+        Material
+            With arrays where several are given; itself where it does not depend on it.
+
+        Raises
+        ------
+        ValueFault
+            If it is not known there.
+        ParameterError
+            If it has coefficients that are parameters without a value.
+
+        Examples
+        --------
+        >>> Material.cauchy([1.5, 0.004]).at("500 nm")
+        Material(n=1.516, k=0.0)
+        """
+        parts = self.n, self.k
+        if not any(isinstance(part, CurveValue) for part in parts):
+            return self
+        return Material(*[p.at(wavelength) if isinstance(p, CurveValue) else p for p in parts])
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The least and the largest wavelength that it may be asked for, in metres.
+
+        Examples
+        --------
+        >>> Material(1.5).span
+        (0.0, inf)
+        """
+        spans = [part.curve.span for part in (self.n, self.k) if isinstance(part, CurveValue)]
+        lows, highs = zip((0.0, np.inf), *spans, strict=True)
+        return max(lows), min(highs)
+
+    def __repr__(self) -> str:
+        n, k = self.n, self.k
+        if isinstance(n, CurveValue) and isinstance(k, CurveValue) and n.curve == k.curve:
+            return f"Material '{n.curve.label}', {span_text(self.span)}"
+        return f"Material(n={_written(n)}, k={_written(k)})"
+
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
+
+
+def _written(part: Any) -> str:
+    return part.formula_of(part.spoken) if isinstance(part, CurveValue) else repr(part)

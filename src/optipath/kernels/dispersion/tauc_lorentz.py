@@ -55,9 +55,12 @@ def tauc_lorentz_permittivity(
     third = 2.0 * e0 * eg / alpha * (ee - gamma) * turn
     gap_square = (e0e0 - egeg) * (e0e0 - egeg) + egeg * cc
     total = e + eg
-    at_gap = above == 0.0
-    lesser = xp.where(e < eg, e, eg)
-    ratio = xp.log1p(xp.where(at_gap, 0.0, -2.0 * lesser / total))
+    # Of |E - Eg| / (E + Eg): next to the gap as it stands, far from it of what it is less than 1.
+    distance = xp.where(above < 0.0, -above, above)
+    is_near, at_gap = distance < 0.5 * total, distance == 0.0
+    near = xp.log(xp.where(is_near & ~at_gap, distance, total) / total)
+    far = xp.log1p(xp.where(is_near, 0.0, -2.0 * xp.where(e < eg, e, eg) / total))
+    ratio = near + far
     logs = above * above / e * ratio + eg * xp.log(gap_square / (total * total * total * total))
     real = a / (math.pi * zeta) * (first - second + third - e0 * c * logs)
     return real, imaginary

@@ -12,8 +12,16 @@ from optipath.values.parameters import Parameter
 
 Coefficient: TypeAlias = tuple[str, Any, Domain]
 
+
+class _AboveZero(Domain):
+    """Real numbers that are not 0, either."""
+
+    def described(self) -> str:
+        return f"a real {self.name} above 0"
+
+
 REAL = Domain("coefficient")
-POSITIVE = Domain("coefficient above 0", minimum=5e-324)
+POSITIVE = _AboveZero("coefficient", minimum=5e-324)
 NOT_NEGATIVE = Domain("coefficient", minimum=0.0)
 EXTINCTION = Domain("extinction coefficient", minimum=0.0)
 

@@ -15,13 +15,12 @@ from optipath.values.units import format_quantity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from optipath.values.curves.curve_value import CurveValue
     from optipath.values.domains.domain import Domain
     from optipath.values.resolved import Resolved
 
 
 def check_computed(
-    value: CurveValue,
+    value: Any,
     owner: str,
     domain: Domain,
     numbers: Any,
@@ -51,20 +50,21 @@ def check_computed(
     try:
         domain.check(owner, placed)
     except ValueFault as fault:
+        if is_traced(placed) or domain.tail:
+            raise
         bad = ~np.asarray(domain.allows(np.asarray(placed)))
-        if is_traced(placed) or not np.any(bad):
+        if not np.any(bad):
             raise
         found = float(np.asarray(placed)[bad].ravel()[0])
         at = _wavelength_text(value, bad, given or {})
-        what = f"{value.formula_of(value.spoken)}{at}{f' (at {owner})' if owner else ''}"
-        why = f": {value.curve.unreal}" if value.curve.unreal else ""
-        wanted = f"give another wavelength: what is asked for is {domain.described()}"
-        if not np.isfinite(found):
-            raise ValueFault(f"{what} has no value{why}; {wanted}") from fault
-        raise ValueFault(f"{what} is {found:.6g}{why}; {wanted}") from fault
+        what = f"{value.formula_of(value.spoken)}{at}"
+        is_what = f"is {found:.6g}" if np.isfinite(found) else "has no value"
+        why = f" ({value.curve.unreal})" if value.curve.unreal else ""
+        wanted = f", and {owner} takes {domain.described()}" if owner else ""
+        raise ValueFault(f"{what} {is_what}{why}{wanted}; give another wavelength") from fault
 
 
-def _wavelength_text(value: CurveValue, bad: Any, given: Mapping[str, Resolved]) -> str:
+def _wavelength_text(value: Any, bad: Any, given: Mapping[str, Resolved]) -> str:
     """Return the first wavelength at which a value is not allowed, as a sentence goes on."""
     known = {
         p.name: p.resolve(p.default)

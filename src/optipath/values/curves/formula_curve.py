@@ -43,7 +43,7 @@ class FormulaCurve(Curve):
     parts = ("n", "k")
 
     def __init__(self, label: str, span: Any, **given: Any) -> None:
-        vars(self).update(label=label, beyond="another formula", **given)
+        vars(self).update(label=label, beyond="take another formula", **given)
         faults: list[str] = []
         for name, value, domain in self.arguments():
             try:

@@ -56,7 +56,7 @@ class Sellmeier(FormulaCurve):
     resonances: tuple[Any, ...] | None
     offset: Any
     k: Any
-    unreal = "the formula has n^2 below 0, or a resonance"
+    unreal = "its formula has n^2 below 0 there, or a resonance"
 
     def __init__(
         self,
@@ -98,7 +98,7 @@ class Sellmeier(FormulaCurve):
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         square = sellmeier_square(xp, wavelength * MICROMETRES, *self.terms(arguments))
-        return index_of_square(xp, square), arguments[1] + 0.0 * square
+        return index_of_square(xp, square), arguments[1] + 0.0 * wavelength
 
     def terms(self, arguments: Sequence[Any]) -> tuple[Any, Sequence[Any], Sequence[Any]]:
         """Return the offset, the strengths, and the poles in square micrometres.
@@ -162,4 +162,4 @@ class Cauchy(FormulaCurve):
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         k, *coefficients = arguments
         n = cauchy_index(xp, wavelength * MICROMETRES, coefficients)
-        return n, k + 0.0 * n
+        return n, k + 0.0 * wavelength

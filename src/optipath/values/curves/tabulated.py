@@ -100,7 +100,7 @@ class Tabulated(Curve):
                 "ask for extrapolate='nearest' or 'linear'",
                 'ask for extrapolate = "nearest" or "linear"',
             ),
-            unreal="a straight line goes on beyond its samples" * (extrapolate == "linear"),
+            unreal="beyond its samples a straight line goes on" * (extrapolate == "linear"),
             _nodes=locked(np.repeat(places, 2)),
             _edges=locked(_edges(places)),
             _cubics=tuple([_cubics(places, v, interpolation, extrapolate) for v in values]),

@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from optipath.values.domains.wavelengths import WavelengthDomain
+import numpy as np
+
+from optipath.values.domains.wavelengths import WAVELENGTH, WavelengthDomain
+from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
     from optipath.values.curves.curve import Curve
@@ -35,5 +38,18 @@ class WavelengthRange(WavelengthDomain):
     def described(self) -> str:
         """Say in words which values are allowed."""
         otherwise = f", or {self.beyond}" if self.beyond else ""
-        low, high = self._text(self.minimum), self._text(self.maximum)
-        return f"a wavelength within {low} .. {high}, for which {self.label} is known{otherwise}"
+        known = span_text((self.minimum, self.maximum))
+        return f"a wavelength within {known}, for which {self.label} is known{otherwise}"
+
+
+def span_text(span: tuple[float, float]) -> str:
+    """Return a range of wavelengths in nanometres.
+
+    Examples
+    --------
+    >>> span_text((1.88e-7, 1.937e-6)), span_text((0.0, np.inf))
+    ('188 nm .. 1937 nm', 'any wavelength')
+    """
+    if span == (0.0, np.inf):
+        return "any wavelength"
+    return " .. ".join([format_quantity(end, WAVELENGTH.unit) for end in span])

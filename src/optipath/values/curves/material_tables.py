@@ -1,0 +1,139 @@
+"""MaterialTables: the ways to make a material of measured n and k."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+
+from optipath.errors import ValueFault
+from optipath.values.curves.csv_columns import read_columns
+from optipath.values.curves.curve_material import CurveMaterial
+from optipath.values.curves.tabulated import Tabulated
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+
+class MaterialTables(CurveMaterial):
+    """Materials of samples, from arrays and files."""
+
+    @classmethod
+    def tabulated(
+        cls,
+        wavelengths: Any,
+        n: Any,
+        k: Any = 0.0,
+        *,
+        interpolation: str = "linear",
+        extrapolate: str = "",
+        name: str = "",
+        wavelength: Any = None,
+    ) -> Self:
+        """Return a material of measured n and k.
+
+        Parameters
+        ----------
+        wavelengths : array_like, shape (m,)
+            In metres, or texts such as ``"516 nm"`` and ``"2.4 eV"``; rising or falling.
+        n, k : array_like, shape (m,) or ()
+            Not negative.
+        interpolation : {"linear", "monotone"}, optional
+            Between samples, of n and of k: straight lines, or cubics that overshoot no sample
+            (Fritsch and Butland 1984).
+        extrapolate : {"", "nearest", "linear"}, optional
+            Beyond the samples: an error, the last sample, or the straight line on.
+        name : str, optional
+            What sentences call it.
+        wavelength : float, str, array_like or Parameter, optional
+            By default the parameter ``wavelength``.
+
+        Returns
+        -------
+        Material
+
+        Raises
+        ------
+        ValueFault
+            With all that is wrong with the samples.
+
+        Examples
+        --------
+        >>> from optipath.values.materials import Material
+        >>> gold = Material.tabulated(["500 nm", "521 nm"], [0.97, 0.62], [1.87, 2.08], name="gold")
+        >>> gold
+        Material 'gold', 500 nm .. 521 nm
+        """
+        label = name or "a table of n and k"
+        columns = [np.full(np.shape(wavelengths), c) if np.ndim(c) == 0 else c for c in (n, k)]
+        curve = Tabulated(
+            label,
+            ("n", "k"),
+            wavelengths,
+            columns,
+            interpolation=interpolation,
+            extrapolate=extrapolate,
+        )
+        faults = []
+        for part, column in zip(curve.parts, curve.columns, strict=True):
+            if np.any(bad := column < 0.0):
+                at = f"{curve.wavelengths[bad][0] * 1e9:.10g} nm"
+                faults.append(
+                    f"{part} of {label} is {column[bad][0]:g} at {at}; give none below 0"
+                    f"{' (the field is exp(-iwt): k > 0 absorbs)' * (part == 'k')}"
+                )
+        if faults:
+            raise ValueFault(*faults)
+        return cls.of_curve(curve, wavelength)
+
+    @classmethod
+    def from_csv(
+        cls,
+        path: str | PathLike[str],
+        *,
+        k: float | None = None,
+        unit: str = "",
+        interpolation: str = "linear",
+        extrapolate: str = "",
+        name: str = "",
+        wavelength: Any = None,
+    ) -> Self:
+        """Return a material of a table in a file, with a line for each wavelength.
+
+        Its first line says what the columns are: ``wavelength (nm)`` or ``energy (eV)``, ``n`` and
+        ``k``; the separator is a comma, a semicolon or a tabulator, and lines that begin with
+        ``#`` are comments.
+
+        Parameters
+        ----------
+        path : str or PathLike
+            The file.
+        k : float, optional
+            The extinction coefficient, of a file without a column k.
+        unit : str, optional
+            Of the wavelengths, where the first line has none.
+        interpolation, extrapolate, name, wavelength
+            As `tabulated` takes them; the name is that of the file by default.
+
+        Returns
+        -------
+        Material
+
+        Raises
+        ------
+        ValueFault
+            With all that is wrong with the file, and the lines.
+        """
+        names = ["n", "k"] if k is None else ["n"]
+        table = read_columns(
+            path, names, unit=unit, cures={"k": "give k=0.0 where nothing absorbs"}
+        )
+        return cls.tabulated(
+            table.wavelengths,
+            table.columns["n"],
+            table.columns["k"] if k is None else k,
+            interpolation=interpolation,
+            extrapolate=extrapolate,
+            name=name or table.title,
+            wavelength=wavelength,
+        )

@@ -1,0 +1,174 @@
+"""Dispersion formulas and their slopes against 50 digits, in the forms that are published."""
+
+import numpy as np
+import pytest
+
+from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
+from optipath.kernels.dispersion.permittivity import index_of_permittivity
+from optipath.kernels.dispersion.sellmeier import cauchy_index, index_of_square, sellmeier_square
+from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
+
+mp = pytest.importorskip("mpmath")
+
+BK7 = (1.0, 1.03961212, 0.231792344, 1.01046945, 0.00600069867, 0.0200179144, 103.560653)
+GOLD = (1.0, 9.03, 0.760, 0.053, 0.024, 0.415, 0.241, 0.010, 0.830, 0.345, 0.071, 2.969, 0.870)
+SILICON = (122.0, 3.45, 2.54, 1.2)
+
+
+@pytest.fixture(autouse=True)
+def _many_digits():
+    with mp.workdps(50):
+        yield
+
+
+def sellmeier(xp, w, *c):
+    return (index_of_square(xp, sellmeier_square(xp, w, c[0], c[1:4], c[4:])),)
+
+
+def sellmeier_published(w, *c):
+    terms = [b * w**2 / (w**2 - pole) for b, pole in zip(c[1:4], c[4:], strict=True)]
+    return (mp.sqrt(c[0] + mp.fsum(terms)),)
+
+
+def cauchy(xp, w, *c):
+    return (cauchy_index(xp, w, c),)
+
+
+def cauchy_published(w, a, b, c):
+    return (a + b / w**2 + c / w**4,)
+
+
+def gold(xp, e, *c):
+    bound = [c[at : at + 3] for at in range(4, len(c), 3)]
+    return index_of_permittivity(xp, *drude_lorentz_permittivity(e, c[0], c[1], c[2:4], bound))
+
+
+def gold_published(e, *c):
+    """Of Rakic et al. (1998), whose field is exp(+iwt)."""
+    background, plasma, f0, g0, *bound = c
+    eps = background - f0 * plasma**2 / (e * (e - mp.mpc(0, -1) * -g0))
+    for at in range(0, len(bound), 3):
+        f, w0, g = bound[at : at + 3]
+        eps += f * plasma**2 / (w0**2 - e**2 + mp.mpc(0, 1) * e * g)
+    index = mp.sqrt(mp.conj(eps))
+    return index.real, index.imag
+
+
+def silicon(xp, e, *c):
+    return tauc_lorentz_permittivity(xp, e, *c)
+
+
+def silicon_published(e, a, e0, c, eg):
+    """Eqs. 4 and 6 of Jellison and Modine (1996) with their erratum."""
+    alpha, gamma = mp.sqrt(4 * e0**2 - c**2), mp.sqrt(e0**2 - c**2 / 2)
+    zeta = (e**2 - gamma**2) ** 2 + alpha**2 * c**2 / 4
+    by_log = (eg**2 - e0**2) * e**2 + eg**2 * c**2 - e0**2 * (e0**2 + 3 * eg**2)
+    by_angle = (e**2 - e0**2) * (e0**2 + eg**2) + eg**2 * c**2
+    ratio = (e0**2 + eg**2 + alpha * eg) / (e0**2 + eg**2 - alpha * eg)
+    angles = mp.pi - mp.atan((2 * eg + alpha) / c) + mp.atan((alpha - 2 * eg) / c)
+    turn = mp.pi + 2 * mp.atan(2 * (gamma**2 - eg**2) / (alpha * c))
+    width = mp.sqrt((e0**2 - eg**2) ** 2 + eg**2 * c**2)
+    real = (
+        a * c * by_log / (2 * mp.pi * zeta * alpha * e0) * mp.log(ratio)
+        - a * by_angle / (mp.pi * zeta * e0) * angles
+        + 2 * a * e0 / (mp.pi * zeta * alpha) * eg * (e**2 - gamma**2) * turn
+        - a * e0 * c * (e**2 + eg**2) / (mp.pi * zeta * e) * mp.log(abs(e - eg) / (e + eg))
+        + 2 * a * e0 * c * eg / (mp.pi * zeta) * mp.log(abs(e - eg) * (e + eg) / width)
+    )
+    imaginary = a * e0 * c * (e - eg) ** 2 / ((e**2 - e0**2) ** 2 + c**2 * e**2) / e
+    return real, imaginary if e > eg else mp.mpf(0)
+
+
+FORMULAS = {
+    "sellmeier": (sellmeier, sellmeier_published, BK7, (0.35, 0.5876, 1.06, 2.3, 0.143)),
+    "cauchy": (cauchy, cauchy_published, (1.458, 0.00354, 1e-5), (0.25, 0.6328, 2.0)),
+    "drude-lorentz": (gold, gold_published, GOLD, (0.2, 0.415, 0.83, 2.4, 2.969, 6.0)),
+    "tauc-lorentz": (
+        silicon,
+        silicon_published,
+        SILICON,
+        (0.05, 0.6, 1.2 - 4e-16, 1.2 + 4e-16, 1.1999, 1.3, 3.45, 9.0),
+    ),
+}
+CASES = [(name, at) for name, (*_, places) in FORMULAS.items() for at in places]
+
+
+@pytest.mark.parametrize(("name", "at"), CASES)
+def test_values_have_fourteen_digits(name, at):
+    formula, published, coefficients, _ = FORMULAS[name]
+    expected = published(*map(mp.mpf, (at, *coefficients)))
+    for found, exact in zip(formula(np, at, *coefficients), expected, strict=True):
+        assert float(found) == pytest.approx(float(exact), rel=2e-14, abs=0.0)
+
+
+@pytest.mark.parametrize(("name", "at"), CASES)
+def test_slopes_in_every_argument_have_twelve_digits(jax, name, at):
+    formula, published, coefficients, _ = FORMULAS[name]
+    arguments = (at, *coefficients)
+    exact = [mp.mpf(number) for number in arguments]
+    places = tuple(range(len(arguments)))
+    for part in range(len(published(*exact))):
+        slopes = jax.grad(lambda *a, part=part: formula(jax.numpy, *a)[part], places)(*arguments)
+        for place, slope in zip(places, slopes, strict=True):
+            order = tuple([int(each == place) for each in places])
+            wanted = float(mp.diff(lambda *a, part=part: published(*a)[part], tuple(exact), order))
+            scale = abs(float(published(*exact)[part])) / abs(arguments[place] or 1.0)
+            assert float(slope) == pytest.approx(wanted, rel=1e-12, abs=1e-13 * scale)
+
+
+@pytest.mark.parametrize("part", [0, 1])
+def test_at_the_gap_an_oscillator_and_its_slopes_are_those_next_to_it(jax, part):
+    gap = SILICON[-1]
+    found = tauc_lorentz_permittivity(np, gap, *SILICON)[part]
+    beside = [mp.mpf(gap) + mp.mpf(10) ** -30, *map(mp.mpf, SILICON)]
+    expected = silicon_published(*beside)[part]
+    assert float(found) == pytest.approx(float(expected), rel=1e-14, abs=1e-28)
+    slopes = jax.grad(lambda *a: silicon(jax.numpy, *a)[part], (0, 4))(gap, *SILICON)
+    for place, slope in zip((0, 4), slopes, strict=True):
+        order = tuple([int(each == place) for each in range(5)])
+        wanted = mp.diff(lambda *a: silicon_published(*a)[part], tuple(beside), order, h="1e-40")
+        assert float(slope) == pytest.approx(float(wanted), rel=1e-12, abs=1e-12)
+
+
+def test_an_oscillator_keeps_the_relation_of_kramers_and_kronig():
+    quad = pytest.importorskip("scipy.integrate").quad
+
+    def absorbed(e):
+        return e * float(tauc_lorentz_permittivity(np, e, *SILICON)[1])
+
+    gap = SILICON[-1]
+    for energy in (1.3, 2.5, 6.0):
+        # The principal value, its singularity a weight: f / (x + e) over (x - e).
+        near, _ = quad(
+            lambda x, e=energy: absorbed(x) / (x + e), gap, 60.0, weight="cauchy", wvar=energy
+        )
+        far, _ = quad(lambda x, e=energy: absorbed(x) / (x * x - e * e), 60.0, np.inf)
+        found = tauc_lorentz_permittivity(np, energy, *SILICON)[0]
+        assert float(found) == pytest.approx(2.0 / np.pi * (near + far), rel=1e-6)
+
+
+@pytest.mark.parametrize("real", [-3.0, -1e-100, 0.0, 1e-100, 2.0])
+@pytest.mark.parametrize("imaginary", [0.0, 1e-90, 1e-9, 4.0])
+def test_the_index_of_a_permittivity_squares_to_it(real, imaginary):
+    n, k = [float(part) for part in index_of_permittivity(np, np.float64(real), imaginary)]
+    exact = mp.sqrt(mp.mpc(real, imaginary))
+    assert n >= 0.0
+    assert k >= 0.0
+    assert n == pytest.approx(float(exact.real), rel=1e-15, abs=1e-150)
+    assert k == pytest.approx(float(exact.imag), rel=1e-15, abs=1e-150)
+
+
+@pytest.mark.parametrize(("real", "imaginary"), [(0.0, 2.0), (-2.0, 0.0), (2.0, 0.0)])
+def test_slopes_of_an_index_are_right_where_a_part_of_the_permittivity_is_0(jax, real, imaginary):
+    exact = mp.sqrt(mp.mpc(real, imaginary))
+    along = 0.5 / exact
+    for part, wanted in enumerate([(along.real, -along.imag), (along.imag, along.real)]):
+        slopes = jax.grad(lambda *a, part=part: index_of_permittivity(jax.numpy, *a)[part], (0, 1))
+        for slope, each in zip(slopes(real, imaginary), wanted, strict=True):
+            assert float(slope) == pytest.approx(float(each), rel=1e-14, abs=1e-16)
+
+
+def test_at_a_resonance_and_below_0_there_is_no_index():
+    squares = sellmeier_square(np, np.array([0.5, 0.45, 0.7]), 1.0, [1.0], [0.25])
+    found = index_of_square(np, squares)
+    assert np.isnan(found).tolist() == [True, True, False]
