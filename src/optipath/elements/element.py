@@ -18,7 +18,7 @@ from optipath.elements.reversing import Reversible
 from optipath.elements.rows import coupling_by_rows, rows_kernel
 from optipath.errors import PathError
 from optipath.kernels.carriers.kernel import Kernel  # noqa: TC001 - annotations of fields are read when it runs
-from optipath.values.curves.curve_value import parameters_among
+from optipath.values.curves.computed_values import parameters_among
 from optipath.values.made import faults_of, is_known_sound, make_sound, remember_sound
 from optipath.values.use import Use
 

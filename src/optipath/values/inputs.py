@@ -15,7 +15,7 @@ from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.cures import how_to_give
-from optipath.values.curves.curve_value import computed_values
+from optipath.values.curves.computed_values import computed_values
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.materials import Material

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import listed
-from optipath.values.curves.curve_value import CurveValue, parameters_among
+from optipath.values.curves.computed_values import parameters_among
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.materials import Material
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ from optipath.values.units import dimension_of, with_article
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable, Iterator, Mapping
+    from collections.abc import Hashable, Iterable, Mapping
 
     from optipath.values.curves.curve import Curve
 
@@ -254,43 +254,6 @@ def curve_values(curve: Curve, wavelength: Any) -> tuple[Any, ...]:
     return tuple([_of(curve, place, given_by) for place in range(len(curve.parts))])
 
 
-def computed_values(
-    values: Iterable[CurveValue], given: Mapping[str, Resolved]
-) -> dict[str, Resolved]:
-    """Return the numbers of those values of which all is given; each curve is evaluated once.
-
-    Parameters
-    ----------
-    values : iterable of CurveValue
-        The values.
-    given : mapping of str to Resolved
-        What they are computed of, by name.
-
-    Returns
-    -------
-    dict of str to Resolved
-        By the names of the values.
-    """
-    found: dict[str, Resolved] = {}
-    parts: dict[Any, tuple[Any, ...]] = {}
-    for value in values:
-        if value.follows(given):
-            same = id(value.curve), *map(id, value.given_by)
-            if same not in parts:
-                parts[same] = value.parts(given)
-            found[value.name] = Resolved(parts[same][value.place], THERE)
-    return found
-
-
-def parameters_among(values: Iterable[Any]) -> Iterator[Parameter]:
-    """Yield the parameters among some values, and behind each those that it follows from."""
-    for value in values:
-        if isinstance(value, Parameter):
-            yield value
-        if isinstance(value, CurveValue):
-            yield from value.arguments
-
-
 def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
     parameters = [one for one in given_by if isinstance(one, Parameter)]
     bound = all(one.bound for one in parameters)
@@ -321,11 +284,6 @@ def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
     bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
     mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=4).hexdigest()
     return f"{curve.parts[place]} of {curve.label} [{mark}]"
-
-
-def _content(number: Any) -> Hashable:
-    """Return what equal numbers share; what JAX traces is equal to itself alone."""
-    return id(number) if is_traced(number) else np.asarray(number).tobytes()
 
 
 def _content(number: Any) -> Hashable:

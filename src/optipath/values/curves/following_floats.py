@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.values.curves.curve_value import computed_values
+from optipath.values.curves.computed_values import computed_values
 from optipath.values.resolved import THERE, Resolved
 
 if TYPE_CHECKING:

@@ -1,0 +1,49 @@
+"""What values of curves come to together, and which parameters stand among and behind them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.values.curves.curve_value import CurveValue
+from optipath.values.parameters import Parameter
+from optipath.values.resolved import THERE, Resolved
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+
+def computed_values(
+    values: Iterable[CurveValue], given: Mapping[str, Resolved]
+) -> dict[str, Resolved]:
+    """Return the numbers of those values of which all is given; each curve is evaluated once.
+
+    Parameters
+    ----------
+    values : iterable of CurveValue
+        The values.
+    given : mapping of str to Resolved
+        What they are computed of, by name.
+
+    Returns
+    -------
+    dict of str to Resolved
+        By the names of the values.
+    """
+    found: dict[str, Resolved] = {}
+    parts: dict[Any, tuple[Any, ...]] = {}
+    for value in values:
+        if value.follows(given):
+            same = id(value.curve), *map(id, value.given_by)
+            if same not in parts:
+                parts[same] = value.parts(given)
+            found[value.name] = Resolved(parts[same][value.place], THERE)
+    return found
+
+
+def parameters_among(values: Iterable[Any]) -> Iterator[Parameter]:
+    """Yield the parameters among some values, and behind each those that it follows from."""
+    for value in values:
+        if isinstance(value, Parameter):
+            yield value
+        if isinstance(value, CurveValue):
+            yield from value.arguments
