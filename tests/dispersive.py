@@ -25,7 +25,7 @@ class Line(Curve):
     def content(self):
         return self.label, self.first, self.last
 
-    def numbers(self, xp, wavelength, *arguments):
+    def numbers(self, _xp, wavelength, *_arguments):
         return (self.first + (self.last - self.first) * (wavelength - SHORT) / (LONG - SHORT),)
 
 
