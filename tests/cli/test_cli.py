@@ -251,7 +251,7 @@ def test_all_wrong_options_are_told_at_once(capsys):
     arguments = ["run", "npgr026", "--delta", "91", "--n1", "x", "--rho", "3 dge", "--case", "99"]
     status, _, err = run(capsys, *arguments)
     assert status == 2
-    for part in ("'delta' is 91 deg", "no word 'x'", "did you mean 'deg'", "case '99'"):
+    for part in ("'delta' is 91 deg", "--n1", "did you mean 'deg'", "case '99'"):
         assert part in err
 
 

@@ -13,7 +13,7 @@ from optipath.lab.accuracy.boundary_reference import boundary, mueller_numbers, 
 from optipath.lab.accuracy.many_digits import cos_sin, exact_angle
 
 jax = pytest.importorskip("jax")
-sloped = pytest.importorskip("optipath.engines.jax_primitives").sloped
+sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
 
 LIGHT = (1.0, 0.3, 0.5, -0.4)
 STEP = mpmath.mpf(10) ** -40

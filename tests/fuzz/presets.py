@@ -9,8 +9,43 @@ from tests.fuzz.odd_values import toml_value
 
 import optipath as op
 
+_CURVES = [
+    'wavelengths = [400, 500, 700], unit = "nm", n = [1.5, 1.0, 0.3], k = [1.9, 1.8, 2.9]',
+    'wavelengths = ["0.3 um", "2.4 eV"], n = [1.5, 1.4], extrapolate = "linear", name = "glass"',
+    'wavelengths = [300, 900], unit = "nm", values = [0.1, 0.2], interpolation = "monotone"',
+    'wavelengths = [300, 900], unit = "nm", values = ["1 deg", "2 deg"], scale = 2',
+    "sellmeier = { b = [1.04, 0.23], c = [0.006, 0.02], offset = 1.1 }",
+    "cauchy = { coefficients = [1.5, 0.004], k = 0.01 }",
+    "drude_lorentz = { plasma = 9, damping = 0.02, oscillators = [[0.02, 0.4, 0.2]] }",
+    "tauc_lorentz = { oscillators = [[122, 3.45, 2.54, 1.2]], background = 1.15 }",
+    "difference = [{ cauchy = { coefficients = [1.5] } }, { cauchy = { coefficients = [1.4] } }]",
+    'material = "gold"',
+    'material = "silica", k = 0.1',
+    'crystal = "quartz"',
+]
+_WHEN = [
+    "",
+    ', wavelength = "516 nm"',
+    ', wavelength = "$n1"',
+    ", wavelength = 5e-7",
+    ', part = "k"',
+]
+"""Tables of what depends on the wavelength, and what else may stand in them."""
+
+
+def _in_curves(text):
+    """Return a preset in which an index follows from the wavelength."""
+    return text.replace('{ n = "$n1", k = "$k1" }', f"{{ {_CURVES[0]} }}")
+
+
 _TEXTS = [op.load_preset(name).to_toml() for name in op.preset_names()]
-_WORDS = sorted({word for text in _TEXTS for word in re.findall(r"[a-z_]{2,}", text)})
+_TEXTS.append(_in_curves(next(text for text in _TEXTS if "$n1" in text)))
+_TEXTS.append(
+    (op.Source() >> op.Interface(op.Material.cauchy([1.5, 0.01]), 0.3) >> op.Detector())
+    .bind(wavelength="516 nm")
+    .to_toml()
+)
+_WORDS = sorted({word for text in [*_TEXTS, *_CURVES] for word in re.findall(r"[a-z_]{2,}", text)})
 
 
 def make(rng):
@@ -37,6 +72,13 @@ def _used(text):
 def _a_value(rng, text):
     places = list(re.finditer(r"= (.*)$", text, re.MULTILINE))
     return _put(text, rng.choice(places).span(1), toml_value(rng)) if places else text
+
+
+def _a_curve(rng, text):
+    places = list(re.finditer(r"= (.*)$", text, re.MULTILINE))
+    table = f"{{ {rng.choice(_CURVES)}{rng.choice(_WHEN)} }}"
+    table = f"{{ n = {table}, k = 0.1 }}" if rng.random() < 0.2 else table
+    return _put(text, rng.choice(places).span(1), table) if places else text
 
 
 def _a_word(rng, text):
@@ -97,4 +139,15 @@ def _put(text, span, new):
     return text[: span[0]] + new + text[span[1] :]
 
 
-_ALTERATIONS = [_a_value, _a_value, _a_value, _a_word, _a_letter, _a_line, _a_key, _a_flood]
+_ALTERATIONS = [
+    _a_value,
+    _a_value,
+    _a_value,
+    _a_curve,
+    _a_curve,
+    _a_word,
+    _a_letter,
+    _a_line,
+    _a_key,
+    _a_flood,
+]

@@ -88,6 +88,9 @@ started: op.PathGraph = op.load_preset("malus").with_defaults(angle=0.3)
 in_singles: op.Composer = op.Composer(dtype=np.float32)
 preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
+amplitudes: op.FresnelAmplitudes = op.fresnel_amplitudes(op.Material(0.6, 2.1), 0.8, 0.6, 1.3)
+r_s, r_p, t_s, t_p = amplitudes
+fading: op.EffectiveIndex = op.effective_index(0.6 + 2.1j, op.CosSin(0.8, 0.6), outside=1.3)
 chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
 in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(delta=0.1).frame
 down = [[0, 0, 1], [0, 0, 0], [0, 0, -1]]
@@ -97,3 +100,8 @@ ended = op.path_from_vertices(
     np.zeros((2, 4, 3)), [1.5, 1.0], ids=[[0, 1], [1, 1]], events=["TT", "R"], bad="mask"
 )
 corner = op.SpecularVertex(1.5, op.vertices_from_angles([0.3]), place=1)
+
+
+def of_pages() -> tuple[op.Material, op.Material]:
+    gold = op.Material.named("gold", page="Johnson", wavelength="516 nm")
+    return gold, op.Material.from_yaml("mine.yml", k=0.0, extrapolate="nearest")

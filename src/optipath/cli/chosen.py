@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from optipath.cli.given_light import WAVELENGTH, is_material, take_wavelength
+from optipath.cli.given_light import WAVELENGTH, is_material, material_named, take_wavelength
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
 from optipath.values.cases import ALL
 from optipath.values.domains.axis import axes_for
-from optipath.values.materials import Material
 from optipath.values.other_part import other_part
 from optipath.values.wavelength import Wavelength
 
@@ -92,7 +91,10 @@ def chosen_by(
     uses = Values(path.graph).uses if given else ()
     values = {name: _value(path, name, text, uses, faults) for name, text in given.items()}
     sound = {name: value for name, value in values.items() if value is not None}
-    take_wavelength(preset, path, sound)
+    if not faults:
+        take_wavelength(preset, path, sound)
+    elif WAVELENGTH.name not in path.parameters:
+        sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
     found = [Chosen(preset, path, case, sound) for case in dict.fromkeys(cases)]
     found = found or [Chosen(preset, path, None, sound)]
     if faults or len(found) > 1:
@@ -226,7 +228,7 @@ def _value(path: PathGraph, name: str, text: str, uses: Sequence[Use], faults: l
     parameter = path.parameters.get(name, WAVELENGTH)
     try:
         if is_material(parameter, text, uses):
-            return Material.named(text)
+            return material_named(f"--{_flag(name)}", text)
         value = axes_for(name, text, uses)
         if isinstance(value, str):
             # A bare number may be nanometres, micrometres or electronvolts.

@@ -29,6 +29,7 @@ _COMMANDS = (
     "cache",
     "chart",
     "explain",
+    "materials",
     "polarization",
     "presets",
     "run",

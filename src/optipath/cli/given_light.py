@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath.cli.plain_json import plain
-from optipath.errors import OptipathError, printable
+from optipath.errors import OptipathError, ParameterError, printable
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.materials import Material
 from optipath.values.other_part import places_of
@@ -46,6 +46,35 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
     return bool(places) and all(use.domain.takes_materials for use in places)
 
 
+def material_named(option: str, text: str) -> Material:
+    """Return the material of a name.
+
+    Parameters
+    ----------
+    option : str
+        Behind which it stands.
+    text : str
+        A name, or a book and a page, ``"Au/Johnson"``.
+
+    Returns
+    -------
+    Material
+
+    Raises
+    ------
+    ParameterError
+        Naming the option: if there is no such material, or no database.
+    """
+    try:
+        return Material.named(text)
+    except OptipathError as error:
+        faults = [
+            fault.replace("name one by page=", f"write {option} '{text}/PAGE'")
+            for fault in error.faults
+        ]
+        raise ParameterError(*(f"{option}: {fault}" for fault in faults)) from None
+
+
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
     """Take a wavelength out of some values where nothing depends on it, and say so.
 
@@ -57,6 +86,11 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
         What they are given for.
     values : dict of str to Any
         By name.
+
+    Raises
+    ------
+    ParameterError
+        If it is no wavelength of light.
     """
     name = WAVELENGTH.name
     if name not in values or name in path.parameters:
@@ -67,7 +101,7 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        del values[name]
+        WAVELENGTH.resolve(values.pop(name))
         told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
         click.echo(printable(told), err=True)
 

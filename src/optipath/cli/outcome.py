@@ -82,12 +82,13 @@ class Outcome:
 
     @property
     def materials(self) -> dict[str, Any]:
-        """The materials that were given, with their n and k at the wavelength of the run."""
-        wavelength = self.path.parameters.get(WAVELENGTH.name)
-        return {
-            name: material_as_json(label, material, wavelength and wavelength.default)
-            for name, label, material in materials_among(self.chosen.values)
-        }
+        """The materials that were given, with their n and k at the wavelength; {} without any."""
+        if not (given := list(materials_among(self.chosen.values))):
+            return {}
+        known = self.path.parameters
+        wavelength = known[WAVELENGTH.name].default if WAVELENGTH.name in known else None
+        found = {name: material_as_json(label, one, wavelength) for name, label, one in given}
+        return {"materials": found}
 
     @property
     def note(self) -> str:
@@ -109,7 +110,7 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
             name: plain(p.default, p.unit, parts.get(name, AMPLITUDE.complex_parts))
             for name, p in parameters.items()
         },
-        **({"materials": outcome.materials} if outcome.materials else {}),
+        **outcome.materials,
         **({"choices": outcome.chosen.places} if outcome.chosen.places else {}),
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": outcome.model,

@@ -199,19 +199,13 @@ def _option(parameter: Parameter) -> click.Option:
     words = f"words: {', '.join(parameter.all_words)}" if parameter.all_words else ""
     hints = [parameter.help, words, f"[{parameter.default_text()}]"]
     flag = "--" + parameter.name.replace("_", "-")
+    of_light = isinstance(parameter, Wavelength)  # In one of several kinds of units.
     return click.Option(
         [flag, parameter.name],
         multiple=True,
-        metavar=_unit(parameter),
+        metavar="'516 NM'" if of_light else (parameter.unit or "number").upper(),
         help=printable("; ".join(h for h in hints if h)),
     )
-
-
-def _unit(parameter: Parameter) -> str:
-    """Return what stands behind an option: a number in this unit, or a text."""
-    if isinstance(parameter, Wavelength):
-        return "'516 NM'"
-    return (parameter.unit or "number").upper()
 
 
 def _place(name: str, choice: PlaceChoice, path: PathGraph) -> click.Option:

@@ -124,7 +124,7 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
     counted = f"{len(outcomes)} case{'s' * (len(outcomes) != 1)}"
     console.print(title(f"{first.chosen.preset}, {counted}", first.path.description))
     labels = {name: label for name, label, _ in materials_among(first.chosen.values)}
-    for name, value in (first.chosen.values | labels).items():
+    for name, value in {**first.chosen.values, **labels}.items():
         parameter = None if name in labels else first.path.parameters.get(name)
         text = value if parameter is None else numbers.value_of(parameter)
         console.print(cell(f"{name} {text}"))

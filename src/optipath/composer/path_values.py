@@ -93,7 +93,8 @@ class Values:
         found: dict[str, Parameter] = {}
         for use in self._given:
             known = found.get(use.value.name)
-            if known is None or (_yields(known) and not _yields(use.value)):
+            taken_over = known is not None and known is not use.value and _yields(known)
+            if known is None or (taken_over and not _yields(use.value)):
                 found[use.value.name] = use.value.alone()
         declared = [name for name in self.graph.graph.get("declared", ()) if name in found]
         return {name: found[name] for name in dict.fromkeys([*declared, *found])}
@@ -144,7 +145,7 @@ class Values:
     def faults(self) -> list[str]:
         """Return what is wrong with the values that are known, a sentence each."""
         found: list[str] = []
-        faulty = set()
+        faulty: set[str] = set()
         looked_at = set()
         told: set[str] = set()
         for use in sorted(self.uses, key=self._is_taken_over):
@@ -180,8 +181,7 @@ class Values:
             name = use.value.name
             known = self.parameters[name]
             alike = use.value is known or use.value.same_specification(known)
-            taken = _yields(use.value) and dimension_of(known.unit) == "length"
-            if not alike and not taken:
+            if not alike and not (_yields(use.value) and dimension_of(known.unit) == "length"):
                 yield self._difference(use, known)
             if use.domain.tail != self._tails[name]:
                 yield (

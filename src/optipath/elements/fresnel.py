@@ -6,28 +6,27 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault
+from optipath.elements.single_boundary import (
+    given_cosine_and_sine,
+    given_incidence,
+    given_index,
+    parts_of,
+)
 from optipath.kernels.carriers.structures import BLOCK
 from optipath.kernels.catalogue import REFLECTION, TRANSMISSION
 from optipath.kernels.fresnel.inhomogeneous import phase_index
 from optipath.kernels.fresnel.refraction import refraction
-from optipath.kernels.numbers.circular import cosine, sine
 from optipath.kernels.numbers.primitives import NUMPY
-from optipath.values.angles import is_angle, within_right_angle
-from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known
 from optipath.values.arrays.shapes import check_broadcast
-from optipath.values.domains.domain import Domain
-from optipath.values.domains.indices import INDEX, LIT_INDEX
-from optipath.values.domains.quantities import INCIDENCE
+from optipath.values.domains.indices import INDEX
 from optipath.values.precision import precision
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.kernels.carriers.kernel import KernelFamily
-
-_COSINE = Domain("cosine or sine", minimum=0.0, maximum=1.0)
+    from optipath.values.angles import CosSin
 
 
 def fresnel_reflection(
@@ -120,14 +119,12 @@ def _fresnel(
     family: KernelFamily, index: Any, cos: Any, sin: Any, method: str, dtype: npt.DTypeLike
 ) -> tuple[npt.NDArray[Any], ...]:
     kernel, kind = family.by_method(method), precision(dtype)
+    for value in (index, cos, sin):
+        check_known("Fresnel's equations of a Mueller matrix", value)
     m = INDEX.check("index", index)
-    cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
-    c = _COSINE.check("cos_incidence", within_right_angle(cos, sin))
-    s = _COSINE.check("sin_incidence", sin)
+    c, s = given_cosine_and_sine(cos, sin)
     shapes = {"index": m.shape, "cos_incidence": c.shape, "sin_incidence": s.shape}
     shape = check_broadcast(shapes)
-    if not is_angle(cos, sin):
-        raise ValueFault("cos_incidence and sin_incidence belong to no angle: c^2 + s^2 is not 1")
     # Adding 0 turns -0 into 0.
     given = (np.ones(()), *(part + 0.0 for part in (m.real, m.imag, c, s)))
     with np.errstate(all="ignore"):
@@ -137,16 +134,12 @@ def _fresnel(
     return tuple(np.broadcast_to(number, shape).astype(kind) for number in (A, B, C, S))
 
 
-def _given(name: str, value: Any) -> Any:
-    return as_given(name, _COSINE.read(name, value))
-
-
 def _vanishes(number: npt.NDArray[Any]) -> bool:
     return not np.any(number)
 
 
 def refraction_angle(
-    index: npt.ArrayLike, incidence: npt.ArrayLike, outside: npt.ArrayLike = 1.0
+    index: npt.ArrayLike, incidence: npt.ArrayLike | CosSin, outside: npt.ArrayLike = 1.0
 ) -> npt.NDArray[np.float64]:
     """Return the angle at which light travels on behind a boundary, by Snell's law.
 
@@ -159,7 +152,7 @@ def refraction_angle(
     index : array_like, real or complex
         The index n + ik of the medium behind.
     incidence : array_like
-        The angle of incidence in radians, 0 to pi/2.
+        The angle of incidence in radians, 0 to pi/2, or a `CosSin`.
     outside : array_like, optional
         The index n + ik of the medium in front, n above 0. Where it absorbs, the incidence is the
         real angle, too, between faces that are parallel.
@@ -183,15 +176,12 @@ def refraction_angle(
     >>> print(np.degrees(refraction_angle(1.5, np.radians(40.0))).round(6))
     25.373994
     """
-    m = INDEX.check("index", index)
-    angle = INCIDENCE.check("incidence", incidence)
-    front = LIT_INDEX.check("outside", outside)
-    check_broadcast({"index": m.shape, "incidence": angle.shape, "outside": front.shape})
-    for value in (m, angle, front):
+    for value in (index, incidence, outside):
         check_known("refraction_angle", value)
-    cos, sin = (made(NUMPY)(angle) for made in (cosine, sine))
-    media = [part for index in (front, m) for part in (np.real(index), np.imag(index) + 0.0)]
-    n1, k1, n, k, cos, sin = np.broadcast_arrays(*media, cos, sin)
+    m, front = given_index("index", index), given_index("outside", outside, lit=True)
+    cos, sin = given_incidence(incidence)
+    check_broadcast({"index": m.shape, "incidence": cos.shape, "outside": front.shape})
+    n1, k1, n, k, cos, sin = np.broadcast_arrays(*parts_of(front), *parts_of(m), cos, sin)
     with np.errstate(all="ignore"):
         c, s = refraction(NUMPY)(*phase_index(NUMPY)(n1, k1, cos, sin), n, k, cos, sin)
     return np.asarray(np.arctan2(s, c))

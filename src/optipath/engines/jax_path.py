@@ -11,12 +11,12 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from optipath.engines.jax_primitives import JAX, sloped
 from optipath.engines.program.execute import execute
 from optipath.errors import ComposerError
 from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.angles import CosSin
+from optipath.values.arrays.jax_primitives import JAX, sloped, with_slopes
 from optipath.values.arrays.jax_values import is_jax, is_traced
 from optipath.values.operands import part_of
 from optipath.values.precision import wide
@@ -30,11 +30,6 @@ if TYPE_CHECKING:
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.values.operands import Operand
     from optipath.values.resolved import Resolved
-
-
-_with_slopes: Any = jax.custom_jvp(lambda value, of: value)  # noqa: ARG005 - its slopes
-"""A value with the slopes of another number."""
-_with_slopes.defjvps(None, lambda tangent, *_: tangent)
 
 
 class JaxPath:
@@ -179,7 +174,7 @@ class JaxPath:
             if not isinstance(exponent, int):
                 components = tuple(JAX.ldexp(part, exponent) for part in components)
             both = components, smooth[reading.light][0]
-            stokes[name] = _with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
+            stokes[name] = with_slopes(*(self._stacked(parts, reading, batch) for parts in both))
         return stokes, solvers
 
     def _number(self, number: Any) -> Any:

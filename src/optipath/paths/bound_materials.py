@@ -16,7 +16,8 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Container, Mapping, Sequence
 
-    from optipath.paths.path_graph import PathGraph
+    import networkx as nx
+
     from optipath.values.cases import Case
     from optipath.values.use import Use
 
@@ -45,7 +46,8 @@ def materials_placed(
     ParameterError
         With a sentence for each material that cannot give its k, or stands for no index.
     """
-    plain, placed, faults = dict(values), {}, []
+    placed: dict[str, Any] = {}
+    plain, faults = dict(values), []
     for name, material in values.items():
         places = places_of(uses, name)
         if not isinstance(material, Material) or not places or places[0].value.bound:
@@ -71,13 +73,13 @@ def materials_placed(
     return plain, placed
 
 
-def given_by_materials(path: PathGraph, values: Mapping[str, Any]) -> set[str]:
+def given_by_materials(graph: nx.MultiDiGraph, values: Mapping[str, Any]) -> set[str]:
     """Return the parameters that are the k of materials among some values.
 
     Parameters
     ----------
-    path : PathGraph
-        What they are given for.
+    graph : networkx.MultiDiGraph
+        The elements and links that they are given for.
     values : mapping of str to Any
         By name.
 
@@ -86,7 +88,7 @@ def given_by_materials(path: PathGraph, values: Mapping[str, Any]) -> set[str]:
     set of str
     """
     names = [name for name, value in values.items() if isinstance(value, Material)]
-    uses = Values(path.graph).uses if names else ()
+    uses = Values(graph).uses if names else ()
     found = [k for name in names for k in extinctions_beside(uses, name).values()]
     return {k.name for k in found if isinstance(k, Parameter)}
 

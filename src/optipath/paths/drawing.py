@@ -10,6 +10,7 @@ import numpy as np
 from optipath.composer.wiring import Wiring
 from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.values.cures import cure
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.follows import FOLLOWS
 from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
@@ -65,9 +66,14 @@ def _values(element: Element) -> str:
 def _text(value: Any, unit: str) -> str:
     if value is FOLLOWS:
         return cure(repr(value), value.word)
+    if isinstance(value, CurveValue):
+        return value.formula_of(value.spoken)
     if isinstance(value, Parameter):
         return value.formula_of(f"${value.name}")
     if isinstance(value, Material):
+        n, k = value.n, value.k
+        if isinstance(n, CurveValue) and isinstance(k, CurveValue) and n.curve == k.curve:
+            return str(n.curve.label)
         return f"{_text(value.n, '')} + {_text(value.k, '')} i"
     if isinstance(value, VerticesByAngles):
         each = ((name, getattr(value, name)) for name in ("incidences", "turns"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from optipath.errors import listed
 from optipath.kernels.carriers.structures import FULL, ROTATION
 
 if TYPE_CHECKING:
@@ -195,14 +196,19 @@ def _turns(program: Program, light: int) -> bool:
 
 
 def parameter_lines(inputs: Inputs) -> tuple[str, ...]:
-    """Return the parameters of a plan, a sentence each."""
+    """Return the parameters of a plan, and what follows from them, a sentence each."""
     bound = [f"parameter {p.name} = {p.text(p.default)}" for p in inputs.bound.values()]
     opened = [
         f"parameter {p.name}: "
         + (p.default_text() if p.default is None else f"open, {p.default_text()} if not given")
         for p in inputs.open.values()
     ]
-    return (*bound, *opened)
+    computed = dict.fromkeys(
+        f"{value.spoken} follows from {listed([one.name for one in value.arguments])}"
+        for value in inputs.computed
+        if not value.bound
+    )
+    return (*bound, *opened, *computed)
 
 
 def _operations(counts: Mapping[str, int]) -> str:

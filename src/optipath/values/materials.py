@@ -15,6 +15,7 @@ from optipath.values.curves.curve_value import CurveValue
 from optipath.values.curves.material_formulas import MaterialFormulas
 from optipath.values.curves.material_tables import MaterialTables
 from optipath.values.curves.wavelength_range import span_text
+from optipath.values.database.material_pages import MaterialPages
 from optipath.values.domains.domain import Domain
 from optipath.values.made import make_sound
 from optipath.values.parameters import Parameter
@@ -73,11 +74,12 @@ _PARTS = {"n": N, "k": K}
 
 
 @dataclass(frozen=True, eq=False)
-class Material(MaterialTables, MaterialFormulas):
+class Material(MaterialTables, MaterialFormulas, MaterialPages):
     """A homogeneous medium, given by its complex index of refraction n + ik.
 
     Both may follow from the wavelength: `Material.tabulated`, `from_csv`, `sellmeier`, `cauchy`,
-    `drude_lorentz` and `tauc_lorentz` make such ones, and `at` tells what they are there.
+    `drude_lorentz`, `tauc_lorentz`, `named` and `from_yaml` make such ones, and `at` tells what
+    they are there.
 
     Parameters
     ----------

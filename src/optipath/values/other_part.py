@@ -83,7 +83,7 @@ def extinctions_beside(uses: Iterable[Use], name: str) -> dict[str, Any]:
         By place; nothing where it stands as an index by itself, or as something else.
     """
     values = {use.owner: use.value for use in uses}
-    found = {}
+    found: dict[str, Any] = {}
     for owner, value in values.items():
         place, _, part = owner.rpartition(".")
         if isinstance(value, Parameter) and value.name == name and part == "n":

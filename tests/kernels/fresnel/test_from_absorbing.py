@@ -210,7 +210,7 @@ def test_the_index_of_the_phase_is_that_of_kettelers_equations():
 @pytest.mark.parametrize("n0", [None, 1.3])
 @pytest.mark.parametrize("k1", [0.0, 1e-9, 0.05])
 def test_slopes_are_those_of_50_digits(jax, k1, n0):
-    sloped = pytest.importorskip("optipath.engines.jax_primitives").sloped
+    sloped = pytest.importorskip("optipath.values.arrays.jax_primitives").sloped
     xp, at = sloped(np.dtype(np.float64)), (1.5, k1, 1.2, 0.1, 0.4)
     before = () if n0 is None else (n0,)
 

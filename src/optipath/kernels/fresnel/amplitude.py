@@ -109,6 +109,22 @@ def ratio(xp: Primitives, top: Complex, bottom: Complex) -> Complex:
     return re / size, im / size
 
 
+def times(first: Complex, second: Complex) -> Complex:
+    """Return the product of two complex numbers.
+
+    Parameters
+    ----------
+    first, second : Complex
+        The two.
+
+    Returns
+    -------
+    Complex
+    """
+    (a, b), (c, d) = first, second
+    return a * c - b * d, a * d + b * c
+
+
 def times_conjugate(first: Complex, second: Complex) -> Complex:
     """Return a complex number times the conjugate of another.
 

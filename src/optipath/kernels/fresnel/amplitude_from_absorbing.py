@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.fresnel.amplitude import power, ratio, times_conjugate
+from optipath.kernels.fresnel.amplitude import power, ratio, times, times_conjugate
 from optipath.kernels.fresnel.inhomogeneous import inhomogeneous_boundary
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def _transmitted(xp: Primitives) -> Any:
         g1, g2, first, second = _waves(at)
         m1, m2 = (at.n1, at.n1 * at.kappa), (at.n, at.k)
         ts = ratio(xp, (2.0 * g1[0], 2.0 * g1[1]), _plus(g1, g2))
-        both = _times(_times(m1, m2), g1)
+        both = times(times(m1, m2), g1)
         tp = ratio(xp, (2.0 * both[0], 2.0 * both[1]), _plus(first, second))
         arriving = times_conjugate(m1, ratio(xp, g1, m1))[0]
         carried = maximum(times_conjugate(m2, ratio(xp, g2, m2))[0], 0.0)
@@ -74,7 +74,7 @@ def _waves(at: InhomogeneousBoundary) -> tuple[Complex, Complex, Complex, Comple
     """Return g1, g2, m2^2 g1 and m1^2 g2."""
     g1, g2 = (at.n1 * at.c, at.n1 * at.e), (at.a, at.b)
     m1, m2 = (at.n1, at.n1 * at.kappa), (at.n, at.k)
-    return g1, g2, _times(_times(m2, m2), g1), _times(_times(m1, m1), g2)
+    return g1, g2, times(times(m2, m2), g1), times(times(m1, m1), g2)
 
 
 def _plus(first: Complex, second: Complex) -> Complex:
@@ -83,8 +83,3 @@ def _plus(first: Complex, second: Complex) -> Complex:
 
 def _less(first: Complex, second: Complex) -> Complex:
     return first[0] - second[0], first[1] - second[1]
-
-
-def _times(first: Complex, second: Complex) -> Complex:
-    (a, b), (c, d) = first, second
-    return a * c - b * d, a * d + b * c

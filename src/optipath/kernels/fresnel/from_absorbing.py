@@ -137,7 +137,7 @@ def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any,
         n, k = (part / where(size > 0.0, size, 1.0) for part in (at.n, at.k))
         re, im = along.z + along.ca, along.cb
         C = share * (re * n + im * k + at.kappa * (im * n - re * k))
-        of_second, of_first = _phases(where, at, n, k)
+        of_second, of_first = phases_through(where, at, n, k)
         S = share * at.n1 * (at.s * at.s) * of_second + share * (at.s * at.s) * size * of_first
         absorbs = (at.k > 0.0) | (at.kappa > 0.0)
         C = where(absorbs, C, Ts * at.n / where(re > 0.0, re, 1.0))
@@ -147,7 +147,7 @@ def _transmitted(xp: Primitives) -> Callable[[InhomogeneousBoundary], tuple[Any,
     return transmitted
 
 
-def _phases(
+def phases_through(
     where: Callable[..., Any], at: InhomogeneousBoundary, n: Any, k: Any
 ) -> tuple[Any, Any]:
     """Return the two parts of Im((y^2 + g1 g2) conj(m1 m2)) / y^2, without its difference.
@@ -155,6 +155,19 @@ def _phases(
     From g - m = -y^2 / (g + m) on both sides, (y^2 + g1 g2 - m1 m2) / y^2 is
     1 - g1 / (g2 + m2) - m2 / (g1 + m1); the first part, over n1 |m2|, is that of the first two
     terms, the second, over |m2|^2, that of the last.
+
+    Parameters
+    ----------
+    where : callable
+        That of the primitives.
+    at : InhomogeneousBoundary
+        The boundary.
+    n, k : float or array_like
+        Of the medium behind, divided by |m2|.
+
+    Returns
+    -------
+    first, second : float or array_like
     """
     kappa = at.kappa
     re, im = at.a + at.n, at.b + at.k

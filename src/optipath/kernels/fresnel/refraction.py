@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.kernels.fresnel.boundary import absorbing_boundary, refracted_wave
+from optipath.kernels.fresnel.inhomogeneous import phase_index
 from optipath.kernels.numbers.complex_pairs import hypotenuse
 
 if TYPE_CHECKING:
@@ -30,6 +31,26 @@ def refraction(xp: Primitives) -> KernelFunction:
         return where(there, at.a / size, 1.0), along / size
 
     return refract
+
+
+def effective_index(xp: Primitives) -> KernelFunction:
+    """Make ``(n1, k1, n, k, cos, sin) -> (n', k')`` of the wave behind a boundary.
+
+    Its real wave vector is as long as n' = sqrt(y^2 + (Re g)^2), with y along the face, so that
+    Snell's law holds with n' for the real angle; its imaginary one, along the normal, as long as
+    k' = Im g. So n'^2 - k'^2 = n^2 - k^2 and n' k' cos(theta') = n k (Born & Wolf, Principles of
+    Optics, sec. 14.2; P. E. Ciddor, Am. J. Phys. 44, 786 (1976)).
+    """
+    boundary, arriving, length = absorbing_boundary(xp), phase_index(xp), hypotenuse(xp)
+
+    def index(n1: Any, k1: Any, n: Any, k: Any, c: Any, s: Any) -> tuple[Any, Any]:
+        (q,) = arriving(n1, k1, c, s)
+        at = boundary(q, n, k, c, s)
+        # The indices are divided by a power of two there.
+        divided = q / at.n1
+        return divided * length(at.n1 * at.s, at.a), divided * at.b
+
+    return index
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from optipath.errors import PresetError, shown
 from optipath.paths.format.crystal_tables import CRYSTAL, number_of_crystal
 from optipath.paths.format.faults import Faults, unknown_keys
 from optipath.paths.format.formula_tables import BESIDE, FORMULAS, formula_of
+from optipath.paths.format.page_tables import NAMED, OF_PAGES, material_by_name
 from optipath.paths.format.samples import sampled_curve
 from optipath.paths.format.schema import as_meant
 from optipath.values.curves.curve_value import curve_values
@@ -17,7 +18,7 @@ from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import IndexDomain, OutsideDomain
 from optipath.values.domains.wavelengths import WAVELENGTH
-from optipath.values.materials import K, Material, N
+from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
 from optipath.values.wavelength import Wavelength
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
     Decode = Callable[[Any, Domain], Any]
 
-NAMED, SAMPLES, SUM, DIFFERENCE = "material", "wavelengths", "sum", "difference"
+SAMPLES, SUM, DIFFERENCE = "wavelengths", "sum", "difference"
 FORMS = (NAMED, SAMPLES, *FORMULAS, CRYSTAL, SUM, DIFFERENCE)
 """The keys by which a table is known for one of these."""
 
@@ -37,7 +38,6 @@ WHEN = "wavelength"
 
 _OF_SAMPLES = ("unit", "interpolation", "extrapolate", "name")
 _OF_NUMBER = ("part", "scale", "offset")
-_OF_PAGES = {"page": str, "interpolation": str, "extrapolate": str, "n": N, "k": K}
 
 
 def is_curve(raw: Any) -> bool:
@@ -83,6 +83,11 @@ def decode_curve(
     for key in ("name", "unit", "interpolation", "extrapolate", "page", "part", NAMED, CRYSTAL):
         if key in raw and not isinstance(raw[key], str):
             raise PresetError(f"'{key}' must be a text, not {shown(raw[key])}")
+    if domain.tail:
+        raise PresetError(
+            f"'{form}' gives one number, but several are asked for that belong together; give "
+            f"them for each wavelength, as a parameter"
+        )
     of_index = isinstance(domain, (IndexDomain, OutsideDomain))
     if form in (SUM, DIFFERENCE) and not of_index:
         return _together(raw, form, domain, decode)
@@ -106,7 +111,7 @@ def _parts(
 ) -> dict[str, Any]:
     """Return the numbers that a table gives, by the names of the parts of its curve."""
     columns = ("n", "k") if of_index or not raw.keys().isdisjoint(("n", "k")) else ("values",)
-    own = {NAMED: tuple(_OF_PAGES), SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
+    own = {NAMED: OF_PAGES, SAMPLES: (*_OF_SAMPLES, *columns), CRYSTAL: ()}
     keys = own.get(form, BESIDE)
     faults = unknown_keys(raw, (form, *keys, WHEN))
     raw = as_meant(raw, (form, *keys, WHEN))
@@ -119,7 +124,7 @@ def _parts(
     if faults:
         raise PresetError(*faults)
     if form == NAMED:
-        return _by_name(raw, when, decode)
+        return material_by_name(raw, when, decode)
     if form == CRYSTAL:
         return {CRYSTAL: number_of_crystal(raw[CRYSTAL], domain, when)}
     curve = (
@@ -132,20 +137,6 @@ def _at(curve: Curve, when: Any) -> dict[str, Any]:
     if not isinstance(when, Parameter):
         WavelengthRange.of(curve).check(WHEN, when)
     return dict(zip(curve.parts, curve_values(curve, when), strict=True))
-
-
-def _by_name(raw: Mapping[str, Any], when: Any, decode: Decode) -> dict[str, Any]:
-    """Return n and k of a material of the database."""
-    faults = Faults()
-    given = {
-        key: raw[key] if of is str else faults.attempt(f".{key}", decode, raw[key], of)
-        for key, of in _OF_PAGES.items()
-        if key in raw
-    }
-    if faults:
-        raise PresetError(*faults)
-    found = Material.named(raw[NAMED], wavelength=when, **given)
-    return {"n": found.n, "k": found.k}
 
 
 def _chosen(found: Mapping[str, Any], raw: Mapping[str, Any]) -> Any:

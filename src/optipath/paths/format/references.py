@@ -115,7 +115,7 @@ def wavelength_names(raw: Any) -> set[str]:
     while left:
         entry = left.pop()
         if isinstance(entry, dict):
-            found |= references_in(entry.get("wavelength"))
+            found |= references_in(entry["wavelength"]) if "wavelength" in entry else set()
             left += entry.values()
         elif isinstance(entry, list):
             left += entry

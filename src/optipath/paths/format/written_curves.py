@@ -10,9 +10,11 @@ from optipath.errors import PresetError
 from optipath.paths.format.crystal_tables import CRYSTAL, crystal_of
 from optipath.paths.format.curve_tables import SUM, WHEN
 from optipath.paths.format.formula_tables import formula_table
+from optipath.paths.format.page_tables import own_part, page_table
 from optipath.paths.format.samples import written_wavelengths
 from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.page_curve import PageCurve
 from optipath.values.curves.tabulated import Tabulated
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.parameters import Parameter
@@ -48,17 +50,35 @@ def material_table(material: Material, encode: Encode) -> dict[str, Any]:
     n, k = material.n, material.k
     if isinstance(n, CurveValue) and _are_parts(n, k):
         return _table(n.curve, n.given_by, "", encode)
+    # A page with n or k alone, the other being given beside its name.
+    for part, value in (("n", n), ("k", k)):
+        if _is_plain(value) and isinstance(value.curve, PageCurve):
+            curve = value.curve
+            if curve.asked and curve.parts == (part,) and not _are_both_curves(n, k):
+                own = own_part(curve, n, k)
+                named = _table(curve, value.given_by, "", encode)
+                return named | {key: encode(each, "") for key, each in own.items()}
     return {"n": encode(n, ""), "k": encode(k, "")}
 
 
 def _are_parts(n: CurveValue, k: Any) -> bool:
     """Tell whether n and k are those of one curve, at the same wavelength."""
-    if not n.is_signed or n.is_negative or n.curve.parts[n.place] != "n":
+    if not _is_plain(n) or n.curve.parts[n.place] != "n":
         return False
     if not isinstance(k, CurveValue):
-        return "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
+        of_page = isinstance(n.curve, PageCurve)
+        return not of_page and "k" not in n.curve.parts and isinstance(k, (int, float)) and k == 0.0
     same = k.curve == n.curve and k.given_by == n.given_by and k.curve.parts[k.place] == "k"
-    return same and k.is_signed and not k.is_negative
+    return same and _is_plain(k)
+
+
+def _is_plain(value: Any) -> bool:
+    """Tell whether a value follows from a curve, and is no multiple of what does."""
+    return isinstance(value, CurveValue) and value.is_signed and not value.is_negative
+
+
+def _are_both_curves(n: Any, k: Any) -> bool:
+    return isinstance(n, CurveValue) and isinstance(k, CurveValue)
 
 
 def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]:
@@ -84,7 +104,7 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
     """
     table = _table(value.curve, value.given_by, unit, encode)
     part = value.curve.parts[value.place]
-    if part != "value" and len(value.curve.parts) > 1:
+    if part not in ("value", "n"):  # It is n where a table does not say.
         table["part"] = part
     if value.scale != 1.0:
         table["scale"] = value.scale
@@ -98,8 +118,13 @@ def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -
         return {CRYSTAL: name} | _wavelength(given_by[0], encode)
     if isinstance(curve, CurveSum):
         return _sum(curve, given_by, unit, encode)
-    of_samples = isinstance(curve, Tabulated)
-    table = _samples(curve, unit, encode) if of_samples else formula_table(curve, encode)
+    table: dict[str, Any] | None
+    if isinstance(curve, Tabulated):
+        table = _samples(curve, unit, encode)
+    elif isinstance(curve, PageCurve):
+        table = page_table(curve)
+    else:
+        table = formula_table(curve, encode)
     if table is None:
         raise PresetError(f"{curve.label} has no form in a preset file; give samples of it")
     return table | _wavelength(given_by[0], encode)
@@ -125,7 +150,7 @@ def _sum(curve: CurveSum, given_by: tuple[Any, ...], unit: str, encode: Encode) 
         count = len(one.arguments())
         own, left = (when, *left[:count]), left[count:]
         table = _table(one, own, unit, encode)
-        if len(one.parts) > 1:
+        if one.parts[place] not in ("value", "n"):
             table["part"] = one.parts[place]
         terms.append(table | ({"scale": factor} if factor != 1.0 else {}))
     if curve.constant:

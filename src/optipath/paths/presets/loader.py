@@ -181,7 +181,7 @@ def beside(path: PathGraph, known: Mapping[str, Any], values: Mapping[str, Any])
     # Not for every import of the library.
     from optipath.paths.bound_materials import given_by_materials  # noqa: PLC0415
 
-    gone = given_by_materials(path, values)
+    gone = given_by_materials(path.graph, values)
     return {name: value for name, value in known.items() if name not in gone} | {**values}
 
 

@@ -50,8 +50,10 @@ def check_computed(
     try:
         domain.check(owner, placed)
     except ValueFault as fault:
+        if is_traced(placed) or domain.tail:
+            raise
         bad = ~np.asarray(domain.allows(np.asarray(placed)))
-        if is_traced(placed) or not np.any(bad):
+        if not np.any(bad):
             raise
         found = float(np.asarray(placed)[bad].ravel()[0])
         at = _wavelength_text(value, bad, given or {})

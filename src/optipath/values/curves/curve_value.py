@@ -287,11 +287,6 @@ def _content(number: Any) -> Hashable:
     return id(number) if is_traced(number) else np.asarray(number).tobytes()
 
 
-def _content(number: Any) -> Hashable:
-    """Return what equal numbers share; what JAX traces is equal to itself alone."""
-    return id(number) if is_traced(number) else np.asarray(number).tobytes()
-
-
 def _number(one: Any, given: Mapping[str, Resolved]) -> Any:
     operand = Operand(one)
     return operand.evaluated(NUMPY, operand.raw(given))

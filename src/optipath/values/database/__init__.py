@@ -1,0 +1,1 @@
+"""Materials by name: the pages of refractiveindex.info, found and read."""

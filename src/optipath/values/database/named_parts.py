@@ -1,0 +1,169 @@
+"""n and k of a material by name or from a file, as values that stand in a path."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import MaterialError
+from optipath.values.curves.curve_value import curve_values
+from optipath.values.database.curated_names import alike
+from optipath.values.database.installed import read_yaml
+from optipath.values.database.named_pages import VACUUM, NamedPage, named_page
+from optipath.values.database.page_reading import page_curve
+from optipath.values.domains.domain import in_unit_of
+from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.parameters import Parameter
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from os import PathLike
+
+    from optipath.values.curves.page_curve import PageCurve
+
+
+def parts_by_name(
+    name: str,
+    page: str,
+    own: Mapping[str, Any],
+    wavelength: Any,
+    *,
+    interpolation: str,
+    extrapolate: str,
+) -> dict[str, Any]:
+    """Return n and k of a material by its name.
+
+    Parameters
+    ----------
+    name, page : str
+        As `named_page` takes them.
+    own : mapping of str to Any
+        n or k, where one is given in place of the page's, or None.
+    wavelength : Any
+        A parameter, a number in metres, a text with a unit, or None.
+    interpolation, extrapolate : str
+        As `Tabulated` has them.
+
+    Returns
+    -------
+    dict of str to Any
+
+    Raises
+    ------
+    MaterialError, MissingExtraError, ValueFault
+        If there is no such material, or not at this wavelength.
+    """
+    given = {part: value for part, value in own.items() if value is not None}
+    if isinstance(name, str) and alike(name) == VACUUM and not page:
+        return {"n": 1.0, "k": 0.0, **given}
+    found = named_page(name, page)
+    if found.clear and "k" not in given:
+        given["k"] = 0.0
+    else:
+        found = found._replace(clear=None)
+    curve = curve_of(found, own=given, interpolation=interpolation, extrapolate=extrapolate)
+    return {**_at(curve, wavelength), **given}
+
+
+def parts_of_file(
+    path: str | PathLike[str],
+    own: Mapping[str, Any],
+    wavelength: Any,
+    *,
+    interpolation: str,
+    extrapolate: str,
+) -> dict[str, Any]:
+    """Return n and k of a material from a YAML file of refractiveindex.info.
+
+    Parameters
+    ----------
+    path : str or path
+        The file.
+    own : mapping of str to Any
+        n or k, where one is given in place of the file's, or None.
+    wavelength : Any
+        A parameter, a number in metres, a text with a unit, or None.
+    interpolation, extrapolate : str
+        As `Tabulated` has them.
+
+    Returns
+    -------
+    dict of str to Any
+
+    Raises
+    ------
+    MaterialError, MissingExtraError, ValueFault
+        If the file cannot be read, or has nothing at this wavelength.
+    """
+    given = {part: value for part, value in own.items() if value is not None}
+    file = Path(path)
+    curve = page_curve(
+        read_yaml(file, str(file), installed=False),
+        file.name,
+        str(file),
+        wanted=_wanted(file.name, given),
+        interpolation=interpolation,
+        extrapolate=extrapolate,
+    )
+    return {**_at(curve, wavelength), **given}
+
+
+def curve_of(
+    found: NamedPage,
+    *,
+    own: Mapping[str, Any],
+    interpolation: str = "linear",
+    extrapolate: str = "",
+) -> PageCurve:
+    """Return the curve of a page of the database, without the parts that are given apart.
+
+    Parameters
+    ----------
+    found : NamedPage
+        The page.
+    own : mapping of str to Any
+        n or k, where one is given in place of the page's.
+    interpolation, extrapolate : str, optional
+        As `Tabulated` has them.
+
+    Returns
+    -------
+    PageCurve
+
+    Raises
+    ------
+    MaterialError, MissingExtraError
+        If the page cannot be read, or lacks what is not given.
+    """
+    how = {"interpolation": interpolation, "extrapolate": extrapolate}
+    usual = {"interpolation": "linear", "extrapolate": ""}
+    about = found.page.place
+    return page_curve(
+        read_yaml(found.page.file, about, installed=True),
+        found.label,
+        about,
+        wanted=_wanted(found.name, own),
+        within=found.clear,
+        asked={"name": found.name, **{k: v for k, v in how.items() if v != usual[k]}},
+        remedy=f"name another page, or mend a copy of {found.page.file} for Material.from_yaml",
+        **how,
+    )
+
+
+def _wanted(name: str, own: Mapping[str, Any]) -> list[str]:
+    wanted = [part for part in ("n", "k") if part not in own]
+    if not wanted:
+        raise MaterialError(
+            f"'{name}' is asked for with an n and a k of its own; op.Material(n, k) needs no name"
+        )
+    return wanted
+
+
+def _at(curve: PageCurve, wavelength: Any) -> dict[str, Any]:
+    """Return the parts of a curve, known if the wavelength is."""
+    if wavelength is None or isinstance(wavelength, Parameter):
+        when = in_unit_of(wavelength or Wavelength(), WAVELENGTH)
+        return dict(zip(curve.parts, curve_values(curve, when), strict=True))
+    several = curve_values(curve, Wavelength())
+    return {part: one.at(wavelength) for part, one in zip(curve.parts, several, strict=True)}

