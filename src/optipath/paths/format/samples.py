@@ -122,8 +122,8 @@ def samples_of(raw: Any, unit: str) -> list[float]:
 
     Examples
     --------
-    >>> samples_of([1.5, 1.6], ""), samples_of(["1 deg/mm"], "deg/mm")
-    ([1.5, 1.6], [17.453292519943293])
+    >>> samples_of([1.5, 1.6], ""), samples_of(["1 mm"], "mm")
+    ([1.5, 1.6], [0.001])
     """
     return [_sample(entry, place, unit) for place, entry in enumerate(_list(raw))]
 
