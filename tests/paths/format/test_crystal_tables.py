@@ -35,5 +35,5 @@ def test_what_is_no_crystal_is_refused_in_words(field, said, tmp_path):
         f'[elements.plate]\nkind = "waveplate"\nthickness = "1 mm"\nwavelength = "550 nm"\n{field}'
     )
     file.write_text(f'format = 1\ndescription = "a plate"\n\n{text}\n', "utf-8")
-    with pytest.raises(op.PresetError, match=said):
+    with pytest.raises(op.OptipathError, match=said):
         op.load_preset(file)
