@@ -42,7 +42,10 @@ GIVEN = {
 FOUND = {
     "Certificate": PATH.compose().certificate(),
     "Coupling": op.Rotator([0.1, 0.2]).couplings()[0],
+    "Crystal": op.Crystal.named("quartz"),
+    "EffectiveIndex": op.effective_index(0.2 + 3.4j, 0.5),
     "Frame": op.Frame(),
+    "FresnelAmplitudes": op.fresnel_amplitudes(0.2 + 3.4j, 0.8, 0.6),
     "LightPath": PATH.paths()[0],
     "LuChipman": op.Mueller(np.eye(4)).lu_chipman(),
     "Operation": op.Retarder(0.1, 0.2).couplings()[0].operations[0],

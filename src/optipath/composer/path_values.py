@@ -59,8 +59,10 @@ class Values:
         for *link, azimuth in self.graph.edges(keys=True, data="azimuth"):
             if azimuth is not None:
                 found.append(Use(f"link '{link_text(link)}' azimuth", azimuth, ANGLE))
-        if [use for use in found if isinstance(use.value, CurveValue)]:
-            found = [each for use in found for each in use.with_arguments()]
+        for use in found:
+            if isinstance(use.value, CurveValue):
+                found = [each for one in found for each in one.with_arguments()]
+                break
         if self.doubtful:
             return tuple(use for use in found if not self._is_doubtful(use.value))
         return tuple(found)
@@ -84,8 +86,11 @@ class Values:
     @cached_property
     def _given(self) -> list[Use]:
         """The parameters where they stand; what follows from others is none of them."""
-        named = [use for use in self.uses if isinstance(use.value, Parameter)]
-        return [use for use in named if not isinstance(use.value, CurveValue)]
+        return [
+            use
+            for use in self.uses
+            if isinstance(use.value, Parameter) and not isinstance(use.value, CurveValue)
+        ]
 
     @cached_property
     def parameters(self) -> dict[str, Parameter]:

@@ -172,7 +172,7 @@ class Element(Chainable, ActsOnLight, Reversible, OwnAgreements):
 
     def parameters(self) -> Iterator[Parameter]:
         """Yield the parameters among the values, and those that such follow from."""
-        return parameters_among([value for _, value, _ in self.quantities()])
+        return iter(parameters_among([value for _, value, _ in self.quantities()]))
 
     def faults(self, owner: str) -> list[str]:
         """Return what is wrong with the values that are known already, a sentence each."""

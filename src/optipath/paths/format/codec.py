@@ -82,7 +82,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return referred(raw, parameters)
     if isinstance(raw, dict) and isinstance(domain, SpectralDomain) and "parameter" not in raw:
         return decode_spectrum(raw, parameters, lambda one, of: decode(one, of, parameters))
-    if is_curve(raw):
+    if isinstance(raw, dict) and is_curve(raw):
         return decode_curve(raw, domain, parameters, lambda one, of: decode(one, of, parameters))
     if isinstance(raw, dict) and raw.keys() & _AFFINE:
         return _affine(raw, domain, parameters)

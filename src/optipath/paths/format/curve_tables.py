@@ -40,15 +40,15 @@ _OF_SAMPLES = ("unit", "interpolation", "extrapolate", "name")
 _OF_NUMBER = ("part", "scale", "offset")
 
 
-def is_curve(raw: Any) -> bool:
-    """Tell whether a value is a table of what depends on the wavelength.
+def is_curve(raw: Mapping[str, Any]) -> bool:
+    """Tell whether a table is one of what depends on the wavelength.
 
     Examples
     --------
-    >>> is_curve({"material": "gold"}), is_curve({"n": 1.5}), is_curve("gold")
-    (True, False, False)
+    >>> is_curve({"material": "gold"}), is_curve({"n": 1.5})
+    (True, False)
     """
-    return isinstance(raw, dict) and not raw.keys().isdisjoint(FORMS)
+    return not raw.keys().isdisjoint(FORMS)
 
 
 def decode_curve(

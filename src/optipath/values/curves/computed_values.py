@@ -9,7 +9,7 @@ from optipath.values.parameters import Parameter
 from optipath.values.resolved import THERE, Resolved
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
 
 
 def computed_values(
@@ -40,10 +40,12 @@ def computed_values(
     return found
 
 
-def parameters_among(values: Iterable[Any]) -> Iterator[Parameter]:
-    """Yield the parameters among some values, and behind each those that it follows from."""
+def parameters_among(values: Iterable[Any]) -> list[Parameter]:
+    """Return the parameters among some values, and behind each those that it follows from."""
+    found: list[Parameter] = []
     for value in values:
         if isinstance(value, Parameter):
-            yield value
+            found.append(value)
         if isinstance(value, CurveValue):
-            yield from value.arguments
+            found += value.arguments
+    return found

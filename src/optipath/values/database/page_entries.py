@@ -130,12 +130,12 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
     for at, words in lines:
         numbers = _decimals(words)
         if not numbers:
-            faults.append(f"('{kind}') has no numbers in row {at}, {' '.join(words)!r}")
+            faults.append(f"('{kind}') has no numbers in row {at}, {shown(' '.join(words))}")
             continue
         wavelength, *values = numbers
         if len(values) != len(parts):
             faults.append(
-                f"('{kind}') has {len(words)} numbers in row {at}, {' '.join(words)!r}; give "
+                f"('{kind}') has {len(words)} numbers in row {at}, {shown(' '.join(words))}; give "
                 f"{1 + len(parts)}"
             )
             continue
