@@ -43,7 +43,7 @@ def number_of_crystal(raw: str, domain: Domain, wavelength: Any) -> Any:
     Examples
     --------
     >>> from optipath.values.domains.domain import Domain
-    >>> number_of_crystal("quartz", Domain("birefringence"), 5.893e-7).round(5)
+    >>> round(number_of_crystal("quartz", Domain("birefringence"), 5.893e-7), 5)
     0.0091
     """
     crystal = Crystal.named(raw, wavelength)
