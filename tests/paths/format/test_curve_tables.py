@@ -153,6 +153,8 @@ def test_the_difference_of_two_materials_is_a_number(read, read_back):
         f'{{ n = {{ {SAMPLES}, part = "k", scale = 0.5 }}, k = 0.1 }}',
         '{ n = 1.2, k = { wavelengths = [4e-7, 6e-7], unit = "m", k = [0.1, 0.3] } }',
         '{ sellmeier = { b = [1.2], resonances = [0.1] }, k = 0.01, span = ["300 nm", "1 um"] }',
+        '{ sellmeier = { b = [1.2], resonances = [0.1] }, span = ["300 nm", "1 um"] }',
+        "{ n = { sellmeier = { b = [1.2], resonances = [0.1] } }, k = 0.01 }",
         "{ drude_lorentz = { plasma = 9, damping = 0.02, oscillators = [[0.02, 0.4, 0.2]] } }",
         "{ tauc_lorentz = { oscillators = [[122, 3.45, 2.54, 1.2]], background = 1.15 } }",
         f'{{ {SAMPLES}, wavelength = "$colour" }}',
