@@ -6,7 +6,7 @@ import re
 from html import unescape
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import MaterialError, OptipathError, unknown
+from optipath.errors import MaterialError, OptipathError, shown, unknown
 from optipath.values.cures import cure
 from optipath.values.curves.dispersion_formula import nearest_asked_for
 from optipath.values.curves.page_curve import PageCurve
@@ -122,7 +122,7 @@ def _check_asked(
     if not faults and interpolation != "linear" and all(by_formula):
         faults.append(
             f"{label} is by a formula, of which nothing is interpolated; leave interpolation = "
-            f"{interpolation!r} out"
+            f"{shown(interpolation)} out"
         )
     if extrapolate == "linear" and any(by_formula):
         faults.append(
