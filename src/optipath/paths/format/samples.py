@@ -98,7 +98,7 @@ def _wavelength(entry: Any, place: int, unit: Any) -> float:
             f'{shown(entry)} has no unit, but a wavelength is asked for; add unit = "nm" to the '
             f'table, or write "{entry} nm"'
         )
-    return float(WAVELENGTH.parse(f"{number!r} {unit}"))
+    return float(WAVELENGTH.parse(f"{number} {unit}"))
 
 
 def samples_of(raw: Any, unit: str) -> list[float]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault
+from optipath.errors import ValueFault, shown
 from optipath.values.curves.curve_value import curve_values
 from optipath.values.curves.drude_rotation import DrudeRotation
 from optipath.values.curves.tabulated import Tabulated
@@ -150,6 +150,6 @@ def drude_rotation(
 
 def _in_base_units(label: str, number: Any, unit: str) -> float:
     try:
-        return float(parse_quantity(f"{float(number)!r} {unit}", dimension_of(unit)).real)
+        return float(parse_quantity(f"{float(number)} {unit}", dimension_of(unit)).real)
     except (TypeError, ValueError):
-        raise ValueFault(f"values of {label} must be real numbers, not {number!r}") from None
+        raise ValueFault(f"values of {label} must be real numbers, not {shown(number)}") from None
