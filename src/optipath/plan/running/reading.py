@@ -13,7 +13,7 @@ from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, part_of
 from optipath.values.roundings import as_doubles, is_beyond
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Mapping
+    from collections.abc import Collection, Hashable, Mapping
 
     from optipath.engines.program.program import Program
     from optipath.values.inputs import Inputs
@@ -92,7 +92,7 @@ class ResolvedInputs(NamedTuple):
         return True
 
     def forms(
-        self, dtype: np.dtype[Any], *, reproducible: bool = False
+        self, dtype: np.dtype[Any], alike: Collection[str] = ()
     ) -> tuple[tuple[InputKey, str], ...]:
         """Return in which form each number is given.
 
@@ -100,17 +100,22 @@ class ResolvedInputs(NamedTuple):
         ----------
         dtype : dtype
             The precision of the plan.
-        reproducible : bool, optional
-            Whether 0 is a number like others, but for what real numbers have no part of.
+        alike : collection of str, optional
+            Of what 0 is a number like others, but for what real numbers have no part of.
 
         Returns
         -------
         tuple of (InputKey, str)
         """
         found = [(key, _form(key, number, dtype)) for key, number in self.numbers.items()]
-        if not reproducible:
+        if not alike:
             return tuple(found)
-        return tuple([(k, ONE if f == ZERO and k.part != "imag" else f) for k, f in found])
+        return tuple(
+            [
+                (k, ONE if f == ZERO and k.name in alike and k.part != "imag" else f)
+                for k, f in found
+            ]
+        )
 
 
 class InputReader:
@@ -136,8 +141,9 @@ class InputReader:
         # An engine of doubles reads what it is given as doubles, where it stands.
         self._known_kinds = "fd?" if dtype == np.float32 and not reproducible else "d?"
         found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
-        names = [*inputs.open, *[value.name for value in inputs.computed]]
-        self.keys = {name: [r for r in found if r.name == name] for name in names}
+        computed = [value.name for value in inputs.computed]
+        self.alike = frozenset(computed if reproducible else ())
+        self.keys = {n: [r for r in found if r.name == n] for n in (*inputs.open, *computed)}
         affine = [key for key in found if key.is_affine]
         self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
         # A formula checks the range of a number that it reads, and of no other.
