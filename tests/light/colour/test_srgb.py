@@ -11,7 +11,7 @@ from optipath.light.colour.adaptation import DISPLAY_WHITE, adapted
 from optipath.light.colour.srgb import FROM_XYZ, encoded
 from optipath.light.colour.triples import times
 
-FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour_science.json"
+FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour" / "colour_science.json"
 COMPUTED = json.loads(FIGURES.read_text("utf-8"))["displayed"]
 GRID = np.arange(380.0, 781.0, 5.0)
 D65, A = op.Spectrum.illuminant("D65"), op.Spectrum.illuminant("A")

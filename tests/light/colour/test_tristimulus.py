@@ -8,7 +8,7 @@ import pytest
 
 import optipath as op
 
-FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour_science.json"
+FIGURES = Path(__file__).parents[2] / "peers" / "figures" / "colour" / "colour_science.json"
 COMPUTED = json.loads(FIGURES.read_text("utf-8"))
 NM = 1e-9
 VISIBLE = np.arange(380.0, 781.0, 5.0) * NM

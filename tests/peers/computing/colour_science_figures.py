@@ -60,7 +60,7 @@ def displayed():
 with warnings.catch_warnings():
     warnings.simplefilter("ignore")
     setups.write(
-        "colour_science",
+        "colour/colour_science",
         "colour-science",
         __file__,
         precision=1e-6,
