@@ -117,7 +117,7 @@ class Tabulated(Curve):
     @property
     def content(self) -> tuple[Hashable, ...]:
         numbers = (self.wavelengths, *self.columns)
-        told = (self.label, self.parts, self.interpolation, self.extrapolate, self.unit)
+        told = (self.label, self.parts, self.interpolation, self.extrapolate)
         return (*told, *[column.tobytes() for column in numbers])
 
     @property
