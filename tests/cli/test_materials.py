@@ -114,6 +114,8 @@ def test_vacuum_has_no_range(capsys):
         (["Au", "--at", "516 nm"], "'Au' has "),
         (["gold", "--at", "516"], "--at: '516' has no unit"),
         (["gold", "--at", "5 um"], "within 187.9 nm .. 1937 nm, for which gold"),
+        (["Au", "--at", "516 nm"], "name one by --page, or say 'gold'"),
+        (["main/SiO2/Malitson", "--at", "2.3 um"], "ask for --k 0.0, or give its k"),
         (["gold", "--at", "5 um"], "or choose another page with --page"),
         (["gold", "--at", "500 nm", "--incidence", "100"], "--incidence is 100 deg"),
         (["gold", "--page", "McPeak"], "--page goes with --at; write --at '550 nm' as well"),
