@@ -154,3 +154,21 @@ def test_what_the_command_tells_is_what_a_material_is(capsys):
     found = as_json(capsys, "copper", "--at", "516 nm")
     there = op.Material.named("copper", wavelength="516 nm")
     assert (found["n"], found["k"]) == ([there.n], [there.k])
+
+
+def test_vacuum_is_found_without_a_page(capsys):
+    status, out, _ = run(capsys, "vacuum")
+    assert status == 0
+    assert out.split("\n")[1].split() == [
+        "vacuum",
+        "any",
+        "wavelength",
+        "n",
+        "=",
+        "1,",
+        "k",
+        "=",
+        "0",
+    ]
+    assert as_json(capsys, "vacuum")["materials"][0]["range"] is None
+    assert "did you mean 'vacuum'?" in refusal(capsys, "vacum")

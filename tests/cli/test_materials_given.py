@@ -166,3 +166,24 @@ def test_the_k_of_a_material_may_be_given_by_its_own_option(capsys, material):
     found = json.loads(out)["materials"]["n1"]
     # Malitson (1965) has 1.41925 in table II.
     assert (round(found["n"], 5), found["k"]) == (1.41925, 1e-4)
+
+
+def test_vacuum_is_told_by_its_name(capsys):
+    status, out, _ = run(capsys, "run", "npgr026", "--n1", "vacuum", "--json")
+    assert status == 0
+    assert json.loads(out)["materials"] == {"n1": {"name": "vacuum", "n": 1.0, "k": 0.0}}
+    out = run(capsys, "run", "npgr026", "--n1", "vacuum")[1]
+    assert [line.split()[1] for line in out.splitlines() if line[:4] == " n1 "] == ["vacuum"]
+
+
+def test_what_is_no_wavelength_is_told_with_the_parameter(capsys):
+    status, _, err = run(capsys, "run", "npgr026", "--wavelength", "0 eV")
+    assert (status, err.split(";")[0]) == (
+        2,
+        "optipath: parameter 'wavelength': '0 eV' stands for no wavelength",
+    )
+
+
+def test_help_writes_a_wavelength_as_it_may_be_typed(capsys):
+    shown = run(capsys, "run", "npgr026", "--help")[1]
+    assert "--wavelength '516 nm'" in shown

@@ -233,3 +233,10 @@ def test_free_electrons_need_no_oscillators():
     # n^2 = 1 - (wp / w)^2 where nothing is lost: 0.75 at twice the plasma frequency.
     free = op.Material.drude_lorentz(2.0, 0.0, oscillators=[]).at("4 eV")
     np.testing.assert_allclose([free.n, free.k], [0.75**0.5, 0.0], rtol=1e-12, atol=1e-12)
+
+
+def test_a_name_is_quoted_on_one_line():
+    named = op.Material.cauchy([1.5], name="a\nb")
+    assert repr(named) == "Material 'a\\nb', any wavelength"
+    assert repr(op.Material.cauchy([1.5], k=0.1, name="a\nb")) == "Material(n=n of a\\nb, k=0.1)"
+    assert "\n" not in repr(named.n)

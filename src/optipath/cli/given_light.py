@@ -10,6 +10,7 @@ from optipath.cli.plain_json import plain
 from optipath.errors import OptipathError, ParameterError, printable
 from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
+from optipath.values.database.named_pages import VACUUM
 from optipath.values.materials import Material
 from optipath.values.other_part import extinctions_beside, places_of
 from optipath.values.parameters import Parameter
@@ -147,7 +148,7 @@ def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Mater
     for name, value in values.items():
         if isinstance(value, Material):
             curves = [v.curve for v in (value.n, value.k) if isinstance(v, CurveValue)]
-            yield name, curves[0].label if curves else str(value), value
+            yield name, curves[0].label if curves else VACUUM, value
 
 
 def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:

@@ -68,7 +68,10 @@ class Wavelength(Parameter):
         return self.same_specification(Wavelength(self.name))
 
     def parse(self, text: str, default_unit: str = "") -> Any:
-        read = wavelength_of(text)
+        try:
+            read = wavelength_of(text)
+        except UnitError as error:
+            raise UnitError(f"parameter '{self.name}': {error}") from None
         if read is None and (meant := spectral_unit_meant(unit_of(text))):
             raise UnitError(
                 f"parameter '{self.name}': unit '{unit_of(text)}' of '{text}' is unknown; did you "
