@@ -114,6 +114,8 @@ def test_vacuum_has_no_range(capsys):
         (["Au", "--at", "516 nm"], "'Au' has "),
         (["gold", "--at", "516"], "--at: '516' has no unit"),
         (["gold", "--at", "5 um"], "within 187.9 nm .. 1937 nm, for which gold"),
+        (["Au", "--at", "516 nm"], "name one by --page, or say 'gold'"),
+        (["main/SiO2/Malitson", "--at", "2.3 um"], "ask for --k 0.0, or give its k"),
         (["gold", "--at", "5 um"], "or choose another page with --page"),
         (["gold", "--at", "500 nm", "--incidence", "100"], "--incidence is 100 deg"),
         (["gold", "--page", "McPeak"], "--page goes with --at; write --at '550 nm' as well"),
@@ -152,3 +154,21 @@ def test_what_the_command_tells_is_what_a_material_is(capsys):
     found = as_json(capsys, "copper", "--at", "516 nm")
     there = op.Material.named("copper", wavelength="516 nm")
     assert (found["n"], found["k"]) == ([there.n], [there.k])
+
+
+def test_vacuum_is_found_without_a_page(capsys):
+    status, out, _ = run(capsys, "vacuum")
+    assert status == 0
+    assert out.split("\n")[1].split() == [
+        "vacuum",
+        "any",
+        "wavelength",
+        "n",
+        "=",
+        "1,",
+        "k",
+        "=",
+        "0",
+    ]
+    assert as_json(capsys, "vacuum")["materials"][0]["range"] is None
+    assert "did you mean 'vacuum'?" in refusal(capsys, "vacum")

@@ -102,9 +102,8 @@ def test_a_photon_energy_is_a_wavelength(capsys):
     [
         (["--n1", "gld"], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
         (["--n1", "gld", *GREEN], ["--n1: material 'gld' is unknown; did you mean 'gold'?"]),
-        (["--n1", "Au", *GREEN], ["--n1: 'Au' has", "write --n1 'Au/PAGE'"]),
+        (["--n1", "Au", *GREEN], ["--n1: 'Au' has", "name one by --n1 'Au/PAGE'"]),
         (["--n1", "gold"], ["parameter 'wavelength' has no value; give one, --wavelength"]),
-        (["--n1", "gold", "--k1", "1", *GREEN], ["'k1' is given by 'n1'", "leave k1 out"]),
         (["--n1", "gold", "--wavelength", "5 um"], ["5000 nm", "within 187.9 nm .. 1937 nm"]),
         (["--k1", "gold", *GREEN], ["'k1' knows no word 'gold'"]),
         (["--delta", "gold", *GREEN], ["'delta' knows no word 'gold'"]),
@@ -137,3 +136,54 @@ def test_help_lists_the_wavelength(capsys, preset):
     assert status == 0
     assert "--wavelength" in out
     assert "wavelength in vacuum" in out
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    ("arguments", "cure"),
+    [
+        (("--n1", "silica", "--wavelength", "3 um"), "or give k, as --k1 1e-4"),
+        (("--n1", "main/SiO2/Malitson", *GREEN), "ask for --k1 0.0, or give its k"),
+        (("--n1", "silica", "--k1", "-1", *GREEN), "parameter 'k1' is -1, outside its range"),
+        (("--n1", "silica", "--k1", "x", *GREEN), "parameter 'k1' knows no word 'x'"),
+        (("--n1", "gold", "--wavelength", "10 um"), "is known, or name another page"),
+    ],
+)
+def test_a_material_that_does_not_do_is_told_with_options_that_there_are(capsys, arguments, cure):
+    status, _, err = run(capsys, "run", "npgr026", *arguments)
+    assert status == 2
+    assert err.count("optipath: ") == 1
+    assert cure in err
+    assert "extrapolate" not in err
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize("material", ["silica", "main/SiO2/Malitson"])
+def test_the_k_of_a_material_may_be_given_by_its_own_option(capsys, material):
+    own = ("--n1", material, "--k1", "1e-4", "--wavelength", "3 um", "--json")
+    status, out, err = run(capsys, "run", "npgr026", *own)
+    assert (status, err) == (0, "")
+    found = json.loads(out)["materials"]["n1"]
+    # Malitson (1965) has 1.41925 in table II.
+    assert (round(found["n"], 5), found["k"]) == (1.41925, 1e-4)
+
+
+def test_vacuum_is_told_by_its_name(capsys):
+    status, out, _ = run(capsys, "run", "npgr026", "--n1", "vacuum", "--json")
+    assert status == 0
+    assert json.loads(out)["materials"] == {"n1": {"name": "vacuum", "n": 1.0, "k": 0.0}}
+    out = run(capsys, "run", "npgr026", "--n1", "vacuum")[1]
+    assert [line.split()[1] for line in out.splitlines() if line[:4] == " n1 "] == ["vacuum"]
+
+
+def test_what_is_no_wavelength_is_told_with_the_parameter(capsys):
+    status, _, err = run(capsys, "run", "npgr026", "--wavelength", "0 eV")
+    assert (status, err.split(";")[0]) == (
+        2,
+        "optipath: parameter 'wavelength': '0 eV' stands for no wavelength",
+    )
+
+
+def test_help_writes_a_wavelength_as_it_may_be_typed(capsys):
+    shown = run(capsys, "run", "npgr026", "--help")[1]
+    assert "--wavelength '516 nm'" in shown

@@ -167,6 +167,10 @@ def test_a_file_is_a_material(tmp_path):
         (lambda: op.Material.sellmeier(1, [1]), "b of a Sellmeier formula must be a row"),
         (lambda: op.Material.sellmeier([1, "a"], [1, 2]), "b[1] of a Sellmeier formula: 'a'"),
         (lambda: op.Material.cauchy([1.5, np.nan]), "coefficients[1] of a Cauchy formula is nan"),
+        (lambda: op.Material.cauchy([]), "a row of one coefficient or more, such as [1.0], not []"),
+        (lambda: op.Material.cauchy(np.array(1.5)), "must be a row of one coefficient or more"),
+        (lambda: op.Material.sellmeier([], []), "b of a Sellmeier formula must be a row of one"),
+        (lambda: op.Material.tauc_lorentz([]), "has no oscillators; give one or more"),
         (lambda: op.Material.cauchy([[1.5, 1.6]]), "give one number, or a Parameter for several"),
         (lambda: op.Material.drude_lorentz(-9, 0.1), "plasma of a Drude-Lorentz model is -9"),
         (
@@ -210,3 +214,29 @@ def test_a_wavelength_that_jax_traces_may_be_bound(jax):
     by_run = jax.grad(lambda w: path.trace(wavelength=w).stokes[0])(5e-7)
     bound = jax.grad(lambda w: path.bind(wavelength=w).trace().stokes[0])(5e-7)
     assert float(bound) == pytest.approx(float(by_run), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("make", "whole", "real"),
+    [
+        (op.Material.cauchy, ([1, 2],), ([1.0, 2.0],)),
+        (op.Material.sellmeier, ([1], [0]), ([1.0], [-0.0])),
+        (op.Material.drude_lorentz, (9, 1), (9.0, 1.0, np.float32(1.0))),
+        (op.Material.tauc_lorentz, ([(122, 3, 2, 1)], 1), ([(122.0, 3.0, 2.0, 1.0)], 1.0)),
+    ],
+)
+def test_whole_numbers_make_the_same_material(make, whole, real):
+    assert make(*whole) == make(*real)
+
+
+def test_free_electrons_need_no_oscillators():
+    # n^2 = 1 - (wp / w)^2 where nothing is lost: 0.75 at twice the plasma frequency.
+    free = op.Material.drude_lorentz(2.0, 0.0, oscillators=[]).at("4 eV")
+    np.testing.assert_allclose([free.n, free.k], [0.75**0.5, 0.0], rtol=1e-12, atol=1e-12)
+
+
+def test_a_name_is_quoted_on_one_line():
+    named = op.Material.cauchy([1.5], name="a\nb")
+    assert repr(named) == "Material 'a\\nb', any wavelength"
+    assert repr(op.Material.cauchy([1.5], k=0.1, name="a\nb")) == "Material(n=n of a\\nb, k=0.1)"
+    assert "\n" not in repr(named.n)

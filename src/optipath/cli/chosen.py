@@ -5,7 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from optipath.cli.given_light import WAVELENGTH, is_material, material_named, take_wavelength
+from optipath.cli.given_light import (
+    WAVELENGTH,
+    extinction_beside,
+    is_material,
+    material_named,
+    take_extinctions,
+    take_wavelength,
+)
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
@@ -89,9 +96,10 @@ def chosen_by(
     faults: list[str] = []
     given = {name: _once(name, several, faults) for name, several in texts.items() if several}
     uses = Values(path.graph).uses if given else ()
-    values = {name: _value(path, name, text, uses, faults) for name, text in given.items()}
+    values = {name: _value(path, name, given, uses, faults) for name in given}
     sound = {name: value for name, value in values.items() if value is not None}
     if not faults:
+        take_extinctions(uses, sound)
         take_wavelength(preset, path, sound)
     elif WAVELENGTH.name not in path.parameters:
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
@@ -221,14 +229,26 @@ def _once(name: str, several: Sequence[str], faults: list[str]) -> str:
     return several[-1]
 
 
-def _value(path: PathGraph, name: str, text: str, uses: Sequence[Use], faults: list[str]) -> Any:
-    """Return what a text stands for; None where it is faulty."""
+def _value(
+    path: PathGraph,
+    name: str,
+    given: Mapping[str, str],
+    uses: Sequence[Use],
+    faults: list[str],
+) -> Any:
+    """Return what the text of an option stands for; None where it is faulty."""
+    text = given[name]
     if name in path.choices:
         return text
     parameter = path.parameters.get(name, WAVELENGTH)
     try:
         if is_material(parameter, text, uses):
-            return material_named(f"--{_flag(name)}", text)
+            beside = extinction_beside(uses, name)
+            k = _value(path, beside, given, uses, faults) if beside in given else None
+            if k is not None:
+                path.parameters[beside].resolve(k)
+            option = f"--{_flag(beside)}" if beside else ""
+            return None if faults else material_named(f"--{_flag(name)}", text, option, k)
         value = axes_for(name, text, uses)
         if isinstance(value, str):
             # A bare number may be nanometres, micrometres or electronvolts.

@@ -8,16 +8,18 @@ import click
 
 from optipath.cli.plain_json import plain
 from optipath.errors import OptipathError, ParameterError, printable
+from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
+from optipath.values.database.named_pages import VACUUM
 from optipath.values.materials import Material
-from optipath.values.other_part import places_of
+from optipath.values.other_part import extinctions_beside, places_of
+from optipath.values.parameters import Parameter
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
-    from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 
 WAVELENGTH = Wavelength(help="wavelength in vacuum, by which materials that have a name are taken")
@@ -46,7 +48,25 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
     return bool(places) and all(use.domain.takes_materials for use in places)
 
 
-def material_named(option: str, text: str) -> Material:
+def extinction_beside(uses: Sequence[Use], name: str) -> str:
+    """Return the parameter that is the k of an index of which another is n; nothing without one.
+
+    Parameters
+    ----------
+    uses : sequence of Use
+        The numbers of the path.
+    name : str
+        The parameter that is n.
+
+    Returns
+    -------
+    str
+    """
+    found = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
+    return found.pop() if len(found) == 1 else ""
+
+
+def material_named(option: str, text: str, beside: str = "", k: Any = None) -> Material:
     """Return the material of a name.
 
     Parameters
@@ -55,6 +75,10 @@ def material_named(option: str, text: str) -> Material:
         Behind which it stands.
     text : str
         A name, or a book and a page, ``"Au/Johnson"``.
+    beside : str, optional
+        The option that gives k.
+    k : float, optional
+        What that gives, in place of the material's own.
 
     Returns
     -------
@@ -65,14 +89,27 @@ def material_named(option: str, text: str) -> Material:
     ParameterError
         Naming the option: if there is no such material, or no database.
     """
+    options = {"page": f"{option} '{text}/PAGE'"} | ({"k": beside} if beside else {})
     try:
-        return Material.named(text)
+        with of_options(options):
+            return Material.named(text, k=k)
     except OptipathError as error:
-        faults = [
-            fault.replace("name one by page=", f"write {option} '{text}/PAGE'")
-            for fault in error.faults
-        ]
-        raise ParameterError(*(f"{option}: {fault}" for fault in faults)) from None
+        raise ParameterError(*(f"{option}: {fault}" for fault in error.faults)) from None
+
+
+def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
+    """Take each k out of some values that a material beside it has in place of its own.
+
+    Parameters
+    ----------
+    uses : sequence of Use
+        The numbers of the path.
+    values : dict of str to Any
+        What is given, by name.
+    """
+    for name, value in list(values.items()):
+        if isinstance(value, Material):
+            values.pop(extinction_beside(uses, name), None)
 
 
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
@@ -111,7 +148,7 @@ def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Mater
     for name, value in values.items():
         if isinstance(value, Material):
             curves = [v.curve for v in (value.n, value.k) if isinstance(v, CurveValue)]
-            yield name, curves[0].label if curves else str(value), value
+            yield name, curves[0].label if curves else VACUUM, value
 
 
 def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:

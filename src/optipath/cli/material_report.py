@@ -12,6 +12,7 @@ from optipath.cli.plain_json import plain
 from optipath.elements.effective_index import effective_index
 from optipath.elements.fresnel import fresnel_reflection
 from optipath.errors import MaterialError, OptipathError
+from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.curves.wavelength_range import WavelengthRange, span_text
 from optipath.values.domains.quantities import INCIDENCE
@@ -127,7 +128,8 @@ def told_at(
     angle = _angle(incidence, faults)
     if faults:
         raise MaterialError(*faults)
-    open_one = Material.named(name, page=page, **own)
+    with of_options({"page": "--page", "n": "--n", "k": "--k"}):
+        open_one = Material.named(name, page=page, **own)
     curve: PageCurve | None = next(
         (part.curve for part in (open_one.n, open_one.k) if isinstance(part, CurveValue)), None
     )
@@ -158,7 +160,8 @@ def _numbers(part: Any, there: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 def _check_range(curve: PageCurve | None, wavelengths: Sequence[float]) -> None:
     if curve is not None:
-        known = replace(WavelengthRange.of(curve), beyond="choose another page with --page")
+        own = f"{curve.beyond}, or " if "--k" in curve.beyond else ""
+        known = replace(WavelengthRange.of(curve), beyond=f"{own}choose another page with --page")
         for wavelength in wavelengths:
             known.check("--at", wavelength)
 

@@ -11,7 +11,8 @@ from optipath.cli.material_report import told_at
 from optipath.cli.misplaced import StrictCommand
 from optipath.errors import MaterialError, did_you_mean
 from optipath.values.database.catalog_pages import catalog_pages
-from optipath.values.database.curated_names import CURATED
+from optipath.values.database.curated_names import CURATED, alike
+from optipath.values.database.named_pages import VACUUM
 from optipath.values.database.search import FoundPage, pages_with
 from optipath.values.units import in_unit
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from click.shell_completion import CompletionItem
 
 _UNIT, _LONGEST = "nm", 1e-5
+_NOTHING = "n = 1, k = 0"
+_VACUUM = {"name": VACUUM, "names": [VACUUM], "page": "", "range": None, "source": ""}
+_VACUUM |= {"about": _NOTHING}
 
 
 class _Name(click.Argument):
@@ -79,15 +83,18 @@ def _materials(
     given = {"--page": page, "--incidence": incidence != "0", "--n": n is not None}
     for option in [name for name, there in {**given, "--k": k is not None}.items() if there]:
         raise click.UsageError(f"{option} goes with --at; write --at '550 nm' as well")
-    found = pages_with(" ".join(words).split())
-    if not found:
-        names = [name for curated in CURATED for name in curated.names]
+    # Of vacuum no page is needed.
+    vacuum = alike(" ".join(words)) == VACUUM
+    found = [] if vacuum else pages_with(" ".join(words).split())
+    if not found and not vacuum:
+        names = [VACUUM, *[name for curated in CURATED for name in curated.names]]
         meant = did_you_mean(" ".join(words), names)
         raise MaterialError(f"no page has '{' '.join(words)}'{meant}")
     if as_json:
-        say_json({"materials": [_as_json(one) for one in found], "units": {"range": _UNIT}})
+        listed = [_as_json(one) for one in found] + [_VACUUM] * (vacuum or not words)
+        say_json({"materials": listed, "units": {"range": _UNIT}})
         return
-    _print(found, everything=not words)
+    _print(found, vacuum=vacuum or not words, everything=not words)
 
 
 materials = click.command(
@@ -95,10 +102,12 @@ materials = click.command(
 )(_materials)
 
 
-def _print(found: list[FoundPage], *, everything: bool) -> None:
+def _print(found: list[FoundPage], *, vacuum: bool, everything: bool) -> None:
     table = headed("material", "range", "source", box=None)
     for one in found:
         table.add_row(*map(cell, (one.name, _range_text(one), one.described)))
+    if vacuum:
+        table.add_row(*map(cell, (VACUUM, "any wavelength", _NOTHING)))
     PlainConsole().print(table)
     if everything:
         say(f"\n{len(catalog_pages())} pages of refractiveindex.info: optipath materials WORD")

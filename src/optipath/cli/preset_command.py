@@ -203,7 +203,7 @@ def _option(parameter: Parameter) -> click.Option:
     return click.Option(
         [flag, parameter.name],
         multiple=True,
-        metavar="'516 NM'" if of_light else (parameter.unit or "number").upper(),
+        metavar="'516 nm'" if of_light else (parameter.unit or "number").upper(),
         help=printable("; ".join(h for h in hints if h)),
     )
 

@@ -95,9 +95,12 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
     console, numbers = PlainConsole(), Numbers(digits)
     console.print(title(outcome.chosen.title, outcome.path.description))
     table = Table(box=None, show_header=False)
+    given = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
     for name, parameter in outcome.path.parameters.items():
+        if name in given:
+            continue
         table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
-    for name, label, _ in materials_among(outcome.chosen.values):
+    for name, label in given.items():
         table.add_row(*map(cell, (name, label, outcome.chosen.opened.parameters[name].help)))
     for name, word in outcome.chosen.places.items():
         table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))

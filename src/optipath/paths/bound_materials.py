@@ -118,7 +118,7 @@ def _faults(
         elif k.name in values:
             faults.append(
                 f"parameter '{k.name}' is given by '{name}', a Material, which has its own k; "
-                f"leave {k.name} out"
+                f"leave {k.name} out, or make a Material of that k"
             )
         elif k.bound or not k.is_signed or k.is_negative:
             faults.append(

@@ -7,9 +7,10 @@ from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 _IN_FILE: ContextVar[bool] = ContextVar("_IN_FILE", default=False)
+_OPTIONS: ContextVar[Mapping[str, str] | None] = ContextVar("_OPTIONS", default=None)
 
 
 @contextmanager
@@ -20,6 +21,48 @@ def of_files() -> Iterator[None]:
         yield
     finally:
         _IN_FILE.reset(token)
+
+
+@contextmanager
+def of_options(options: Mapping[str, str]) -> Iterator[None]:
+    """Let all arguments inside be given by options of a command line, and those left out by none.
+
+    Parameters
+    ----------
+    options : mapping of str to str
+        The option of each argument, such as ``{"k": "--k1"}``.
+    """
+    token = _OPTIONS.set(options)
+    try:
+        yield
+    finally:
+        _OPTIONS.reset(token)
+
+
+def argument(name: str, value: str = "") -> str:
+    """Return how an argument is given where the fault is; nothing where no option gives it.
+
+    Parameters
+    ----------
+    name, value : str
+        The argument, and what is given.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> argument("k", "0.0")
+    'k=0.0'
+    >>> with of_options({"k": "--k1"}):
+    ...     argument("k", "0.0"), argument("page")
+    ('--k1 0.0', '')
+    """
+    options = _OPTIONS.get()
+    if options is None:
+        return cure(f"{name}={value}", f"{name} = {value}".rstrip())
+    return f"{options[name]} {value}".rstrip() if name in options else ""
 
 
 def cure(python: str, file: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from optipath.errors import ParameterError, UnitError, ValueFault
+from optipath.errors import ParameterError, UnitError, ValueFault, shown
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same, same_fields
 from optipath.values.cures import cure
@@ -183,7 +183,7 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
         if isinstance(n, CurveValue):
             alike = k.curve == n.curve if isinstance(k, CurveValue) else same(k, 0.0)
             if alike:
-                return f"Material '{n.curve.label}', {span_text(self.span)}"
+                return f"Material {shown(n.curve.label)}, {span_text(self.span)}"
         return f"Material(n={_written(n)}, k={_written(k)})"
 
     __eq__ = same_fields
@@ -191,4 +191,4 @@ class Material(MaterialTables, MaterialFormulas, MaterialPages):
 
 
 def _written(part: Any) -> str:
-    return part.formula_of(part.spoken) if isinstance(part, CurveValue) else repr(part)
+    return part.formula_of(shown(part.spoken)[1:-1]) if isinstance(part, CurveValue) else repr(part)

@@ -65,6 +65,18 @@ def wavelength_of(text: str) -> float | None:
     return _TIMES_WAVELENGTH[match[2]] / number
 
 
+def falls_with_wavelength(text: object) -> bool:
+    """Tell whether a text is a photon energy, a wave number or a frequency.
+
+    Examples
+    --------
+    >>> falls_with_wavelength("2.4 eV"), falls_with_wavelength("516 nm")
+    (True, False)
+    """
+    match = _TEXT.fullmatch(text.strip()) if isinstance(text, str) else None
+    return match is not None and match[2] in _TIMES_WAVELENGTH
+
+
 def spectral_unit_meant(word: str) -> str | None:
     """Return the unit of `wavelength_of` that differs in capital letters alone, if any.
 

@@ -8,7 +8,7 @@ from typing import Any
 from optipath.errors import ParameterError, UnitError
 from optipath.values.cures import cure
 from optipath.values.parameters import Parameter
-from optipath.values.spectral_units import spectral_unit_meant, wavelength_of
+from optipath.values.spectral_units import falls_with_wavelength, spectral_unit_meant, wavelength_of
 from optipath.values.units import unit_of
 
 _MOST_NANOMETRES = 1e6
@@ -51,6 +51,11 @@ class Wavelength(Parameter):
     help: str = "wavelength in vacuum"
 
     def __post_init__(self) -> None:
+        if all(map(falls_with_wavelength, ends := (self.minimum, self.maximum))):
+            # In the order in which these rise, wavelengths fall.
+            low, high = sorted(map(wavelength_of, ends))  # type: ignore[arg-type, type-var]
+            object.__setattr__(self, "minimum", low)
+            object.__setattr__(self, "maximum", high)
         for field in ("default", "minimum", "maximum"):
             given = getattr(self, field)
             if isinstance(given, str) and (read := wavelength_of(given)) is not None:
@@ -63,7 +68,10 @@ class Wavelength(Parameter):
         return self.same_specification(Wavelength(self.name))
 
     def parse(self, text: str, default_unit: str = "") -> Any:
-        read = wavelength_of(text)
+        try:
+            read = wavelength_of(text)
+        except UnitError as error:
+            raise UnitError(f"parameter '{self.name}': {error}") from None
         if read is None and (meant := spectral_unit_meant(unit_of(text))):
             raise UnitError(
                 f"parameter '{self.name}': unit '{unit_of(text)}' of '{text}' is unknown; did you "

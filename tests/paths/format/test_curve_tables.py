@@ -116,6 +116,20 @@ def test_a_formula_has_its_coefficients_as_published(read):
     np.testing.assert_allclose(found, by_numbers(float(n)), rtol=1e-13, atol=1e-16)
 
 
+@pytest.mark.parametrize(
+    "formula", ["cauchy = { coefficients = [1, 2] }", "drude_lorentz = { plasma = 9, damping = 1 }"]
+)
+def test_a_formula_of_whole_numbers_is_read_back_equal(read, read_back, formula):
+    path = read(f"{{ {formula} }}")
+    assert read_back(path) == path
+
+
+def test_samples_in_degrees_are_read_back_equal(read_back):
+    turned = op.tabulated(["500 nm", "600 nm"], ["95 deg", "100 deg"])
+    path = op.Source() >> op.Retarder(turned) >> op.Detector()
+    assert read_back(path) == path
+
+
 def test_coefficients_may_be_parameters(read, read_back):
     declared = "[parameters.a]\n[parameters.b]\ndefault = 0.004\n"
     path = read('{ cauchy = { coefficients = ["$a", "$b"] } }', parameters=declared)
@@ -241,6 +255,14 @@ def test_cases_give_a_wavelength_that_is_not_declared(tmp_path):
         ("cauchy = { }", ["'coefficients' is missing"]),
         ('cauchy = { coefficients = ["x"] }', [".cauchy.coefficients: [0]: 'x' is no"]),
         ("cauchy = { coefficients = [1] }, span = 3", [".span: must be two wavelengths"]),
+        (
+            "cauchy = { coefficients = [1] }, span = [400, 700]",
+            [".span: [0]: 400 has no unit", "write '400 nm'", ".span: [1]: 700 has no unit"],
+        ),
+        ('cauchy = { coefficients = [1] }, span = ["400 nm", 700]', [".span: [1]: 700 has no"]),
+        ("cauchy = { coefficients = [] }", ["must be a row of one coefficient or more"]),
+        ("sellmeier = { b = [], c = [] }", ["b of the formula 'sellmeier' must be a row"]),
+        ("tauc_lorentz = { oscillators = [] }", ["has no oscillators", "or n as a number"]),
         ("sum = [1, 2]", ["'sum' gives one number; write it for n"]),
         ("n = { sum = [1] }", ["'sum' must be a list of two tables or more"]),
         (f'n = {{ {SAMPLES}, part = "m" }}', ["'part' is 'm', but the table has n and k"]),

@@ -68,3 +68,10 @@ def test_coefficients_that_do_not_fit_are_refused():
         op.drude_rotation([1.0, 2.0], [0.1])
     with pytest.raises(op.ValueFault, match="give finite real numbers"):
         op.drude_rotation([math.inf], [0.1])
+
+
+def test_degrees_and_radians_make_the_same_curve():
+    places = ["500 nm", "600 nm"]
+    in_degrees = op.tabulated(places, ["95 deg", "100 deg"])
+    assert in_degrees == op.tabulated(places, np.radians([95.0, 100.0]))
+    assert in_degrees != op.tabulated(places, ["95 deg", "101 deg"])

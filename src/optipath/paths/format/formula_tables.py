@@ -127,4 +127,8 @@ def _nested(raw: Any, decode: Decode) -> Any:
 def _span(raw: Any, decode: Decode) -> tuple[Any, ...]:
     if not isinstance(raw, list):
         raise PresetError(f'must be two wavelengths, ["400 nm", "700 nm"], not {shown(raw)}')
-    return tuple(decode(end, WAVELENGTH) if isinstance(end, str) else end for end in raw)
+    faults = Faults()
+    ends = [faults.attempt(f"[{i}]", decode, end, WAVELENGTH) for i, end in enumerate(raw)]
+    if faults:
+        raise PresetError(*faults)
+    return tuple(ends)

@@ -192,8 +192,9 @@ class Search:
         reading = self.program.readings[branch.end]
         with np.errstate(all="ignore"):
             components, _ = self.carrier.read(branch.state)
-        parts = [np.broadcast_to(part, self.batch) for part in components]
-        stokes = np.stack(parts, axis=-1)
+        # Interpreters may have one path as a batch of one.
+        parts = [np.broadcast_to(part, self.batch or (1,)) for part in components]
+        stokes = np.stack(parts, axis=-1).reshape(*self.batch, 4)
         stokes[..., reading.components :] = np.nan
         light = self.as_light(stokes, reading.frame)
         return LightPath(branch.route, branch.end, branch.bounces, light)

@@ -116,6 +116,9 @@ class ReproducibleInterpreter(Interpreter):
     def matrix(self, given: ResolvedInputs, source: str, reading: Reading) -> np.ndarray[Any, Any]:
         return super().matrix(_as_batch(given), source, reading).reshape(*given.batch, 4, 4)
 
+    def bounds(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
+        return [found.reshape(4, *given.batch) for found in super().bounds(_as_batch(given))]
+
     def operands(self, given: ResolvedInputs) -> list[np.ndarray[Any, Any]]:
         # Numbers that are known are no arrays, so that kernels see which of them are 0.
         return [

@@ -44,18 +44,21 @@ def several(name: str, values: Any) -> tuple[Any, ...]:
     Raises
     ------
     ValueFault
-        If they are no row.
+        If they are no row, or if it is empty.
 
     Examples
     --------
     >>> several("b", [1.0, 2])
     (1.0, 2)
     """
-    if isinstance(values, (str, Parameter)) or not hasattr(values, "__iter__"):
+    given = values.tolist() if isinstance(values, np.ndarray) else values
+    is_one = isinstance(given, (str, Parameter)) or not hasattr(given, "__iter__")
+    row = () if is_one else tuple(given)
+    if not row:
         raise ValueFault(
-            f"{name} must be a row of coefficients, such as [1.0], not {shown(values)}"
+            f"{name} must be a row of one coefficient or more, such as [1.0], not {shown(values)}"
         )
-    return tuple(values.tolist() if isinstance(values, np.ndarray) else values)
+    return row
 
 
 def oscillators_of(label: str, rows: Any, names: tuple[str, ...]) -> tuple[tuple[Any, ...], ...]:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, shown
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
@@ -224,7 +224,7 @@ class CurveValue(Parameter):
             f"{self.scale:g} * " * (self.scale != 1.0),
             f" + {self.offset:g}" * bool(self.offset),
         )
-        return f"<{shape[0]}{self.spoken}{shape[1]}, by {given}>"
+        return f"<{shape[0]}{shown(self.spoken)[1:-1]}{shape[1]}, by {given}>"
 
     def __eq__(self, other: object) -> bool:
         return Parameter.__eq__(self, other)

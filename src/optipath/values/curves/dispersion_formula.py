@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, listed
 from optipath.kernels.dispersion.database_formulas import DATABASE_FORMULAS, coefficients_fit
-from optipath.values.cures import cure
+from optipath.values.cures import argument, cure
 from optipath.values.curves.curve import Curve
 
 if TYPE_CHECKING:
@@ -88,4 +88,5 @@ class DispersionFormula(Curve):
 
 def nearest_asked_for() -> str:
     """Return the one way to leave the range of a formula, as a cure."""
-    return cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')
+    asked = cure("ask for extrapolate='nearest'", 'ask for extrapolate = "nearest"')
+    return asked if argument("extrapolate") else "name another page"

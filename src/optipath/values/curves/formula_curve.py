@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault, shown
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.cures import cure
+from optipath.values.curves.coefficients import REAL
 from optipath.values.curves.curve import Curve
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.operands import Operand
@@ -56,6 +59,7 @@ class FormulaCurve(Curve):
             faults += fault.faults
         if faults:
             raise ValueFault(*faults)
+        vars(self).update({name: _plain(value) for name, value in given.items()})
 
     @abstractmethod
     def arguments(self) -> list[Coefficient]:
@@ -75,13 +79,21 @@ def _check(owner: str, value: Any, domain: Domain) -> None:
         raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
 
 
+def _plain(given: Any) -> Any:
+    """Return coefficients as floats, so that 2 and 2.0 make equal curves."""
+    if isinstance(given, tuple):
+        return tuple(map(_plain, given))
+    is_open = given is None or isinstance(given, Parameter) or is_traced(given)
+    return given if is_open else REAL.check("", given).item() + 0.0
+
+
 def _span(owner: str, span: Any) -> tuple[float, float]:
     if span == EVERYWHERE:
         return EVERYWHERE
     ends = WAVELENGTH.check(owner, list(span) if isinstance(span, tuple) else span)
     if ends.shape != (2,) or not ends[0] < ends[1]:
+        such = cure("('400 nm', '700 nm')", '["400 nm", "700 nm"]')
         raise ValueFault(
-            f"{owner} is {shown(span)}; give the least and the largest wavelength, such as "
-            f"('400 nm', '700 nm')"
+            f"{owner} is {shown(span)}; give the least and the largest wavelength, such as {such}"
         )
     return float(ends[0]), float(ends[1])

@@ -8,6 +8,7 @@ from optipath.errors import ValueFault
 from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
 from optipath.kernels.dispersion.permittivity import index_of_permittivity
 from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
+from optipath.values.cures import cure
 from optipath.values.curves.coefficients import (
     NOT_NEGATIVE,
     POSITIVE,
@@ -136,6 +137,12 @@ class TaucLorentz(FormulaCurve):
         self, label: str, oscillators: Any, *, background: Any = 1.0, span: Any = EVERYWHERE
     ) -> None:
         rows = oscillators_of(label, oscillators, _ABOVE_GAP)
+        if not rows:
+            constant = cure("op.Material(n)", "n as a number")
+            raise ValueFault(
+                f"{label} has no oscillators; give one or more, or {constant} for what is the "
+                f"same at all wavelengths"
+            )
         super().__init__(label, span, oscillators=rows, background=background)
         for place, (_, energy, broadening, _) in enumerate(rows):
             known = not isinstance(energy, Parameter) and not isinstance(broadening, Parameter)

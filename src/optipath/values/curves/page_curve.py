@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault
-from optipath.values.cures import cure
+from optipath.values.cures import argument
 from optipath.values.curves.curve import Curve
 from optipath.values.curves.wavelength_range import span_text
 
@@ -77,7 +77,10 @@ class PageCurve(Curve):
         )
         if within is not None:
             clear = max(low, within[0]), min(high, within[1])
-            vars(self).update(span=clear, beyond=cure("give k, as k=1e-4", "give k, as k = 1e-4"))
+            own_k = argument("k", "1e-4")
+            vars(self).update(
+                span=clear, beyond=f"give k, as {own_k}" if own_k else "name another page"
+            )
 
     @property
     def content(self) -> tuple[Hashable, ...]:

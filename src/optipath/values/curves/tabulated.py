@@ -9,7 +9,7 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault, shown, unknown
 from optipath.values.arrays.read_only import locked
 from optipath.values.arrays.shapes import first_place
-from optipath.values.cures import cure
+from optipath.values.cures import argument, cure
 from optipath.values.curves.curve import Curve
 from optipath.values.curves.monotone_slopes import monotone_slopes
 from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH
@@ -96,10 +96,7 @@ class Tabulated(Curve):
             extrapolate=extrapolate,
             unit=unit,
             span=(0.0, np.inf) if extrapolate else (float(places[0]), float(places[-1])),
-            beyond=cure(
-                "ask for extrapolate='nearest' or 'linear'",
-                'ask for extrapolate = "nearest" or "linear"',
-            ),
+            beyond=_beyond(),
             unreal="beyond its samples a straight line goes on" * (extrapolate == "linear"),
             _nodes=locked(np.repeat(places, 2)),
             _edges=locked(_edges(places)),
@@ -117,7 +114,7 @@ class Tabulated(Curve):
     @property
     def content(self) -> tuple[Hashable, ...]:
         numbers = (self.wavelengths, *self.columns)
-        told = (self.label, self.parts, self.interpolation, self.extrapolate, self.unit)
+        told = (self.label, self.parts, self.interpolation, self.extrapolate)
         return (*told, *[column.tobytes() for column in numbers])
 
     @property
@@ -135,6 +132,11 @@ class Tabulated(Curve):
             value, slope, second, third = [xp.asarray(each)[piece] for each in cubic]
             found.append(value + step * (slope + step * (second + step * third)))
         return tuple(found)
+
+
+def _beyond() -> str:
+    asked = ("extrapolate='nearest' or 'linear'", 'extrapolate = "nearest" or "linear"')
+    return f"ask for {cure(*asked)}" if argument("extrapolate") else "name another page"
 
 
 def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray[Any, Any]:

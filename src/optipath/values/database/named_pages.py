@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from optipath.errors import MaterialError, shown
 from optipath.spelling import closest, looks_left
-from optipath.values.cures import cure
+from optipath.values.cures import argument, cure
 from optipath.values.database.catalog_pages import CatalogPage, catalog_pages
 from optipath.values.database.curated_names import CURATED, CuratedName, alike, curated_names
 
@@ -135,7 +135,7 @@ def _ambiguous(name: str, found: list[CatalogPage]) -> str:
         for page in found[:_MOST]
     ]
     more = f" and {len(found) - _MOST} more" if len(found) > _MOST else ""
-    how = "by page=" if len(books) == 1 else "in place of it"
+    how = f"by {argument('page')}" if len(books) == 1 else "in place of it"
     also = f", or say '{short}'" if short else ""
     return (
         f"'{name}' has {len(found)} pages; name one {how}{also}: {', '.join(told)}{more} "

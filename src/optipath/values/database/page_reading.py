@@ -7,7 +7,7 @@ from html import unescape
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import MaterialError, OptipathError, shown, unknown
-from optipath.values.cures import cure
+from optipath.values.cures import argument
 from optipath.values.curves.dispersion_formula import nearest_asked_for
 from optipath.values.curves.page_curve import PageCurve
 from optipath.values.curves.tabulated import EXTRAPOLATIONS, INTERPOLATIONS
@@ -98,11 +98,12 @@ def source_of(contents: Any) -> str:
 
 def _lacking(label: str, part: str, giving: Mapping[str, PageEntry]) -> str:
     has = "".join(f", only {one} within {span_text(entry.span)}" for one, entry in giving.items())
-    wanted = (
-        f"where the material is transparent, ask for {cure('k=0.0', 'k = 0.0')}, or give its k"
-        if part == "k"
-        else f"give it, as {cure('n=1.5', 'n = 1.5')}"
-    )
+    if not argument(part):
+        wanted = "name another page"
+    elif part == "k":
+        wanted = f"where the material is transparent, ask for {argument('k', '0.0')}, or give its k"
+    else:
+        wanted = f"give it, as {argument('n', '1.5')}"
     return f"{label} has no {part} ({_ADJECTIVES[part]}){has}; {wanted}"
 
 

@@ -12,6 +12,7 @@ from optipath.values.domains.domain import Domain
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.parameters import Parameter
 from optipath.values.specification import checked_name
+from optipath.values.spectral_units import falls_with_wavelength
 from optipath.values.unit_names import unit_meant
 from optipath.values.units import UNITS, dimension_of, units_of, with_article
 from optipath.values.wavelength import Wavelength
@@ -36,7 +37,7 @@ def read_parameter(
     table : dict
         What stands in the file.
     wavelengths : container of str
-        The parameters that are wavelengths where they are lengths.
+        The parameters that are wavelengths where they are lengths, as they are by default.
     faults : Faults
         Takes what is wrong.
 
@@ -49,8 +50,12 @@ def read_parameter(
     named = faults.attempt(where, checked_name, name) is not None
     if sound is None:
         return None
-    table, unit = sound, sound.get("unit", "")
-    if fault := _unit_fault(where, unit, table):
+    usual = WAVELENGTH.unit if name in wavelengths else ""
+    table, unit = sound, sound.get("unit", usual)
+    fault = _unit_fault(where, unit, table)
+    if usual and falls_with_wavelength(f"1 {unit}"):
+        fault = _no_length(where, unit)
+    if fault:
         faults.append(fault)
         return None
     dimension = faults.attempt(where, dimension_of, unit)
@@ -85,13 +90,28 @@ def _range(where: str, table: Mapping[str, Any], domain: Domain, faults: Faults)
     if len(table["range"]) != 2:
         faults.append(f"{where}: 'range' must have two ends, not {len(table['range'])}")
         return {}
-    ends = faults.attempt(f"{where}.range", decode, table["range"], domain, {})
+    read = _ends_of_light if domain is WAVELENGTH else decode
+    ends = faults.attempt(f"{where}.range", read, table["range"], domain, {})
     if ends is None:
         return {}
     if any(isinstance(end, list) for end in ends):
         faults.append(f"{where}: the ends of 'range' must be single values")
         return {}
     return dict(zip(("minimum", "maximum"), ends, strict=True))
+
+
+def _ends_of_light(raw: list[Any], domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
+    """Return the two limits of a wavelength, the lower one first where photon energies rise."""
+    ends = [decode(end, domain, parameters) for end in raw]
+    return sorted(ends) if all(map(falls_with_wavelength, raw)) else ends
+
+
+def _no_length(where: str, unit: str) -> str:
+    """Say that a unit of photon energy or the like is for texts alone, where a wavelength is."""
+    return (
+        f"{where}: unit '{unit}' is none of length, in which wavelengths are told; leave unit out, "
+        f'and write values as texts with it, such as "2.4 {unit}"'
+    )
 
 
 def _unit_fault(where: str, unit: str, table: Mapping[str, Any]) -> str:
