@@ -65,6 +65,12 @@ def test_tables_stand_for_spectra(table, value, tmp_path):
     assert path_with(table, tmp_path).trace(**given).intensity == pytest.approx(value, rel=1e-12)
 
 
+def test_a_width_in_electronvolts_is_taken_at_the_peak_in_files_as_well():
+    found = spectrum_of({"led": "2 eV", "width": "0.1 eV"})
+    assert found == op.Spectrum.led("2 eV", "0.1 eV")
+    assert spectrum_of(spectrum_table(found)) == found
+
+
 @pytest.mark.parametrize(
     ("table", "sentence"),
     [

@@ -77,6 +77,38 @@ def test_a_diode_has_its_power_and_half_of_its_peak_at_half_its_width():
     assert [low / peak, high / peak] == pytest.approx([0.5, 0.5], rel=1e-12)
 
 
+HC_EV_NM = SI["h"] * SI["c"] / 1.602176634e-19 * 1e9
+
+
+@pytest.mark.parametrize(
+    ("peak", "width", "low", "high"),
+    [
+        ("2 eV", "0.1 eV", HC_EV_NM / 2.05, HC_EV_NM / 1.95),
+        ("2 eV", "100 meV", HC_EV_NM / 2.05, HC_EV_NM / 1.95),
+        ("500 nm", "1000 1/cm", 1e7 / 20500, 1e7 / 19500),
+        ("600 THz", "20 THz", SI["c"] / 610e3, SI["c"] / 590e3),
+        ("500 nm", "30 nm", 485.0, 515.0),
+    ],
+)
+def test_a_width_of_a_diode_is_that_between_its_edges_in_the_unit_given(peak, width, low, high):
+    led = op.Spectrum.led(peak, width)
+    assert led.kind.width * 1e9 == pytest.approx(high - low, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("width", "sentence"),
+    [
+        ("4 eV", r"'4 eV' around a peak at 619.92.* nm reaches down to 0"),
+        ("30", "'30' has no unit"),
+        ("0 nm", "give a width above 0"),
+        (30, "write '30 nm'"),
+    ],
+)
+def test_what_is_no_width_is_said(width, sentence):
+    with pytest.raises(op.OptipathError, match=sentence):
+        op.Spectrum.led("2 eV", width)
+
+
 @pytest.mark.parametrize("name", ["A", "D65", "E"])
 def test_illuminants_agree_with_colour_science(name, colour):
     table = colour.SDS_ILLUMINANTS[name]

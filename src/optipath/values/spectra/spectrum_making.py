@@ -15,7 +15,13 @@ from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.illuminant import Illuminant
 from optipath.values.spectra.lines import Lines
 from optipath.values.spectra.sampled import Sampled
-from optipath.values.spectra.spectral_values import one_number, one_wavelength, value_outside
+from optipath.values.spectra.spectral_values import (
+    one_number,
+    one_wavelength,
+    refuse_longest,
+    value_outside,
+)
+from optipath.values.spectra.spectral_width import WidthAtPeak
 from optipath.values.spectra.spectrum_kind import EmissionLine, SpectrumKind
 
 if TYPE_CHECKING:
@@ -176,6 +182,8 @@ class SpectrumMaking(Curve):
         ----------
         peak, width : float or str
             The wavelength of the maximum and the full width at half maximum, in metres or texts.
+            A width in eV, 1/cm or THz is the distance between the wavelengths half of it above
+            and half of it below the peak.
         power : float, optional
             The integral over all wavelengths.
 
@@ -189,7 +197,9 @@ class SpectrumMaking(Curve):
             If one of them is none.
         """
         place = one_wavelength("peak of a diode", peak)
-        wide = one_wavelength("width of a diode", width)
+        domain = WidthAtPeak("width", "length", minimum=5e-324, peak=place)
+        wide = one_number("width of a diode", width, domain)
+        refuse_longest("width of a diode", wide)
         return cls(GaussianLine(place, wide, one_number("power of a diode", power)))
 
     @classmethod
