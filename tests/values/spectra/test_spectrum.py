@@ -53,6 +53,31 @@ def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
     assert lamp.power(1e-9, 1e-3) == pytest.approx(expected, rel=1e-6 * beyond + 1e-13)
 
 
+def test_the_whole_power_of_a_black_body_is_that_of_stefan_and_boltzmann():
+    expected = 0.3 * STEFAN_BOLTZMANN * 2856.0**4 / math.pi
+    assert (0.3 * op.Spectrum.black_body(2856.0)).power() == pytest.approx(expected, rel=1e-14)
+
+
+def test_the_whole_power_of_a_diode_is_its_power():
+    assert op.Spectrum.led("530 nm", "30 nm", power=2.0).power() == 2.0
+
+
+def test_the_whole_power_of_a_sum_is_that_of_its_terms():
+    lamp = op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 3.0], outside=0.0)
+    terms = [lamp, op.Spectrum.black_body(300.0), op.Spectrum.line("633 nm", 5.0)]
+    whole = terms[0] + terms[1] + terms[2]
+    assert whole.power() == pytest.approx(205.0 + terms[1].power(), rel=1e-14)
+
+
+def test_a_line_at_a_shared_end_counts_once():
+    lamp = op.Spectrum.constant(1.0) + op.Spectrum.line("500 nm", 2.0)
+    parts = [lamp.power("400 nm", "500 nm"), lamp.power("500 nm", "600 nm")]
+    assert parts == pytest.approx([100.0, 102.0], rel=1e-13)
+    assert lamp.power("400 nm", "600 nm") == pytest.approx(sum(parts), rel=1e-13)
+    laser = op.Spectrum.line("500 nm", 2.0)
+    assert [laser.power(high="500 nm"), laser.power("500 nm"), laser.power()] == [0.0, 2.0, 2.0]
+
+
 def test_black_body_peaks_by_wiens_law():
     lamp, peak = op.Spectrum.black_body(5000.0), 2.897771955e-3 / 5000.0
     around = lamp.at(peak * np.array([0.9999, 1.0, 1.0001]))

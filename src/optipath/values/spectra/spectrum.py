@@ -15,7 +15,8 @@ from optipath.values.parameters import Parameter
 from optipath.values.spectra.arithmetic_of_kinds import product_of, quotient_of, sum_of
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.lines import density_of_lines
-from optipath.values.spectra.resampling import power_within, rebinned, resampled
+from optipath.values.spectra.power_within import power_within
+from optipath.values.spectra.resampling import rebinned, resampled
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import (
     check_known_at,
@@ -104,7 +105,10 @@ class Spectrum(SpectrumMaking):
         Parameters
         ----------
         low, high : float or str, optional
-            In metres or as texts, both included; by default, where the spectrum ends.
+            In metres or as texts; by default, where the spectrum ends, and without both the whole
+            power, that of a diode and a black body as well. A line at `low` counts, and one at a
+            `high` that is given does not, so that parts sum up to the whole. (The last bin of
+            `rebin` has the line at its end.)
 
         Returns
         -------
@@ -115,6 +119,12 @@ class Spectrum(SpectrumMaking):
         ------
         ValueFault
             If it is not known there, or does not end and no end is given.
+
+        Examples
+        --------
+        >>> laser = Spectrum.line("500 nm", power=2.0)
+        >>> laser.power("400 nm", "500 nm"), laser.power("500 nm", "600 nm"), laser.power()
+        (0.0, 2.0, 2.0)
         """
         return power_within(self.kind, low, high)
 
