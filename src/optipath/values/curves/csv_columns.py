@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,12 +11,14 @@ import numpy as np
 from optipath.errors import OptipathError, ValueFault, shown
 from optipath.values.curves.csv_header import axis_of, has_numbers, places_of
 from optipath.values.domains.wavelengths import LONGEST
+from optipath.values.given_files import given_file
 from optipath.values.spectral_units import wavelength_of
 from optipath.values.units import parse_quantity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from os import PathLike
+    from pathlib import Path
 
 _MOST_TOLD = 12
 
@@ -74,7 +75,8 @@ def read_columns(
     ValueFault
         With all that is wrong, and the lines.
     """
-    file = Path(path)
+    file = given_file(path)
+    _check_texts(names, unit)
     lines = _lines(file)
     if not lines:
         raise ValueFault("it is empty; write a line for each wavelength", about=str(file))
@@ -95,6 +97,19 @@ def read_columns(
         raise ValueFault(*told, *[f"and {more} more"] * (more > 0), about=str(file))
     columns = {name: np.array(values) for name, values in found.columns.items()}
     return CsvColumns(file.stem, np.array(found.wavelengths), columns)
+
+
+def _check_texts(names: Sequence[Any], unit: Any) -> None:
+    faults = [
+        f"a column is asked for by its name, a text, not by {shown(name)}; write one such as "
+        f"column='power'"
+        for name in names
+        if not isinstance(name, str)
+    ]
+    if not isinstance(unit, str):
+        faults.append(f"the unit is {shown(unit)}; give a text, such as unit='nm'")
+    if faults:
+        raise ValueFault(*faults)
 
 
 @dataclass

@@ -16,6 +16,7 @@ from optipath.values.spectra.arithmetic_of_kinds import product_of, quotient_of,
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.lines import density_of_lines
 from optipath.values.spectra.power_within import power_within
+from optipath.values.spectra.refused_operations import RefusedOperations
 from optipath.values.spectra.resampling import rebinned, resampled
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import (
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 _ABOVE = Domain("number above 0", minimum=1e-300)
 
 
-class Spectrum(SpectrumMaking):
+class Spectrum(RefusedOperations, SpectrumMaking):
     """Power per nanometre by wavelength, or a relative value such as a response.
 
     It is made by `sampled`, `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant`
@@ -204,9 +205,13 @@ class Spectrum(SpectrumMaking):
         return found
 
     def __add__(self, other: Any) -> Spectrum:
-        if not isinstance(other, Spectrum):
-            return NotImplemented
-        return Spectrum(sum_of(self.kind, other.kind))
+        if isinstance(other, Spectrum):
+            return Spectrum(sum_of(self.kind, other.kind))
+        if isinstance(other, (int, float)) and other == 0:
+            return self  # With which Python's own sum begins.
+        raise self._no_sum(other)
+
+    __radd__ = __add__
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Spectrum):
