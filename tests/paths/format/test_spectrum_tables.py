@@ -85,6 +85,14 @@ def test_a_width_in_electronvolts_is_taken_at_the_peak_in_files_as_well():
         ('{ wavelengths = [500, 600], unit = "nm" }', "needs 'values'"),
         ('{ edges = ["500 nm"], powers = [] }', "one sample or more"),
         ("{ sum = 3 }", "a list of tables"),
+        ('"D65"', r"'D65' is no spectrum by itself; write \{ illuminant = \"D65\" \}"),
+        ('"633 nm"', r"write \{ line = \"633 nm\" \}"),
+        ('{ sum = ["A"] }', r"write \{ illuminant = \"A\" \}"),
+        (
+            '{ line = ["633 nm", "500 nm"], power = [1, 2] }',
+            r'\{ sum = \[\{ line = "633 nm", power = 1 \}, \{ line = "500 nm", power = 2 \}\] \}',
+        ),
+        ("{ black_body = [300, 400, 500, 600] }", r"\{ black_body = 500 \}, \.\.\.\] \}"),
         ("{ sum = [{ black_body = -3 }] }", "temperature of a black body"),
     ],
 )

@@ -52,7 +52,14 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
             f"keep its power in bins, spectrum.rebin(edges)"
         )
     places = some_wavelengths("wavelengths", wavelengths)
-    return Sampled(places, values_at(kind, places), outside, kind.label)
+    try:
+        values = values_at(kind, places)
+    except ValueFault as fault:
+        if outside is None:
+            raise
+        beside = f"{outside=} of resample is for what is beyond the new samples"
+        raise ValueFault(*[f"{sentence} ({beside})" for sentence in fault.faults]) from None
+    return Sampled(places, values, outside, kind.label)
 
 
 def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:

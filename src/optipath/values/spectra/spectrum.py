@@ -140,7 +140,8 @@ class Spectrum(RefusedOperations, SpectrumMaking):
         wavelengths : array_like, shape (n,)
             In metres or as texts.
         outside : 0.0, optional
-            As `sampled` takes it.
+            Where nothing is beyond the new samples. Where this spectrum is not known it has no
+            value in any case, unless it was itself made with ``outside=0.0``.
 
         Returns
         -------
