@@ -19,6 +19,7 @@ PLACES = op.wavelengths("380 nm", "700 nm", "40 nm")
 SPECTRA = [
     op.Spectrum.sampled(PLACES, np.arange(9.0), outside=0.0, name="a lamp"),
     op.Spectrum.sampled(PLACES / 3.0, np.arange(9.0)),
+    op.Spectrum.sampled(PLACES / 1e3, np.arange(9.0)),
     op.Spectrum.histogram(PLACES, np.arange(8.0)),
     op.Spectrum.line("633 nm", 2.0),
     op.Spectrum.line("633 nm", 2.0, outside=0.0) + op.Spectrum.line("532 nm"),
@@ -83,6 +84,11 @@ def test_a_width_in_electronvolts_is_taken_at_the_peak_in_files_as_well():
         ('{ led = "530 nm" }', "needs 'width'"),
         ("{ wavelengths = [500, 600], values = [1, 2] }", 'add unit = "nm"'),
         ('{ wavelengths = [500, 600], unit = "nm" }', "needs 'values'"),
+        (
+            '{ wavelengths = [400, 500], unit = "um", values = [1, 2] }',
+            r"wavelengths: the wavelengths are 400 um .. 500 um, which are most likely nm",
+        ),
+        ('{ edges = [0.4, 0.5], unit = "nm", powers = [1] }', "which are most likely um"),
         ('{ edges = ["500 nm"], powers = [] }', "one sample or more"),
         ("{ sum = 3 }", "a list of tables"),
         ('"D65"', r"'D65' is no spectrum by itself; write \{ illuminant = \"D65\" \}"),

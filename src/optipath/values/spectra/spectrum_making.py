@@ -92,7 +92,8 @@ class SpectrumMaking(Curve):
         Parameters
         ----------
         path : str or PathLike
-            A file of separated values, whose first line has names: ``wavelength (nm), power``.
+            A file of separated values, whose first line has names: ``wavelength (nm), power``, or
+            the unit stands behind each wavelength.
         column : str, optional
             The name of the column of values.
         unit : str, optional
@@ -109,7 +110,8 @@ class SpectrumMaking(Curve):
         ValueFault
             With all that is wrong, and the lines.
         """
-        found = read_columns(path, [column], unit=unit)
+        signs = {str(column): "such as 0 for what is noise"}
+        found = read_columns(path, [column], unit=unit, signs=signs)
         values = found.columns[column]
         return cls.sampled(found.wavelengths, values, outside=outside, name=name or found.title)
 
