@@ -95,7 +95,7 @@ def test_the_sum_of_a_list_of_spectra_is_their_sum():
         (lambda: LED**2, r"the diode at 530 nm \*\* 2 is no spectrum; compute with its numbers"),
         (lambda: 2**LED, r"2 \*\* \(the diode at 530 nm\) is no spectrum"),
         (lambda: LED + 1.5, r"add a spectrum, such as Spectrum.constant\(1.5\)"),
-        (lambda: 1 + LED, r"add a spectrum, such as Spectrum.constant\(1\)"),
+        (lambda: 1 + LED, r"add a spectrum, such as Spectrum.constant\(1.0\)"),
         (lambda: LED + "a lamp", r"'a lamp' is no spectrum; add a spectrum"),
         (lambda: np.ones(2) + LED, "is no spectrum; add a spectrum"),
     ],

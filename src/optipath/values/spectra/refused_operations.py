@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any, NoReturn
 
 from optipath.errors import ValueFault, shown
@@ -38,10 +39,10 @@ class RefusedOperations:
     def _no_sum(self, other: Any) -> ValueFault:
         """Return why a spectrum and something else have no sum."""
         number = isinstance(other, (int, float)) and not isinstance(other, bool)
-        same = f"Spectrum.constant({other!r})" if number and other > 0 else "Spectrum.constant(1.0)"
+        same = float(other) if number and 0.0 < other < math.inf else 1.0
         return ValueFault(
-            f"{self.label} + {shown(other)} is no spectrum; add a spectrum, such as {same}, which "
-            f"is the same at each wavelength"
+            f"{self.label} + {shown(other)} is no spectrum; add a spectrum, such as "
+            f"Spectrum.constant({shown(same)}), which is the same at each wavelength"
         )
 
 

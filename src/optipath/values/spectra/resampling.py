@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, unknown
+from optipath.errors import ValueFault, shown, unknown
 from optipath.values.displayed import displayed
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.integrals import powers_between, smooth_powers
@@ -57,7 +57,7 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
     except ValueFault as fault:
         if outside is None:
             raise
-        beside = f"{outside=} of resample is for what is beyond the new samples"
+        beside = f"outside={shown(outside)} of resample is for what is beyond the new samples"
         raise ValueFault(*[f"{sentence} ({beside})" for sentence in fault.faults]) from None
     return Sampled(places, values, outside, kind.label)
 
