@@ -165,3 +165,23 @@ def test_a_line_is_not_for_wavelengths_that_jax_traces(jax):
 
 def test_elements_say_their_spectrum_in_words():
     assert repr(op.Source(spectrum=LASER)).endswith("spectrum=<the line at 633 nm, by wavelength>)")
+
+
+@pytest.mark.parametrize(
+    ("spectrum", "sentence"),
+    [
+        ("D65", r"'D65' is no spectrum by itself; write op.Spectrum.illuminant\(\"D65\"\)"),
+        ("d65", r"write op.Spectrum.illuminant\(\"D65\"\)"),
+        ("633 nm", r"'633 nm' is no spectrum by itself; write op.Spectrum.line\(\"633 nm\"\)"),
+        ("red", "'red' is not a quantity"),
+        (op.Spectrum, r"spectrum is the class Spectrum; give one of it, op.Spectrum.illuminant"),
+    ],
+)
+def test_what_is_no_spectrum_is_told_with_the_one_that_was_meant(spectrum, sentence):
+    with pytest.raises(op.OptipathError, match=sentence):
+        op.Source(spectrum=spectrum)
+
+
+def test_a_class_is_no_number():
+    with pytest.raises(op.ValueFault, match="is the class Parameter, and none of its kind"):
+        op.Attenuator(op.Parameter)

@@ -122,6 +122,54 @@ def test_a_response_multiplies_what_is_added_up():
         np.testing.assert_allclose(found.stokes, [300.0, 0, 300.0, 0], rtol=1e-12)
 
 
+def test_a_response_of_one_number_is_that_of_each_wavelength():
+    light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"])
+    assert light.integrate(response=2.0).intensity == pytest.approx(900.0, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "power",
+    [
+        op.Spectrum.line("500 nm"),
+        op.Spectrum.histogram(["400 nm", "600 nm"], [1.0]),
+        op.Spectrum.constant(1.0) + op.Spectrum.line("500 nm"),
+        op.Spectrum.line("500 nm").at(op.Wavelength()),
+    ],
+)
+def test_a_response_that_is_power_is_refused_as_a_detector_refuses_it(power):
+    light = light_of([1.0, 2.0, 4.0], ["400 nm", "500 nm", "600 nm"])
+    with pytest.raises(op.ValueFault) as of_detector:
+        op.Detector(response=power)
+    with pytest.raises(op.ValueFault) as found:
+        light.integrate(response=power)
+    assert str(found.value) == str(of_detector.value).replace("Detector r", "the r")
+
+
+@pytest.mark.parametrize(
+    ("shape", "wavelength", "expected"),
+    [
+        ((), 5e-7, ()),
+        ((1,), [5e-7], ()),
+        ((3,), 5e-7, (3,)),
+        ((3,), [5e-7] * 3, (3,)),
+        ((3, 1), [5e-7], (3,)),
+        ((1, 3), [[5e-7]], (3,)),
+    ],
+)
+def test_light_of_one_wavelength_fills_one_bin(shape, wavelength, expected):
+    light = light_of(np.full(shape, 2.0), wavelength, dop=0.5)
+    for edges in (["490 nm", "520 nm"], ["520 nm", "490 nm"]):
+        found = light.integrate(edges=edges)
+        assert found.shape == expected
+        every = [*expected, 4]
+        np.testing.assert_allclose(
+            found.stokes, np.broadcast_to([60.0, 0, 30.0, 0], every), rtol=1e-14
+        )
+    assert light.integrate(response=0.5, edges=edges).intensity == pytest.approx(30.0, rel=1e-14)
+    with pytest.raises(op.ValueFault, match="bin 0 is from 400 nm to 450 nm"):
+        light.integrate(edges=["400 nm", "450 nm"])
+
+
 @pytest.mark.parametrize(
     "grid", [EVEN, EVEN[::-1], np.array([400.0, 401, 450, 640, 700]) * NM], ids=str
 )
@@ -175,6 +223,7 @@ def test_light_that_is_no_spectrum_is_refused(light, sentence):
         ({"response": [1.0, 2.0]}, r"the response has the shape \(2,\), and there are 3"),
         ({"response": [1.0, -2.0, 1.0]}, "the response is -2"),
         ({"response": [1.0, np.nan, 1.0]}, "the response is nan"),
+        ({"response": -1.0}, "the response is -1"),
         ({"response": ["a", "b", "c"]}, "the response must be of real numbers"),
         ({"edges": [4e-7, 5e-7]}, "3 wavelengths have 4 edges of bins"),
         ({"edges": [3e-7, 4.1e-7, 4.2e-7, 7e-7]}, "bin 1 is from 410 nm to 420 nm, and its wave"),

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, ClassVar
 
 from optipath.elements.element import Element
-from optipath.errors import ValueFault, listed
 from optipath.values.domains.quantities import Reads, Spectral
-from optipath.values.spectra.spectrum import Spectrum
+from optipath.values.spectra.responses import check_response
 
 if TYPE_CHECKING:
     from optipath.elements.coupling import Coupling
@@ -50,13 +49,7 @@ class Detector(Terminal, kind="detector"):
     def __post_init__(self) -> None:
         """Refuse besides a spectrum that is power in bins or lines, and no response."""
         super().__post_init__()
-        curve = getattr(self.response, "curve", None)
-        terms = curve.kind.terms if isinstance(curve, Spectrum) else ()
-        if powers := [term.label for term in terms if not term.is_pointwise]:
-            raise ValueFault(
-                f"Detector response has {listed(powers)}, which is power and no response; give "
-                f"relative values at wavelengths, Spectrum.sampled(wavelengths, values)"
-            )
+        check_response("Detector response", self.response)
 
 
 class Dump(Terminal, kind="dump"):

@@ -13,6 +13,7 @@ from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, is_traced, known, namespace
 from optipath.values.precision import at_least_single, coarser
 from optipath.values.spectra.grid_bins import NANOMETRES, grid_fault, grid_widths
+from optipath.values.spectra.responses import check_response
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -92,7 +93,8 @@ def integrated(
     exponent : int or ndarray
     noise : tuple or None
     """
-    grid, axis = spectral_axis(light)
+    one_bin = edges is not None and np.size(edges) == 2
+    light, grid, axis = _along_bins(light, one_bin=one_bin)
     weights = grid_widths(grid) if edges is None else _widths_of(edges, grid)
     if response is not None:
         weights = weights * _response_at(response, grid)
@@ -103,6 +105,24 @@ def integrated(
         return total.astype(coarser(numbers)), frame, power, None
     total, power = folded(*rounded_to(coarser(numbers), total, power))
     return total, frame, power, (noise_of_sum, light, weights, axis)
+
+
+def _along_bins(
+    light: WavelengthOnDemand, *, one_bin: bool
+) -> tuple[WavelengthOnDemand, Array, int]:
+    """Return light with its wavelengths and their axis; one, where all of it is in one bin."""
+    wavelength = light.wavelength
+    if not one_bin or wavelength is None or is_traced(wavelength) or np.ptp(wavelength) > 0.0:
+        return light, *spectral_axis(light)
+    behind = light.ndim - wavelength.ndim
+    own = [
+        behind + axis
+        for axis, count in enumerate(wavelength.shape)
+        if count == light.shape[behind + axis] == 1
+    ]
+    if len(own) == 1:
+        return light, wavelength.ravel(), own[0]
+    return light[np.newaxis], wavelength.ravel()[:1], 0
 
 
 def weighted_sum(numbers: Any, exponent: Array, weights: Any, axis: int) -> tuple[Any, Any]:
@@ -201,7 +221,8 @@ def _widths_of(edges: Any, grid: Array) -> Array:
             f"{len(grid)} wavelengths have {len(grid) + 1} edges of bins, one more than there "
             f"are, not edges of shape {found.shape}"
         )
-    up = 1.0 if grid[-1] > grid[0] else -1.0
+    ordered = grid if len(grid) > 1 else found
+    up = 1.0 if ordered[-1] > ordered[0] else -1.0
     outside = (up * found[:-1] > up * grid) | (up * grid > up * found[1:])
     if np.any(outside) or np.any(up * np.diff(found) <= 0.0):
         place = int(np.argmax(outside))
@@ -216,20 +237,22 @@ def _widths_of(edges: Any, grid: Array) -> Array:
 
 def _response_at(response: Any, grid: Array) -> Any:
     """Return the response at each wavelength, which is not below 0."""
+    check_response("the response", response)
     found = response.at(grid) if hasattr(response, "at") and not is_traced(response) else response
     if not is_traced(found):
         found = as_given("the response", known(found), ShapeError)
         if found.dtype.kind not in "biuf":
             raise ShapeError(f"the response must be of real numbers, not {shown(response)}")
-    if found.shape != (len(grid),):
+    if found.shape not in ((), (len(grid),)):
         raise ShapeError(
             f"the response has the shape {tuple(found.shape)}, and there are {len(grid)} "
-            f"wavelengths; give one number for each, or a Spectrum"
+            f"wavelengths; give one number for each, one for all, or a Spectrum"
         )
     if is_traced(found):
         return found
-    if not np.all((found >= 0.0) & np.isfinite(found)):
-        bad = found[~((found >= 0.0) & np.isfinite(found))][0]
+    good = (found >= 0.0) & np.isfinite(found)
+    if not np.all(good):
+        bad = found[~good].flat[0]
         raise ValueFault(f"the response is {bad:g}, and light has no {bad:g}-fold; give one >= 0")
     return np.asarray(found, np.float64)
 

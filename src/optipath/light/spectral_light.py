@@ -53,12 +53,13 @@ class SpectralLight(WavelengthOnDemand):
 
         Parameters
         ----------
-        response : array_like of shape (n,), Spectrum or Curve, optional
-            What the light of each wavelength is multiplied by: numbers that are not negative,
-            or what gives them by ``response.at(wavelengths)``.
+        response : float, array_like of shape (n,), Spectrum or Curve, optional
+            What the light of each wavelength is multiplied by, as a `Detector` takes it: numbers
+            that are not negative, or what gives them by ``response.at(wavelengths)``, and no
+            power in bins or lines.
         edges : array_like, shape (n + 1,), optional
             The edges of the bins, in metres or as texts with units: what comes in each is
-            the density there times the width.
+            the density there times the width. Light of one wavelength has one bin, two edges.
 
         Returns
         -------

@@ -19,6 +19,7 @@ PLACES = op.wavelengths("380 nm", "700 nm", "40 nm")
 SPECTRA = [
     op.Spectrum.sampled(PLACES, np.arange(9.0), outside=0.0, name="a lamp"),
     op.Spectrum.sampled(PLACES / 3.0, np.arange(9.0)),
+    op.Spectrum.sampled(PLACES / 1e3, np.arange(9.0)),
     op.Spectrum.histogram(PLACES, np.arange(8.0)),
     op.Spectrum.line("633 nm", 2.0),
     op.Spectrum.line("633 nm", 2.0, outside=0.0) + op.Spectrum.line("532 nm"),
@@ -65,6 +66,12 @@ def test_tables_stand_for_spectra(table, value, tmp_path):
     assert path_with(table, tmp_path).trace(**given).intensity == pytest.approx(value, rel=1e-12)
 
 
+def test_a_width_in_electronvolts_is_taken_at_the_peak_in_files_as_well():
+    found = spectrum_of({"led": "2 eV", "width": "0.1 eV"})
+    assert found == op.Spectrum.led("2 eV", "0.1 eV")
+    assert spectrum_of(spectrum_table(found)) == found
+
+
 @pytest.mark.parametrize(
     ("table", "sentence"),
     [
@@ -77,8 +84,21 @@ def test_tables_stand_for_spectra(table, value, tmp_path):
         ('{ led = "530 nm" }', "needs 'width'"),
         ("{ wavelengths = [500, 600], values = [1, 2] }", 'add unit = "nm"'),
         ('{ wavelengths = [500, 600], unit = "nm" }', "needs 'values'"),
+        (
+            '{ wavelengths = [400, 500], unit = "um", values = [1, 2] }',
+            r"wavelengths: the wavelengths are 400 um .. 500 um, which are most likely nm",
+        ),
+        ('{ edges = [0.4, 0.5], unit = "nm", powers = [1] }', "which are most likely um"),
         ('{ edges = ["500 nm"], powers = [] }', "one sample or more"),
         ("{ sum = 3 }", "a list of tables"),
+        ('"D65"', r"'D65' is no spectrum by itself; write \{ illuminant = \"D65\" \}"),
+        ('"633 nm"', r"write \{ line = \"633 nm\" \}"),
+        ('{ sum = ["A"] }', r"write \{ illuminant = \"A\" \}"),
+        (
+            '{ line = ["633 nm", "500 nm"], power = [1, 2] }',
+            r'\{ sum = \[\{ line = "633 nm", power = 1 \}, \{ line = "500 nm", power = 2 \}\] \}',
+        ),
+        ("{ black_body = [300, 400, 500, 600] }", r"\{ black_body = 500 \}, \.\.\.\] \}"),
         ("{ sum = [{ black_body = -3 }] }", "temperature of a black body"),
     ],
 )

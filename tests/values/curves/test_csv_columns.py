@@ -27,6 +27,9 @@ def read(tmp_path):
         "k\tn\twl [um]\tnote\n1.87\t0.97\t0.5\ta\n2.08\t0.62\t0.521\tb\n",
         "Wavelength (\u00b5m),N,K\r\n0.5,0.97,1.87\r\n0.521,0.62,2.08\r\n",
         "\ufeff\u03bb (nm), n (-), k ()\n500,0.97,1.87\n521,0.62,2.08\n",
+        "wavelength,n,k\n500 nm,0.97,1.87\n0.521 um,0.62,2.08\n",
+        "wavelength (nm),n,k\n500 nm,0.97,1.87\n521,0.62,2.08\n",
+        '"wavelength (nm)",n,"k"\n"500","0.97",1.87\n521,0.62,"2.08"\n',
     ],
 )
 def test_columns_are_found_by_their_names_and_units(read, text):
@@ -51,6 +54,24 @@ def test_a_unit_may_be_given_where_the_file_has_none(read):
 
 
 @pytest.mark.parametrize(
+    ("text", "least"),
+    [
+        ("wavelength,n\n400 um,1\n500 um,1\n", 400e-6),
+        ("wavelength (nm),n\n0.4 nm,1\n0.5 nm,1\n", 0.4e-9),
+        ("wavelength (mm),n\n0.4,1\n0.5,1\n", 400e-6),
+        ("wavelength (um),n\n0.2,1\n500,1\n", 0.2e-6),
+    ],
+)
+def test_the_far_infrared_and_x_rays_can_be_said(read, text, least):
+    assert read(text, ["n"]).wavelengths[0] == pytest.approx(least, rel=1e-15)
+
+
+def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):
+    with pytest.raises(ValueFault, match=r"begin with a line such as 'wavelength \(nm\), power'"):
+        read("400,1\n500,2\n", ["power"])
+
+
+@pytest.mark.parametrize(
     ("text", "words"),
     [
         ("", "gold.csv: it is empty; write a line for each wavelength"),
@@ -65,7 +86,36 @@ def test_a_unit_may_be_given_where_the_file_has_none(read):
         ("500,1,1\n510,1,1\n", "line 1 has numbers, and no names of columns; begin with a line"),
         ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
         ("wavelength (mn),n,k\n516,1,1\n", "the unit 'mn' of 'wavelength' is unknown"),
-        ("energy (nm),n,k\n516,1,1\n", "the unit 'nm' of 'energy' is unknown"),
+        (
+            "energy (nm),n,k\n516,1,1\n",
+            "line 1: 'nm' is no unit of 'energy', but of 'wavelength'; write 'wavelength (nm)'",
+        ),
+        ("wavelength (1/cm),n,k\n516,1,1\n", "write 'wavenumber (1/cm)'"),
+        ("wl (eV),n,k\n516,1,1\n", "write 'energy (eV)'"),
+        ("lambda (THz),n,k\n516,1,1\n", "write 'frequency (THz)'"),
+        ("wavelength,n,k\n400 nm,1,1\n500,1,1\n", "line 3: '500' has no unit"),
+        (
+            "wavelength (um),n,k\n400 nm,1,1\n",
+            "line 2: '400 nm' is in another unit than 'um' of the first line; leave one of them",
+        ),
+        ("wavelength (nm),n,k\n500,-1,1\n", "line 2: n is -1; write none below 0"),
+        (
+            'wavelength (nm),n,k\n500,1,"1\n600,1,1\n',
+            "line 2: quotation marks are not closed, or amid",
+        ),
+        ('wavelength (nm),n,k\n500,1,"1"5\n', "line 2: quotation marks are not closed, or amid"),
+        (
+            f"wavelength (nm),n,k\n500,1,{'1' * 200_000}\n",
+            "line 2: it cannot be read (field larger than field limit",
+        ),
+        (
+            "wavelength (um),n,k\n400,1,1\n500,1,1\n",
+            "the wavelengths are 400 um .. 500 um, which are most likely nm; give the unit nm, or",
+        ),
+        (
+            "wavelength (nm),n,k\n0.4,1,1\n0.5,1,1\n",
+            "the wavelengths are 0.4 nm .. 0.5 nm, which are most likely um; give the unit um, or",
+        ),
         ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
         ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl (nm)' and 'energy (eV)'; keep one"),
         ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 has 2 columns 'n'; keep one"),

@@ -87,3 +87,11 @@ def test_bins_beyond_what_is_known_are_refused():
 def test_lines_are_not_resampled():
     with pytest.raises(op.ValueFault, match=r"spectrum.rebin\(edges\)"):
         op.Spectrum.line("633 nm").resample([5e-7, 6e-7])
+
+
+def test_outside_of_resample_is_not_taken_for_that_of_the_spectrum():
+    lamp = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0])
+    with pytest.raises(op.ValueFault, match=r"outside=0.0 where the spectrum is made.*new samples"):
+        lamp.resample([3e-7, 5e-7], outside=0.0)
+    known = op.Spectrum.sampled([4e-7, 5e-7], [1.0, 3.0], outside=0.0)
+    assert known.resample([3e-7, 5e-7], outside=0.0).values.tolist() == [0.0, 3.0]

@@ -81,9 +81,28 @@ def test_what_does_not_fit_is_refused_with_the_cure(make, sentence):
         make()
 
 
-def test_a_sum_with_something_else_is_no_spectrum():
-    with pytest.raises(TypeError):
-        LAMP + 1.0
+def test_the_sum_of_a_list_of_spectra_is_their_sum():
+    assert sum([LAMP, LED, LASER]) == LAMP + LED + LASER
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: LASER - LED, r"the line at 633 nm - the diode at 530 nm is no spectrum.*\.at\("),
+        (lambda: 1.0 - LED, r"1.0 - the diode at 530 nm is no spectrum"),
+        (lambda: np.ones(2) - LED, r"is no spectrum"),
+        (lambda: -LED, r"-\(the diode at 530 nm\) is no spectrum, which is nowhere below 0"),
+        (lambda: LED**2, r"the diode at 530 nm \*\* 2 is no spectrum; compute with its numbers"),
+        (lambda: 2**LED, r"2 \*\* \(the diode at 530 nm\) is no spectrum"),
+        (lambda: LED + 1.5, r"add a spectrum, such as Spectrum.constant\(1.5\)"),
+        (lambda: 1 + LED, r"add a spectrum, such as Spectrum.constant\(1.0\)"),
+        (lambda: LED + "a lamp", r"'a lamp' is no spectrum; add a spectrum"),
+        (lambda: np.ones(2) + LED, "is no spectrum; add a spectrum"),
+    ],
+)
+def test_what_is_no_spectrum_is_refused_with_what_is_one(make, sentence):
+    with pytest.raises(op.ValueFault, match=sentence):
+        make()
 
 
 def test_equal_spectra_are_equal():

@@ -53,6 +53,31 @@ def test_black_body_radiates_by_stefan_and_boltzmann(temperature):
     assert lamp.power(1e-9, 1e-3) == pytest.approx(expected, rel=1e-6 * beyond + 1e-13)
 
 
+def test_the_whole_power_of_a_black_body_is_that_of_stefan_and_boltzmann():
+    expected = 0.3 * STEFAN_BOLTZMANN * 2856.0**4 / math.pi
+    assert (0.3 * op.Spectrum.black_body(2856.0)).power() == pytest.approx(expected, rel=1e-14)
+
+
+def test_the_whole_power_of_a_diode_is_its_power():
+    assert op.Spectrum.led("530 nm", "30 nm", power=2.0).power() == 2.0
+
+
+def test_the_whole_power_of_a_sum_is_that_of_its_terms():
+    lamp = op.Spectrum.sampled(["400 nm", "500 nm"], [1.0, 3.0], outside=0.0)
+    terms = [lamp, op.Spectrum.black_body(300.0), op.Spectrum.line("633 nm", 5.0)]
+    whole = terms[0] + terms[1] + terms[2]
+    assert whole.power() == pytest.approx(205.0 + terms[1].power(), rel=1e-14)
+
+
+def test_a_line_at_a_shared_end_counts_once():
+    lamp = op.Spectrum.constant(1.0) + op.Spectrum.line("500 nm", 2.0)
+    parts = [lamp.power("400 nm", "500 nm"), lamp.power("500 nm", "600 nm")]
+    assert parts == pytest.approx([100.0, 102.0], rel=1e-13)
+    assert lamp.power("400 nm", "600 nm") == pytest.approx(sum(parts), rel=1e-13)
+    laser = op.Spectrum.line("500 nm", 2.0)
+    assert [laser.power(high="500 nm"), laser.power("500 nm"), laser.power()] == [0.0, 2.0, 2.0]
+
+
 def test_black_body_peaks_by_wiens_law():
     lamp, peak = op.Spectrum.black_body(5000.0), 2.897771955e-3 / 5000.0
     around = lamp.at(peak * np.array([0.9999, 1.0, 1.0001]))
@@ -75,6 +100,38 @@ def test_a_diode_has_its_power_and_half_of_its_peak_at_half_its_width():
     assert led.power("200 nm", "900 nm") == pytest.approx(2.0, rel=1e-13)
     peak, low, high = led.at(["530 nm", "515 nm", "545 nm"])
     assert [low / peak, high / peak] == pytest.approx([0.5, 0.5], rel=1e-12)
+
+
+HC_EV_NM = SI["h"] * SI["c"] / 1.602176634e-19 * 1e9
+
+
+@pytest.mark.parametrize(
+    ("peak", "width", "low", "high"),
+    [
+        ("2 eV", "0.1 eV", HC_EV_NM / 2.05, HC_EV_NM / 1.95),
+        ("2 eV", "100 meV", HC_EV_NM / 2.05, HC_EV_NM / 1.95),
+        ("500 nm", "1000 1/cm", 1e7 / 20500, 1e7 / 19500),
+        ("600 THz", "20 THz", SI["c"] / 610e3, SI["c"] / 590e3),
+        ("500 nm", "30 nm", 485.0, 515.0),
+    ],
+)
+def test_a_width_of_a_diode_is_that_between_its_edges_in_the_unit_given(peak, width, low, high):
+    led = op.Spectrum.led(peak, width)
+    assert led.kind.width * 1e9 == pytest.approx(high - low, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("width", "sentence"),
+    [
+        ("4 eV", r"'4 eV' around a peak at 619.92.* nm reaches down to 0"),
+        ("30", "'30' has no unit"),
+        ("0 nm", "give a width above 0"),
+        (30, "write '30 nm'"),
+    ],
+)
+def test_what_is_no_width_is_said(width, sentence):
+    with pytest.raises(op.OptipathError, match=sentence):
+        op.Spectrum.led("2 eV", width)
 
 
 @pytest.mark.parametrize("name", ["A", "D65", "E"])
@@ -194,5 +251,8 @@ def test_a_file_has_samples_by_the_name_of_their_column(tmp_path):
     with pytest.raises(op.ValueFault, match=r"lamp.csv.*'?respons"):
         op.Spectrum.from_csv(file, "response")
     file.write_text("wavelength (nm), power\n400, -1\n500, 1")
-    with pytest.raises(op.ValueFault, match="value of lamp is -1"):
+    with pytest.raises(
+        op.ValueFault,
+        match=r"lamp.csv: line 2: power is -1; write none below 0, such as 0 for what",
+    ):
         op.Spectrum.from_csv(file)

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import PresetError, UnitError, shown
 from optipath.paths.format.faults import Faults
+from optipath.values.curves.doubtful_units import unit_doubted
 from optipath.values.curves.tabulated import Tabulated
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.materials import K, N
@@ -77,14 +78,20 @@ def wavelengths_of(raw: Any, unit: Any = None) -> list[float]:
     Raises
     ------
     PresetError, UnitError
-        Naming the first entry that is none.
+        Naming the first entry that is none, or if they are most likely in another unit.
 
     Examples
     --------
     >>> wavelengths_of([500, 520], "nm"), wavelengths_of(["0.5 um"])
     ([5e-07, 5.2e-07], [5e-07])
     """
-    return [_wavelength(entry, place, unit) for place, entry in enumerate(_list(raw))]
+    entries = _list(raw)
+    found = [_wavelength(entry, place, unit) for place, entry in enumerate(entries)]
+    if not any(isinstance(entry, str) for entry in entries) and (
+        doubt := unit_doubted(found, unit)
+    ):
+        raise PresetError(doubt)
+    return found
 
 
 def _wavelength(entry: Any, place: int, unit: Any) -> float:
@@ -176,6 +183,6 @@ def written_wavelengths(metres: Any) -> dict[str, Any]:
     metres = np.asarray(metres).tolist()
     texts = [format_quantity(one, _NM) for one in metres]
     numbers = [float(text.split()[0]) for text in texts]
-    if wavelengths_of(numbers, _NM) == metres:
+    if not unit_doubted(metres, _NM) and wavelengths_of(numbers, _NM) == metres:
         return {"wavelengths": numbers, "unit": _NM}
     return {"wavelengths": texts}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import reduce
 from operator import add
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ from optipath.paths.format.faults import Faults, unknown_keys
 from optipath.paths.format.samples import samples_of, wavelengths_of, written_wavelengths
 from optipath.paths.format.schema import as_meant
 from optipath.spelling import closest
+from optipath.values.domains.spectral import spectrum_meant
 from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.spectra.black_body import BlackBody
 from optipath.values.spectra.even_spectrum import EvenSpectrum
@@ -45,6 +47,7 @@ _FORMS = {
 }
 """The keys by which the kinds are known, and those that stand beside them."""
 _NEEDED = {"wavelengths": "values", "edges": "powers", "led": "width"}
+_MOST_TOLD = 3
 _WHEN, _SCALE, _OFFSET = "wavelength", "scale", "offset"
 
 
@@ -105,6 +108,8 @@ def spectrum_of(raw: Any) -> Spectrum:
     >>> spectrum_of({"line": "633 nm", "power": 2.0})
     <Spectrum: the line at 633 nm>
     """
+    if isinstance(raw, str) and (sentence := spectrum_meant(raw)):
+        raise PresetError(sentence)
     if not isinstance(raw, dict):
         raise PresetError(f"must be a table of a spectrum, {_known()}, not {shown(raw)}")
     meant = [form for form in _FORMS if form in raw] or [
@@ -164,7 +169,29 @@ def _terms(raw: Mapping[str, Any]) -> Spectrum:
     return reduce(add, found)  # type: ignore[return-value]
 
 
+def _apart(raw: Mapping[str, Any], form: str) -> str:
+    """Return the tables of several spectra of one kind, of which one table has lists."""
+    several = len(raw[form])
+    tables = [
+        ", ".join(
+            f"{key} = {json.dumps(value[place] if _is_list(value, several) else value)}"
+            for key, value in raw.items()
+        )
+        for place in range(min(several, _MOST_TOLD))
+    ]
+    more = ["..."] * (several > _MOST_TOLD)
+    return f"{{ sum = [{', '.join([*[f'{{ {table} }}' for table in tables], *more])}] }}"
+
+
+def _is_list(value: Any, count: int) -> bool:
+    return isinstance(value, list) and len(value) == count
+
+
 def _single(raw: Mapping[str, Any], form: str) -> Spectrum:
+    if form not in ("wavelengths", "edges") and isinstance(raw[form], list) and raw[form]:
+        raise PresetError(
+            f"'{form}' is {shown(raw[form])}, but one is asked for; write {_apart(raw, form)}"
+        )
     for key in ("line", "led", "width", "illuminant", "name", "unit"):
         if key in raw and not isinstance(raw[key], str):
             example = f"{raw[key]} nm" if key in ("line", "led", "width") else "..."

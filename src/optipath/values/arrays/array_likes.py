@@ -208,6 +208,8 @@ def _refuse_more(value: Any) -> None:
         if (cure := _OURS.get(type(value).__name__)) is not None:
             raise _MoreThanNumbers(f"is a {type(value).__name__}, {cure}")
         return
+    if isinstance(value, type):
+        raise _MoreThanNumbers(f"is the class {value.__name__}, and none of its kind; make one")
     mask = getattr(value, "mask", None)
     if not callable(mask) and np.any(mask):
         raise _MoreThanNumbers(

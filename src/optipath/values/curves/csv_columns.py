@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, shown
 from optipath.values.curves.csv_header import axis_of, has_numbers, places_of
+from optipath.values.curves.doubtful_units import unit_doubted
 from optipath.values.domains.wavelengths import LONGEST
+from optipath.values.given_files import given_file
 from optipath.values.spectral_units import wavelength_of
-from optipath.values.units import parse_quantity
+from optipath.values.units import parse_quantity, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from os import PathLike
+    from pathlib import Path
 
 _MOST_TOLD = 12
 
@@ -47,23 +49,27 @@ def read_columns(
     *,
     unit: str = "",
     cures: Mapping[str, str] | None = None,
+    signs: Mapping[str, str] | None = None,
 ) -> CsvColumns:
     """Return the wavelengths and some columns of a file.
 
     The first line has the names of the columns, a unit in parentheses: ``wavelength (nm)``, ``wl
-    [um]``, ``wavelength_nm``, ``energy (eV)``. Values are separated by commas, semicolons or
-    tabulators; empty lines and those that begin with ``#`` are comments.
+    [um]``, ``wavelength_nm``, ``energy (eV)``; or each wavelength has one, ``400 nm``. Values are
+    separated by commas, semicolons or tabulators; empty lines and those that begin with ``#`` are
+    comments.
 
     Parameters
     ----------
     path : str or PathLike
         The file, in UTF-8.
     names : sequence of str
-        The columns besides, capitals or not.
+        The columns besides, capitals or not; of numbers that are not negative.
     unit : str, optional
         Of the wavelengths, where the first line has none.
     cures : mapping of str to str, optional
         What else to do where a column is missing, as a sentence goes on behind "or".
+    signs : mapping of str to str, optional
+        What else to say of a number below 0.
 
     Returns
     -------
@@ -74,37 +80,53 @@ def read_columns(
     ValueFault
         With all that is wrong, and the lines.
     """
-    file = Path(path)
+    file = given_file(path)
+    _check_texts(names, unit)
     lines = _lines(file)
     if not lines:
         raise ValueFault("it is empty; write a line for each wavelength", about=str(file))
     (number, header), *rows = lines
     faults: list[str] = []
-    at, of_axis = axis_of(number, header, unit, faults)
+    first = rows[0][1] if rows else []
+    at, of_axis = axis_of(number, header, unit, faults, names=names, first=first)
     places = {} if has_numbers(header) else places_of(number, header, names, cures or {}, faults)
     if not faults and not rows:
         faults.append(f"line {number} is the only one; write a line for each wavelength behind it")
     if faults:
         raise ValueFault(*faults, about=str(file))
-    found = _Rows([], [], {name: [] for name in names}, [])
+    found = _Rows({name: [] for name in names}, signs or {})
     for row in rows:
         found.read(row, at, of_axis, places, len(header))
     found.check_order(of_axis)
     if found.faults:
-        told, more = found.faults[:_MOST_TOLD], len(found.faults) - _MOST_TOLD
-        raise ValueFault(*told, *[f"and {more} more"] * (more > 0), about=str(file))
+        raise ValueFault(*_told(found.faults), about=str(file))
     columns = {name: np.array(values) for name, values in found.columns.items()}
     return CsvColumns(file.stem, np.array(found.wavelengths), columns)
+
+
+def _check_texts(names: Sequence[Any], unit: Any) -> None:
+    faults = [
+        f"a column is asked for by its name, a text, not by {shown(name)}; write one such as "
+        f"column='power'"
+        for name in names
+        if not isinstance(name, str)
+    ]
+    if not isinstance(unit, str):
+        faults.append(f"the unit is {shown(unit)}; give a text, such as unit='nm'")
+    if faults:
+        raise ValueFault(*faults)
 
 
 @dataclass
 class _Rows:
     """What has been read so far."""
 
-    numbers: list[int]
-    wavelengths: list[float]
     columns: dict[str, list[float]]
-    faults: list[str]
+    signs: Mapping[str, str]
+    numbers: list[int] = field(default_factory=list)
+    wavelengths: list[float] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
+    have_units: bool = False
 
     def read(
         self,
@@ -133,8 +155,16 @@ class _Rows:
             self.columns[name].append(value)
 
     def _wavelength(self, line: int, cell: str, unit: str) -> float:
+        own = unit_of(cell)
+        self.have_units |= bool(own)
+        if own and unit and own != unit:
+            self.faults.append(
+                f"line {line}: '{cell}' is in another unit than '{unit}' of the first line; leave "
+                f"one of them out"
+            )
+            return np.nan
         try:
-            text = f"{cell} {unit}"
+            text = cell if own else f"{cell} {unit}"
             found = wavelength_of(text)
             found = parse_quantity(text, "length") if found is None else found  # type: ignore[assignment]
         except OptipathError as fault:
@@ -153,6 +183,9 @@ class _Rows:
             return np.nan
         if not np.isfinite(found):
             self.faults.append(f"line {line}: {name} is {cell}; write a number, or leave it out")
+        elif found < 0.0:
+            beside = f", {self.signs[name]}" if name in self.signs else ""
+            self.faults.append(f"line {line}: {name} is {cell}; write none below 0{beside}")
         return found
 
     def check_order(self, unit: str) -> None:
@@ -165,6 +198,8 @@ class _Rows:
                 f"the least wavelength is {least:g} metres, which is no wavelength of light; the "
                 f"unit {unit} is most likely another one"
             )
+        elif not self.have_units and (doubt := unit_doubted(self.wavelengths, unit)):
+            self.faults.append(doubt)
         lines = dict(zip(self.wavelengths, self.numbers, strict=True))
         if len(lines) < len(self.wavelengths):
             first: dict[float, int] = {}
@@ -198,7 +233,25 @@ def _lines(file: Path) -> list[tuple[int, list[str]]]:
     if not lines:
         return []
     separator = next((each for each in ";\t" if each in lines[0][1]), ",")
-    return [
-        (number, [cell.strip() for cell in next(csv.reader([line], delimiter=separator))])
-        for number, line in lines
-    ]
+    faults: list[str] = []
+    found = [(number, _cells(number, line, separator, faults)) for number, line in lines]
+    if faults:
+        raise ValueFault(*_told(faults), about=str(file))
+    return found
+
+
+def _cells(number: int, line: str, separator: str, faults: list[str]) -> list[str]:
+    try:
+        (cells,) = csv.reader([line], delimiter=separator, strict=True)
+    except csv.Error as fault:
+        quotes = "quotation marks are not closed, or amid a cell"
+        why = quotes if '"' in line else f"it cannot be read ({fault})"
+        faults.append(f"line {number}: {why}; write numbers alone, without quotation marks")
+        return []
+    return [cell.strip() for cell in cells]
+
+
+def _told(faults: list[str]) -> list[str]:
+    """Return the first of many faults, and how many more there are."""
+    more = len(faults) - _MOST_TOLD
+    return [*faults[:_MOST_TOLD], *[f"and {more} more"] * (more > 0)]

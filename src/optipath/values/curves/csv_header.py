@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from optipath.errors import did_you_mean, listed
-from optipath.values.units import UNITS, units_of
+from optipath.values.units import UNITS, unit_of, units_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -23,6 +23,7 @@ _AXES = {
     "frequency": "frequency",
 }
 """What the first column may be called, and what it is."""
+_CALLED = {dimension: name for name, dimension in reversed(_AXES.items())}
 
 _SPELT = {"\u00b5m": "um", "\u03bcm": "um", "microns": "um", "micron": "um", "ev": "eV"}
 _SPECTRAL = ("eV", "meV", "keV", "1/cm", "cm^-1", "cm-1", "1/um", "1/mm", "1/m")
@@ -40,7 +41,15 @@ def _name_and_unit(head: str) -> tuple[str, str]:
     return name.strip().lower(), _SPELT.get(unit.strip(), unit.strip())
 
 
-def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tuple[int, str]:
+def axis_of(
+    number: int,
+    header: list[str],
+    unit: str,
+    faults: list[str],
+    *,
+    names: Sequence[str] = (),
+    first: Sequence[str] = (),
+) -> tuple[int, str]:
     """Return which column has the wavelengths, and in which unit.
 
     Parameters
@@ -53,11 +62,16 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
         The unit where the line has none.
     faults : list of str
         To which is added what is wrong.
+    names : sequence of str, optional
+        The columns besides.
+    first : sequence of str, optional
+        What stands in the line behind it.
 
     Returns
     -------
     place : int
     unit : str
+        None where numbers have one themselves.
     """
     heads = [_name_and_unit(head) for head in header]
     found = [place for place, (name, _) in enumerate(heads) if name in _AXES]
@@ -66,7 +80,9 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
             what = f"line {number} has numbers, and no names of columns"
         else:
             what = f"line {number} names no column of wavelengths, but {listed(header)}"
-        faults.append(f"{what}; begin with a line such as 'wavelength (nm), n, k'")
+        faults.append(
+            f"{what}; begin with a line such as '{', '.join(['wavelength (nm)', *names])}'"
+        )
         return 0, ""
     if len(found) > 1:
         both = listed([f"'{header[place]}'" for place in found])
@@ -74,19 +90,28 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
         return 0, ""
     name, own = heads[found[0]]
     dimension = _AXES[name]
-    known = {
+    units = {
         "length": units_of("length"),
         "photon energy": [*_SPECTRAL[:3]],
         "wave number": [*_SPECTRAL[3:]],
         "frequency": [*_FREQUENCIES],
-    }[dimension]
+    }
+    known = units[dimension]
     if own and unit and own != _SPELT.get(unit, unit):
         faults.append(f"line {number} has the unit {own}, and unit='{unit}' is given; leave it out")
     own = own or _SPELT.get(unit, unit)
+    if not own and unit_of("".join(first[found[0] : found[0] + 1])):
+        return found[0], ""
+    other = next((_CALLED[one] for one, those in units.items() if own in those), name)
     if not own:
         faults.append(
             f"line {number}: '{name}' has no unit; write '{name} ({known[0]})', or give "
             f"unit='{known[0]}'"
+        )
+    elif own not in known and other != name:
+        faults.append(
+            f"line {number}: '{own}' is no unit of '{name}', but of '{other}'; write "
+            f"'{other} ({own})'"
         )
     elif own not in known:
         faults.append(

@@ -14,6 +14,8 @@ from optipath.values.curves.tabulated import Tabulated
 if TYPE_CHECKING:
     from os import PathLike
 
+_SIGN_OF_K = "where the field is exp(-iwt), so that k > 0 absorbs"
+
 
 class MaterialTables(CurveMaterial):
     """Materials of samples, from arrays and files."""
@@ -120,7 +122,11 @@ class MaterialTables(CurveMaterial):
         """
         names = ["n", "k"] if k is None else ["n"]
         table = read_columns(
-            path, names, unit=unit, cures={"k": "give k=0.0 where nothing absorbs"}
+            path,
+            names,
+            unit=unit,
+            cures={"k": "give k=0.0 where nothing absorbs"},
+            signs={"k": _SIGN_OF_K},
         )
         return cls.tabulated(
             table.wavelengths,
@@ -137,7 +143,7 @@ def _refuse_negative(curve: Tabulated) -> None:
     faults = [
         f"{part} of {curve.label} is {column[bad][0]:g} at "
         f"{curve.wavelengths[bad][0] * 1e9:.10g} nm; give none below 0"
-        f"{' (the field is exp(-iwt): k > 0 absorbs)' * (part == 'k')}"
+        f"{f', {_SIGN_OF_K}' * (part == 'k')}"
         for part, column in zip(curve.parts, curve.columns, strict=True)
         if np.any(bad := column < 0.0)
     ]

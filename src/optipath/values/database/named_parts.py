@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import MaterialError
@@ -13,6 +12,7 @@ from optipath.values.database.named_pages import VACUUM, NamedPage, named_page
 from optipath.values.database.page_reading import page_curve
 from optipath.values.domains.domain import in_unit_of
 from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.given_files import given_file
 from optipath.values.parameters import Parameter
 from optipath.values.wavelength import Wavelength
 
@@ -97,7 +97,7 @@ def parts_of_file(
         If the file cannot be read, or has nothing at this wavelength.
     """
     given = {part: value for part, value in own.items() if value is not None}
-    file = Path(path)
+    file = given_file(path, MaterialError)
     curve = page_curve(
         read_yaml(file, str(file), installed=False),
         file.name,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -47,6 +48,12 @@ class BlackBody(SpectrumKind):
     @property
     def content(self) -> tuple[Hashable, ...]:
         return "black body", self.temperature, self.factor
+
+    @property
+    def integral(self) -> float:
+        # By Stefan and Boltzmann, per steradian.
+        of_unit = 2.0 * math.pi**4 * _BOLTZMANN**4 / (15.0 * _PLANCK**3 * _SPEED**2)
+        return self.factor * of_unit * self.temperature**4
 
     def density(self, xp: Any, wavelength: Any) -> Any:
         exponent = _SECOND / (wavelength * self.temperature)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ValueFault, unknown
+from optipath.errors import ValueFault, shown, unknown
 from optipath.values.displayed import displayed
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.integrals import powers_between, smooth_powers
@@ -14,7 +14,6 @@ from optipath.values.spectra.lines import called
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import (
     check_known_at,
-    one_wavelength,
     rising_edges,
     some_wavelengths,
     values_at,
@@ -53,7 +52,14 @@ def resampled(kind: SpectrumKind, wavelengths: Any, outside: Any) -> Sampled:
             f"keep its power in bins, spectrum.rebin(edges)"
         )
     places = some_wavelengths("wavelengths", wavelengths)
-    return Sampled(places, values_at(kind, places), outside, kind.label)
+    try:
+        values = values_at(kind, places)
+    except ValueFault as fault:
+        if outside is None:
+            raise
+        beside = f"outside={shown(outside)} of resample is for what is beyond the new samples"
+        raise ValueFault(*[f"{sentence} ({beside})" for sentence in fault.faults]) from None
+    return Sampled(places, values, outside, kind.label)
 
 
 def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
@@ -94,45 +100,6 @@ def rebinned(kind: SpectrumKind, edges: Any, outside: str) -> Histogram:
     low, high = kind.extent
     whole = ends[0] <= low and high <= ends[-1] and kind.span[1] == np.inf
     return Histogram(ends, powers, 0.0 if whole else None, kind.label)
-
-
-def power_within(kind: SpectrumKind, low: Any, high: Any) -> float:
-    """Return the power of a spectrum between two wavelengths.
-
-    Parameters
-    ----------
-    kind : SpectrumKind
-        The spectrum.
-    low, high : float, str or None
-        In metres or as texts; None where the spectrum ends.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueFault
-        If it is not known there, or does not end and no end is given.
-    """
-    least, most = kind.extent
-    ends = np.array(
-        [
-            least if low is None else one_wavelength("low", low),
-            most if high is None else one_wavelength("high", high),
-        ]
-    )
-    if not 0.0 < ends[0] <= ends[1] < np.inf:
-        fault = "does not end there" if ends[0] <= ends[1] else "are no range"
-        raise ValueFault(
-            f"power of {kind.label} from {displayed(float(ends[0]), 'nm')} to "
-            f"{displayed(float(ends[1]), 'nm')}: {fault}; give two ends, the lower one first, as "
-            f"in spectrum.power('380 nm', '700 nm')"
-        )
-    check_known_at(kind, ends)
-    if ends[0] == ends[1]:
-        return sum(line.power for line in kind.lines if line.wavelength == ends[0])
-    return float(powers_between(kind, ends)[0])
 
 
 def _power_beyond(kind: SpectrumKind, ends: np.ndarray[Any, Any]) -> float:

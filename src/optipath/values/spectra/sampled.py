@@ -16,7 +16,7 @@ from optipath.values.spectra.spectrum_kind import SpectrumKind
 if TYPE_CHECKING:
     from collections.abc import Hashable
 
-OUTSIDE = "give outside=0.0 to the spectrum, where nothing is there"
+OUTSIDE = "give outside=0.0 where the spectrum is made, if nothing is there"
 
 
 class Sampled(SpectrumKind):

@@ -113,12 +113,30 @@ def some_wavelengths(owner: str, value: Any) -> Array:
     array([5.000e-07, 5.166e-07])
     """
     array = several_numbers(owner, value, WAVELENGTH)
-    if array.size and (longest := float(array.max())) > LONGEST:
+    refuse_longest(owner, array)
+    return array
+
+
+def refuse_longest(owner: str, metres: Any) -> None:
+    """Raise where lengths are so large that they must be in another unit.
+
+    Parameters
+    ----------
+    owner : str
+        What has them, as sentences name it.
+    metres : array_like
+        The lengths.
+
+    Raises
+    ------
+    ValueFault
+        Saying how they are written.
+    """
+    if np.size(metres) and (longest := float(np.max(metres))) > LONGEST:
         raise ValueFault(
             f"{owner} is {longest:g} metres, which is no wavelength of light; "
             f"{LENGTH_CURE.format(longest)}"
         )
-    return array
 
 
 def one_wavelength(owner: str, value: Any) -> float:

@@ -15,7 +15,9 @@ from optipath.values.parameters import Parameter
 from optipath.values.spectra.arithmetic_of_kinds import product_of, quotient_of, sum_of
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.lines import density_of_lines
-from optipath.values.spectra.resampling import power_within, rebinned, resampled
+from optipath.values.spectra.power_within import power_within
+from optipath.values.spectra.refused_operations import RefusedOperations
+from optipath.values.spectra.resampling import rebinned, resampled
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import (
     check_known_at,
@@ -32,7 +34,7 @@ if TYPE_CHECKING:
 _ABOVE = Domain("number above 0", minimum=1e-300)
 
 
-class Spectrum(SpectrumMaking):
+class Spectrum(RefusedOperations, SpectrumMaking):
     """Power per nanometre by wavelength, or a relative value such as a response.
 
     It is made by `sampled`, `histogram`, `line`, `led`, `black_body`, `illuminant`, `constant`
@@ -104,7 +106,10 @@ class Spectrum(SpectrumMaking):
         Parameters
         ----------
         low, high : float or str, optional
-            In metres or as texts, both included; by default, where the spectrum ends.
+            In metres or as texts; by default, where the spectrum ends, and without both the whole
+            power, that of a diode and a black body as well. A line at `low` counts, and one at a
+            `high` that is given does not, so that parts sum up to the whole. (The last bin of
+            `rebin` has the line at its end.)
 
         Returns
         -------
@@ -115,6 +120,12 @@ class Spectrum(SpectrumMaking):
         ------
         ValueFault
             If it is not known there, or does not end and no end is given.
+
+        Examples
+        --------
+        >>> laser = Spectrum.line("500 nm", power=2.0)
+        >>> laser.power("400 nm", "500 nm"), laser.power("500 nm", "600 nm"), laser.power()
+        (0.0, 2.0, 2.0)
         """
         return power_within(self.kind, low, high)
 
@@ -129,7 +140,8 @@ class Spectrum(SpectrumMaking):
         wavelengths : array_like, shape (n,)
             In metres or as texts.
         outside : 0.0, optional
-            As `sampled` takes it.
+            Where nothing is beyond the new samples. Where this spectrum is not known it has no
+            value in any case, unless it was itself made with ``outside=0.0``.
 
         Returns
         -------
@@ -194,9 +206,13 @@ class Spectrum(SpectrumMaking):
         return found
 
     def __add__(self, other: Any) -> Spectrum:
-        if not isinstance(other, Spectrum):
-            return NotImplemented
-        return Spectrum(sum_of(self.kind, other.kind))
+        if isinstance(other, Spectrum):
+            return Spectrum(sum_of(self.kind, other.kind))
+        if isinstance(other, (int, float)) and other == 0:
+            return self  # With which Python's own sum begins.
+        raise self._no_sum(other)
+
+    __radd__ = __add__
 
     def __mul__(self, other: Any) -> Any:
         if isinstance(other, Spectrum):

@@ -46,6 +46,8 @@ class SpectrumKind(Unchanging, ABC):
         Beyond which nothing of it is, or is known, in metres.
     lines : tuple of EmissionLine
         Its power at single wavelengths.
+    integral : float or None
+        Its power at all wavelengths together, of what has no end; None where there is none.
     """
 
     is_pointwise: ClassVar[bool] = True
@@ -58,6 +60,10 @@ class SpectrumKind(Unchanging, ABC):
     @property
     def extent(self) -> tuple[float, float]:
         return self.span
+
+    @property
+    def integral(self) -> float | None:
+        return None
 
     @property
     def terms(self) -> tuple[SpectrumKind, ...]:

@@ -15,7 +15,13 @@ from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.illuminant import Illuminant
 from optipath.values.spectra.lines import Lines
 from optipath.values.spectra.sampled import Sampled
-from optipath.values.spectra.spectral_values import one_number, one_wavelength, value_outside
+from optipath.values.spectra.spectral_values import (
+    one_number,
+    one_wavelength,
+    refuse_longest,
+    value_outside,
+)
+from optipath.values.spectra.spectral_width import WidthAtPeak
 from optipath.values.spectra.spectrum_kind import EmissionLine, SpectrumKind
 
 if TYPE_CHECKING:
@@ -86,7 +92,8 @@ class SpectrumMaking(Curve):
         Parameters
         ----------
         path : str or PathLike
-            A file of separated values, whose first line has names: ``wavelength (nm), power``.
+            A file of separated values, whose first line has names: ``wavelength (nm), power``, or
+            the unit stands behind each wavelength.
         column : str, optional
             The name of the column of values.
         unit : str, optional
@@ -103,7 +110,8 @@ class SpectrumMaking(Curve):
         ValueFault
             With all that is wrong, and the lines.
         """
-        found = read_columns(path, [column], unit=unit)
+        signs = {str(column): "such as 0 for what is noise"}
+        found = read_columns(path, [column], unit=unit, signs=signs)
         values = found.columns[column]
         return cls.sampled(found.wavelengths, values, outside=outside, name=name or found.title)
 
@@ -176,6 +184,8 @@ class SpectrumMaking(Curve):
         ----------
         peak, width : float or str
             The wavelength of the maximum and the full width at half maximum, in metres or texts.
+            A width in eV, 1/cm or THz is the distance between the wavelengths half of it above
+            and half of it below the peak.
         power : float, optional
             The integral over all wavelengths.
 
@@ -189,7 +199,9 @@ class SpectrumMaking(Curve):
             If one of them is none.
         """
         place = one_wavelength("peak of a diode", peak)
-        wide = one_wavelength("width of a diode", width)
+        domain = WidthAtPeak("width", "length", minimum=5e-324, peak=place)
+        wide = one_number("width of a diode", width, domain)
+        refuse_longest("width of a diode", wide)
         return cls(GaussianLine(place, wide, one_number("power of a diode", power)))
 
     @classmethod
