@@ -15,6 +15,7 @@ from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.quantities import ANGLE
+from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.inputs import Inputs
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
@@ -135,11 +136,17 @@ class Values:
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
+        per_nanometre = {
+            use.value.given_by[0].name: None
+            for use in self.uses
+            if use.domain is SPECTRAL and isinstance(use.value, CurveValue)
+        }
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
             uses=tuple([use for use in self.uses if use.is_open]),
             computed=self._computed,
+            per_nanometre=tuple(per_nanometre),
             shapes=self.known_shapes,
             known=tuple([use for use in self.uses if use.is_traced]),
             choices=tuple(self.graph.graph.get("choices", ())),

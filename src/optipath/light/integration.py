@@ -41,6 +41,12 @@ def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
         If there is no such axis, or several, or the wavelengths are no grid.
     """
     wavelength = light.wavelength
+    if several := light.wavelengths_in_doubt:
+        raise LightError(
+            f"the light of this path depends on several wavelengths, {listed(several)}, and "
+            f"which of them its spectrum is by is in doubt; say what they are in its spectrum, "
+            f"light.at_wavelengths(...)"
+        )
     if wavelength is None:
         raise LightError(
             "light of no known wavelengths has no spectrum; say which they are, "

@@ -61,6 +61,8 @@ class Inputs:
         What must fit together besides, once a complex number is given.
     computed : tuple of CurveValue
         What follows from open parameters, and stands where these might.
+    per_nanometre : tuple of str
+        The wavelengths, open or bound, that spectra follow from.
     """
 
     open: Mapping[str, Parameter]
@@ -73,6 +75,7 @@ class Inputs:
     masks: bool = False
     for_complex: tuple[Agreement, ...] = ()
     computed: tuple[CurveValue, ...] = ()
+    per_nanometre: tuple[str, ...] = ()
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
