@@ -111,6 +111,16 @@ class Curve(Unchanging, ABC):
             found = self.numbers(np, *rows)
         return tuple([np.broadcast_to(part, rows[0].shape).reshape(shape) for part in found])
 
+    def unreal_of(self, place: int) -> str:
+        """Return why the numbers of one of its parts may be none; see `unreal`."""
+        del place
+        return self.unreal
+
+    def is_nowhere_0(self, place: int) -> bool:
+        """Tell whether it is known that the numbers of one of its parts are above 0 throughout."""
+        del place
+        return False
+
     @property
     def digest(self) -> str:
         """Some letters that equal curves share, and others do not."""
