@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.composer.known_ranges import range_faults
 from optipath.composer.wiring import link_text
 from optipath.elements.own_couplings import couplings_of
 from optipath.errors import ValueFault
@@ -14,6 +15,7 @@ from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.quantities import ANGLE
 from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.inputs import Inputs
@@ -160,10 +162,14 @@ class Values:
         found: list[str] = []
         faulty: set[str] = set()
         looked_at = set()
+        ranges, out_of = [], set()
         told: set[str] = set()
         for use in sorted(self.uses, key=self._is_taken_over):
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
-            if _named(use) in faulty or follows:
+            if of_range := isinstance(use.domain, WavelengthRange):
+                ranges.append(use)
+            another = of_range and use.domain not in out_of
+            if (_named(use) in faulty and not another) or follows:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
@@ -174,6 +180,7 @@ class Values:
                 use.check()
             except ValueFault as fault:
                 faulty.add(_named(use))
+                out_of.add(use.domain)
                 bare = {sentence: sentence.replace(use.owner, "") for sentence in fault.faults}
                 if not self._is_taken_over(use) or not told.issuperset(bare.values()):
                     found += fault.faults
@@ -183,6 +190,7 @@ class Values:
             *found,
             *self._parameter_faults(),
             *self._optional_faults(),
+            *(range_faults(ranges) if ranges else ()),
             *broadcast_fault(sound),
         ]
 
