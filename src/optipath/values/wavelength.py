@@ -9,7 +9,7 @@ from optipath.errors import ParameterError, UnitError
 from optipath.values.cures import cure
 from optipath.values.parameters import Parameter
 from optipath.values.spectral_units import spectral_unit_meant, wavelength_of
-from optipath.values.units import unit_of
+from optipath.values.units import format_quantity, unit_of
 
 _MOST_NANOMETRES = 1e6
 
@@ -80,5 +80,7 @@ class Wavelength(Parameter):
                 raise
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
-                f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}"
+                f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}; light "
+                f"goes from {format_quantity(self.minimum, 'nm')} to "
+                f"{format_quantity(self.maximum, 'mm')}"
             ) from error
