@@ -54,6 +54,11 @@ def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
         )
     check_known("the wavelengths that light is added up over", wavelength)
     every = np.broadcast_to(wavelength, light.shape)
+    if not every.size:
+        raise LightError(
+            f"light of shape {light.shape} is none at all, and has no spectrum; trace several "
+            f"wavelengths, wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
+        )
     axes = [axis for axis in range(every.ndim) if _varies(every, axis)]
     if not axes:
         raise LightError(

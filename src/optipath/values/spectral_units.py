@@ -7,6 +7,7 @@ import re
 
 from optipath.errors import UnitError
 from optipath.values.ratios import NUMBER
+from optipath.values.units import UNITS, unit_of
 
 _SPEED = 299792458.0
 HC = 6.62607015e-34 * _SPEED / 1.602176634e-19
@@ -63,6 +64,25 @@ def wavelength_of(text: str) -> float | None:
     if not 0.0 < number < math.inf:
         raise UnitError(f"'{text}' stands for no wavelength; give a number above 0")
     return _TIMES_WAVELENGTH[match[2]] / number
+
+
+def with_other_units(fault: UnitError, text: str) -> UnitError:
+    """Return what is said of a text that is no length, with what else a wavelength may be in.
+
+    Parameters
+    ----------
+    fault : UnitError
+        What is wrong with the text.
+    text : str
+        Without a unit, or with that of something else; else the fault stays as it is.
+
+    Returns
+    -------
+    UnitError
+    """
+    if (unit := unit_of(text)) and unit not in UNITS:
+        return fault
+    return UnitError(*[f"{sentence}, or eV, 1/cm, THz" for sentence in fault.faults])
 
 
 def spectral_unit_meant(word: str) -> str | None:
