@@ -79,7 +79,10 @@ def test_a_line_keeps_its_power_along_other_axes_and_in_streams():
         (GRID[:1], "one wavelength alone"),
         (np.r_[GRID, GRID[-1:]], "are repeated"),
         (GRID[[0, 4, 2]], "neither rise nor fall"),
-        (GRID[:8].reshape(2, 4)[::-1], "neither rise nor fall"),
+        (GRID[:8].reshape(2, 4)[::-1], r"have the shape \(2, 4\), not one axis"),
+        (GRID[:8].reshape(2, 4), r"have the shape \(2, 4\), not one axis"),
+        (np.tile(GRID[:4], (2, 1)), "along one axis, with which all else broadcasts"),
+        ([], "none at all"),
         (GRID[:4], "none of its power is there; run it at wavelengths around it"),
     ],
 )

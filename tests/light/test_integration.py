@@ -266,3 +266,8 @@ def test_a_power_by_the_bins_is_what_the_rule_comes_to():
     widths = np.array([30.0, 75.0, 120.0, 75.0])
     found = light_of(values, GRID).integrate().S0
     np.testing.assert_allclose(found, values @ widths, rtol=1e-14)
+
+
+def test_no_light_at_all_has_no_spectrum():
+    with pytest.raises(op.LightError, match="none at all"):
+        op.Light(np.zeros((0, 4)), wavelength=np.zeros(0)).integrate()

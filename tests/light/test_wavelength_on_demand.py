@@ -156,3 +156,28 @@ def test_an_angle_of_that_name_is_no_wavelength():
 def test_wavelengths_that_jax_traces_are_those_of_the_run(jax):
     found = jax.jit(lambda w: DIMMED.trace(wavelength=w).wavelength * 2.0)(5e-7)
     np.testing.assert_allclose(found, 1e-6)
+
+
+def probed_gold(**of_source):
+    gold = op.Material(line(0.2, 0.9), 0.0)
+    return op.Source(**of_source) >> op.Interface(gold, "40 deg") >> op.Detector()
+
+
+def test_light_is_by_the_wavelength_that_its_spectrum_follows_from():
+    lamp = op.Spectrum.black_body(3000.0).at(op.Wavelength("probe"))
+    path = probed_gold(spectrum=lamp)
+    assert np.array_equal(path.trace(wavelength=GRID, probe="516 nm").wavelength, 516e-9)
+    assert np.array_equal(path.trace(wavelength="516 nm", probe=GRID).wavelength, GRID)
+    assert path.bind(probe="516 nm").trace(wavelength=GRID).wavelength == 516e-9
+
+
+def test_light_is_by_no_wavelength_where_several_are_in_doubt():
+    path = probed_gold(intensity=line(0.2, 0.9, op.Wavelength("probe")))
+    light = path.trace(wavelength=GRID, probe="516 nm")
+    assert light.wavelength is None
+    for each in (light, light[:2], 2.0 * light):
+        with pytest.raises(op.LightError, match=r"s, probe and wavelength, .*at_wavelengths"):
+            each.integrate()
+    known = light.at_wavelengths(GRID).integrate().intensity
+    between = (light.intensity[1:] + light.intensity[:-1]) / 2.0
+    assert known == pytest.approx(np.sum(between * np.diff(1e9 * GRID)))

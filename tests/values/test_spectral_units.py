@@ -2,6 +2,7 @@
 
 import pytest
 
+import optipath as op
 from optipath.errors import UnitError
 from optipath.values.spectral_units import wavelength_of
 
@@ -25,3 +26,10 @@ def test_what_has_another_unit_is_left_to_others(text):
 def test_what_is_not_above_0_is_refused(text):
     with pytest.raises(UnitError, match="above 0"):
         wavelength_of(text)
+
+
+@pytest.mark.parametrize("text", ["516", "516 deg"])
+def test_all_units_of_a_wavelength_are_named_where_one_is_missing(text):
+    for read in (op.Wavelength().resolve, op.Material.cauchy([1.5, 0.004]).at, op.Spectrum.line):
+        with pytest.raises(op.OptipathError, match=r"nm, um, mm, cm, dm, m, or eV, 1/cm, THz$"):
+            read(text)

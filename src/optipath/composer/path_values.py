@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.composer.known_ranges import range_faults
 from optipath.composer.wiring import link_text
 from optipath.elements.own_couplings import couplings_of
 from optipath.errors import ValueFault
@@ -14,7 +15,9 @@ from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
 from optipath.values.arrays.shapes import broadcast_fault
 from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.quantities import ANGLE
+from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.inputs import Inputs
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of
@@ -135,11 +138,17 @@ class Values:
 
     def inputs(self, agreements: tuple[Agreement, ...] = ()) -> Inputs:
         """Return what may be given when the path is run, and what of it must fit together."""
+        per_nanometre = {
+            use.value.given_by[0].name: None
+            for use in self.uses
+            if use.domain is SPECTRAL and isinstance(use.value, CurveValue)
+        }
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},
             bound={name: p for name, p in self.parameters.items() if p.bound},
             uses=tuple([use for use in self.uses if use.is_open]),
             computed=self._computed,
+            per_nanometre=tuple(per_nanometre),
             shapes=self.known_shapes,
             known=tuple([use for use in self.uses if use.is_traced]),
             choices=tuple(self.graph.graph.get("choices", ())),
@@ -153,10 +162,14 @@ class Values:
         found: list[str] = []
         faulty: set[str] = set()
         looked_at = set()
+        ranges, out_of = [], set()
         told: set[str] = set()
         for use in sorted(self.uses, key=self._is_taken_over):
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
-            if _named(use) in faulty or follows:
+            if of_range := isinstance(use.domain, WavelengthRange):
+                ranges.append(use)
+            another = of_range and use.domain not in out_of
+            if (_named(use) in faulty and not another) or follows:
                 continue  # For the same reason, mostly.
             if isinstance(use.value, np.ndarray):
                 # The vertices of a chain share one large array.
@@ -167,6 +180,7 @@ class Values:
                 use.check()
             except ValueFault as fault:
                 faulty.add(_named(use))
+                out_of.add(use.domain)
                 bare = {sentence: sentence.replace(use.owner, "") for sentence in fault.faults}
                 if not self._is_taken_over(use) or not told.issuperset(bare.values()):
                     found += fault.faults
@@ -176,6 +190,7 @@ class Values:
             *found,
             *self._parameter_faults(),
             *self._optional_faults(),
+            *(range_faults(ranges) if ranges else ()),
             *broadcast_fault(sound),
         ]
 

@@ -42,6 +42,12 @@ def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
         If there is no such axis, or several, or the wavelengths are no grid.
     """
     wavelength = light.wavelength
+    if several := light.wavelengths_in_doubt:
+        raise LightError(
+            f"the light of this path depends on several wavelengths, {listed(several)}, and "
+            f"which of them its spectrum is by is in doubt; say what they are in its spectrum, "
+            f"light.at_wavelengths(...)"
+        )
     if wavelength is None:
         raise LightError(
             "light of no known wavelengths has no spectrum; say which they are, "
@@ -49,6 +55,11 @@ def spectral_axis(light: WavelengthOnDemand) -> tuple[Array, int]:
         )
     check_known("the wavelengths that light is added up over", wavelength)
     every = np.broadcast_to(wavelength, light.shape)
+    if not every.size:
+        raise LightError(
+            f"light of shape {light.shape} is none at all, and has no spectrum; trace several "
+            f"wavelengths, wavelength=op.wavelengths('380 nm', '780 nm', '5 nm')"
+        )
     axes = [axis for axis in range(every.ndim) if _varies(every, axis)]
     if not axes:
         raise LightError(

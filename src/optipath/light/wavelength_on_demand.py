@@ -39,13 +39,21 @@ class WavelengthOnDemand(Arithmetic):
         own = self.__dict__
         kept = own.get("_wavelength")
         if callable(kept):
-            own["_wavelength"] = kept = kept()
+            found = kept()
+            if found is None:
+                return None  # What is kept says which ones are in doubt.
+            own["_wavelength"] = kept = found
         return kept
 
     @property
     def kept_wavelength(self) -> Any:
         """The wavelengths as they are kept, which nobody has to find for it."""
         return self.__dict__.get("_wavelength")
+
+    @property
+    def wavelengths_in_doubt(self) -> tuple[str, ...]:
+        """The parameters of a run of which any may be the wavelength of the light."""
+        return getattr(self.kept_wavelength, "in_doubt", ())
 
     def origin(self, wavelength: Any = ...) -> dict[str, Any]:
         """Return what light that is made of this one has of it, by the names of `Light.of`."""
@@ -67,8 +75,8 @@ class WavelengthOnDemand(Arithmetic):
     def _part_of_wavelength(self, change: Callable[[Any], Any]) -> Any:
         """Return what returns the wavelengths of a part of the batch; None where there are none."""
         kept, batch = self.kept_wavelength, self.shape
-        if kept is None:
-            return None
+        if kept is None or self.wavelengths_in_doubt:
+            return kept
 
         def part() -> Any:
             found = kept() if callable(kept) else kept

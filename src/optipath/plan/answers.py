@@ -11,7 +11,7 @@ from optipath.light.light import Light
 from optipath.plan.light_noise import noise_at
 from optipath.plan.running.options import RunOptions
 from optipath.plan.running.outlet_frames import LaterFrame
-from optipath.plan.running.outlet_wavelengths import LaterWavelength, wavelength_among
+from optipath.plan.running.outlet_wavelengths import LaterWavelength, wavelengths_among
 from optipath.plan.running.questions import (
     BoundsQuestion,
     ErrorsQuestion,
@@ -44,15 +44,15 @@ class Answers:
     ----------
     light : Runner
         What gives light.
-    wavelength : Parameter or None
-        What gives the wavelengths of light.
+    wavelengths : tuple of Parameter
+        What gives the wavelengths of light; several are in doubt.
     """
 
     def __init__(self, plan: Any) -> None:
         self.plan = plan
         self.large_angles = LargeAngles(plan.inputs)
         self.question = LightQuestion(plan.program)
-        self.wavelength = wavelength_among(plan.inputs)
+        self.wavelengths = wavelengths_among(plan.inputs)
         self.light = self._run_by(plan.program, unreduced=plan.reduction.unreduced)
 
     @cached_property
@@ -155,8 +155,8 @@ class Answers:
         dict of str to Light
         """
         found = {}
-        by = self.wavelength
-        later = None if by is None else LaterWavelength(by, self.plan.inputs, parameters, where)
+        by = self.wavelengths
+        later = LaterWavelength(by, self.plan.inputs, parameters, where) if by else None
         for name, reading in self.plan.program.readings.items():
             stokes, exponent = lights[name]
             frame = self.framed(reading.frame, parameters, where)
@@ -180,8 +180,8 @@ class Answers:
         -------
         Light
         """
-        by = self.wavelength
-        later = None if by is None else LaterWavelength(by, self.plan.inputs, parameters)
+        by = self.wavelengths
+        later = LaterWavelength(by, self.plan.inputs, parameters) if by else None
         return Light.of(stokes, self.framed(frame, parameters), wavelength=later)
 
     def framed(

@@ -121,8 +121,8 @@ class Plan(PlanDetails):
         if type(frame) is not Frame:
             frame = answers.framed(frame, parameters)
         noise = (noise_at, answers, name, parameters, ())
-        by = answers.wavelength
-        later = None if by is None else LaterWavelength(by, self.inputs, parameters)
+        by = answers.wavelengths
+        later = LaterWavelength(by, self.inputs, parameters) if by else None
         if fast_path is not None:
             if answers.large_angles.places:
                 answers.large_angles.look(parameters)

@@ -16,6 +16,7 @@ from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
 from optipath.values.cures import how_to_give
 from optipath.values.curves.computed_values import computed_values
+from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.axis import axes_for
 from optipath.values.fit_hints import with_bounds_hint
 from optipath.values.materials import Material
@@ -61,6 +62,8 @@ class Inputs:
         What must fit together besides, once a complex number is given.
     computed : tuple of CurveValue
         What follows from open parameters, and stands where these might.
+    per_nanometre : tuple of str
+        The wavelengths, open or bound, that spectra follow from.
     """
 
     open: Mapping[str, Parameter]
@@ -73,6 +76,7 @@ class Inputs:
     masks: bool = False
     for_complex: tuple[Agreement, ...] = ()
     computed: tuple[CurveValue, ...] = ()
+    per_nanometre: tuple[str, ...] = ()
 
     def resolve(
         self, given: Mapping[str, Any], plain: Callable[[str, Any], bool] | None = None
@@ -120,8 +124,10 @@ class Inputs:
         refused: set[str] = set()
         for use in self.distinct_uses:
             name = use.value.name
-            # What is wrong in one place is mostly wrong in others, for the same reason.
-            if name not in resolved or (refused and use.rests_on(refused)):
+            # What is wrong in one place is mostly wrong in others, for the same reason; but each
+            # curve has a range of its own.
+            again = refused and use.rests_on(refused) and type(use.domain) is not WavelengthRange
+            if name not in resolved or again:
                 continue
             numbers, present = resolved[name]
             try:

@@ -7,6 +7,7 @@ import re
 
 from optipath.errors import UnitError
 from optipath.values.ratios import NUMBER
+from optipath.values.units import UNITS, unit_of
 
 _SPEED = 299792458.0
 HC = 6.62607015e-34 * _SPEED / 1.602176634e-19
@@ -75,6 +76,25 @@ def falls_with_wavelength(text: object) -> bool:
     """
     match = _TEXT.fullmatch(text.strip()) if isinstance(text, str) else None
     return match is not None and match[2] in _TIMES_WAVELENGTH
+
+
+def with_other_units(fault: UnitError, text: str) -> UnitError:
+    """Return what is said of a text that is no length, with what else a wavelength may be in.
+
+    Parameters
+    ----------
+    fault : UnitError
+        What is wrong with the text.
+    text : str
+        Without a unit, or with that of something else; else the fault stays as it is.
+
+    Returns
+    -------
+    UnitError
+    """
+    if (unit := unit_of(text)) and unit not in UNITS:
+        return fault
+    return UnitError(*[f"{sentence}, or eV, 1/cm, THz" for sentence in fault.faults])
 
 
 def spectral_unit_meant(word: str) -> str | None:

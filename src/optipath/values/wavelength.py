@@ -8,8 +8,13 @@ from typing import Any
 from optipath.errors import ParameterError, UnitError
 from optipath.values.cures import cure
 from optipath.values.parameters import Parameter
-from optipath.values.spectral_units import falls_with_wavelength, spectral_unit_meant, wavelength_of
-from optipath.values.units import unit_of
+from optipath.values.spectral_units import (
+    falls_with_wavelength,
+    spectral_unit_meant,
+    wavelength_of,
+    with_other_units,
+)
+from optipath.values.units import format_quantity, unit_of
 
 _MOST_NANOMETRES = 1e6
 
@@ -77,7 +82,12 @@ class Wavelength(Parameter):
                 f"parameter '{self.name}': unit '{unit_of(text)}' of '{text}' is unknown; did you "
                 f"mean '{meant}'?"
             )
-        return super().parse(text, default_unit) if read is None else read
+        if read is not None:
+            return read
+        try:
+            return super().parse(text, default_unit)
+        except UnitError as fault:
+            raise with_other_units(fault, text) from None
 
     def _check_range(self, array: Any) -> None:
         try:
@@ -88,5 +98,7 @@ class Wavelength(Parameter):
                 raise
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
-                f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}"
+                f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}; light "
+                f"goes from {format_quantity(self.minimum, 'nm')} to "
+                f"{format_quantity(self.maximum, 'mm')}"
             ) from error

@@ -48,3 +48,28 @@ def test_a_wavelength_in_words_is_the_same_one():
     plan = plan_of()
     in_words = plan.run(wavelength="500 nm", theta=0.3).stokes
     assert np.array_equal(in_words, plan.run(wavelength=500e-9, theta=0.3).stokes)
+
+
+def panes(*spans):
+    path = op.Source(spectrum=op.Spectrum.illuminant("D65"))
+    for place, span in enumerate(spans):
+        glass = op.Material.tabulated(list(span), [1.5, 1.6], [0.0, 0.1], name=f"glass {place}")
+        path = path >> op.Interface(glass, 0.3)
+    return path >> op.Detector()
+
+
+def test_every_curve_that_is_not_known_at_a_wavelength_is_named():
+    path = panes((3.5e-7, 9e-7), (1e-7, 9e-7), (4e-7, 8e-7))
+    for run in (path.trace, path.bind):
+        with pytest.raises(op.OptipathError) as refused:
+            run(wavelength="200 nm").compose()
+        faults = refused.value.faults
+        known = ["300 nm .. 830 nm, for which illuminant D65", "350 nm .. 900 nm", "400 nm .. 800"]
+        assert len(faults) == 3
+        assert all(part in fault for part, fault in zip(known, faults, strict=True))
+
+
+def test_curves_that_are_known_at_no_common_wavelength_are_refused_when_composed():
+    with pytest.raises(op.OptipathError, match="can have no value: glass 0 is known within 350 nm"):
+        panes((3.5e-7, 4e-7), (4.5e-7, 9e-7)).compose()
+    assert panes((3.5e-7, 4e-7), (4e-7, 9e-7)).trace(wavelength="400 nm").intensity > 0.0

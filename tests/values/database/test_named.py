@@ -9,6 +9,7 @@ from optipath.values.database import installed
 from optipath.values.database.catalog_pages import catalog_pages
 from optipath.values.database.curated_names import CURATED, curated_names
 from optipath.values.database.named_pages import named_page, of_curated
+from optipath.values.database.search import pages_with
 
 NANOMETRE = 1e-9
 
@@ -271,3 +272,13 @@ def test_without_pyyaml_the_sentence_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "yaml", None)
     with pytest.raises(MissingExtraError, match=r"need PyYAML, .* 'optipath\[materials\]'"):
         gold()
+
+
+def test_a_page_beyond_a_millimetre_is_told_for_wavelengths_that_may_be_asked_for():
+    ice = op.Material.named("ice")
+    assert ice.span[1] == 1e-3
+    assert ice.at("1 mm").n > 1.0
+    (found,) = [one for one in pages_with(["ice"]) if one.page.place == "3d/crystals/ice"]
+    assert {high for _, high in found.spans().values()} == {1e-3}
+    with pytest.raises(op.ParameterError, match=r"light goes from 0\.001 nm to 1 mm"):
+        ice.at("1 m")

@@ -27,6 +27,7 @@ def test_bins_reach_halfway_to_neighbours_and_end_with_the_grid():
     ("wavelengths", "fault"),
     [
         (5e-7, "one wavelength alone"),
+        ([], "none at all"),
         ([5e-7], "one wavelength alone"),
         ([5e-7, 5e-7], "repeated"),
         ([5e-7, 6e-7, 5.5e-7], "neither rise nor fall"),

@@ -23,8 +23,8 @@ USUAL = "wavelength"
 """The name that the wavelength of a path has."""
 
 
-def wavelength_among(inputs: Inputs) -> Parameter | None:
-    """Return the parameter by which light has its wavelength.
+def wavelengths_among(inputs: Inputs) -> tuple[Parameter, ...]:
+    """Return the parameters by which light may have its wavelength.
 
     Parameters
     ----------
@@ -33,20 +33,18 @@ def wavelength_among(inputs: Inputs) -> Parameter | None:
 
     Returns
     -------
-    Parameter or None
-        The one that is called ``wavelength``, or the only `Wavelength` by another name.
+    tuple of Parameter
+        The one that a spectrum follows from, for light is per nanometre of that; without
+        spectra, every `Wavelength`, and the length that is called ``wavelength``. Of several,
+        none is that of the light.
     """
     several = {**inputs.bound, **inputs.open}
+    if inputs.per_nanometre:
+        return tuple([several[name] for name in inputs.per_nanometre])
     usual = several.get(USUAL)
-    if usual is not None and inputs.dimensions.get(USUAL, "length") == "length":
-        return usual
-    found = None
-    for one in several.values():
-        if isinstance(one, Wavelength):
-            if found is not None:
-                return None
-            found = one
-    return found
+    if inputs.dimensions.get(USUAL, "length") != "length":
+        usual = None
+    return tuple([one for one in several.values() if one is usual or isinstance(one, Wavelength)])
 
 
 class LaterWavelength:
@@ -54,8 +52,8 @@ class LaterWavelength:
 
     Parameters
     ----------
-    parameter : Parameter
-        What gives them.
+    among : tuple of Parameter
+        What gives them; several are in doubt.
     inputs : Inputs
         What could be given.
     parameters : mapping of str to Any
@@ -65,23 +63,32 @@ class LaterWavelength:
     """
 
     def __init__(
-        self, parameter: Parameter, inputs: Inputs, parameters: Mapping[str, Any], where: Any = ()
+        self,
+        among: tuple[Parameter, ...],
+        inputs: Inputs,
+        parameters: Mapping[str, Any],
+        where: Any = (),
     ) -> None:
-        self.parameter = parameter
+        self.among = among
         self.inputs = inputs
         self.where = where
         # The batch, of which the light is a part, depends on all of them.
-        names = parameters if where else {parameter.name} & parameters.keys()
+        names = parameters if where else {among[0].name} & parameters.keys()
         self.parameters = {name: kept(parameters[name]) for name in names}
 
     def __call__(self) -> Any:
-        """Return the wavelengths, in metres; they broadcast to the batch."""
-        return self._found
+        """Return the wavelengths, in metres; they broadcast to the batch. None if in doubt."""
+        return None if self.in_doubt else self._found
+
+    @property
+    def in_doubt(self) -> tuple[str, ...]:
+        """The names of the parameters that may all give them; none where one does."""
+        return tuple([one.name for one in self.among]) if len(self.among) > 1 else ()
 
     @cached_property
     def _found(self) -> Any:
-        given = self.parameters.get(self.parameter.name, self.parameter.default)
-        found, present = self.parameter.resolve(given)
+        (parameter,) = self.among
+        found, present = parameter.resolve(self.parameters.get(parameter.name, parameter.default))
         if not np.all(present):
             found = np.where(present, found, np.nan)
         if self.where:

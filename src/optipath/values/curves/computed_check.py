@@ -59,9 +59,17 @@ def check_computed(
         at = _wavelength_text(value, bad, given or {})
         what = f"{value.formula_of(value.spoken)}{at}"
         is_what = f"is {found:.6g}" if np.isfinite(found) else "has no value"
-        why = f" ({value.curve.unreal})" if value.curve.unreal else ""
         wanted = f", and {owner} takes {domain.described()}" if owner else ""
+        if takes_0_alone(domain):
+            raise ValueFault(f"{what} {is_what}{wanted}") from fault
+        reason = value.curve.unreal_of(value.place)
+        why = f" ({reason})" if reason else ""
         raise ValueFault(f"{what} {is_what}{why}{wanted}; give another wavelength") from fault
+
+
+def takes_0_alone(domain: Domain) -> bool:
+    """Tell whether a domain says itself what to do about any other number."""
+    return domain.interval == (0.0, 0.0)
 
 
 def _wavelength_text(value: Any, bad: Any, given: Mapping[str, Resolved]) -> str:

@@ -105,11 +105,24 @@ class Curve(Unchanging, ABC):
             return self.numbers(namespace(traced[0]), *given)
         several = np.broadcast_arrays(*[np.asarray(number, np.float64) for number in given])
         shape = several[0].shape
-        # Functions of NumPy may do other things to arrays that are no row of numbers.
-        rows = [np.ascontiguousarray(number).reshape(-1) for number in several]
+        along_one_axis = max(shape, default=1) == several[0].size
+        # Functions of NumPy may do other things to arrays that are no row of numbers. What asks
+        # for a grid is shown the axes that are too many.
+        row = -1 if along_one_axis or not self.takes_grid else shape
+        rows = [np.ascontiguousarray(number).reshape(row) for number in several]
         with np.errstate(all="ignore"):
             found = self.numbers(np, *rows)
         return tuple([np.broadcast_to(part, rows[0].shape).reshape(shape) for part in found])
+
+    def unreal_of(self, place: int) -> str:
+        """Return why the numbers of one of its parts may be none; see `unreal`."""
+        del place
+        return self.unreal
+
+    def is_nowhere_0(self, place: int) -> bool:
+        """Tell whether it is known that the numbers of one of its parts are above 0 throughout."""
+        del place
+        return False
 
     @property
     def digest(self) -> str:

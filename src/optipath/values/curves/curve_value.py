@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from optipath.errors import ParameterError, shown
+from optipath.errors import ParameterError, ValueFault, shown
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
-from optipath.values.curves.computed_check import check_computed
+from optipath.values.curves.computed_check import check_computed, takes_0_alone
 from optipath.values.curves.curve_sum import CurveSum
 from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.domain import Domain
@@ -146,6 +146,16 @@ class CurveValue(Parameter):
         array_like
         """
         return _number(self.given_by[place], given)
+
+    def check_place(self, owner: str, domain: Domain) -> None:
+        """Raise besides where a 0 is asked for, and there is one at no wavelength."""
+        super().check_place(owner, domain)
+        nowhere = not self.offset and self.scale and self.curve.is_nowhere_0(self.place)
+        if nowhere and takes_0_alone(domain):
+            raise ValueFault(
+                f"{self.formula_of(self.spoken)} is 0 at no wavelength, and {owner} takes "
+                f"{domain.described()}"
+            )
 
     @property
     def spoken(self) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import ValueFault
 from optipath.values.cures import argument
 from optipath.values.curves.curve import Curve
-from optipath.values.curves.wavelength_range import span_text
+from optipath.values.curves.wavelength_range import of_light, span_text
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Mapping, Sequence
@@ -70,10 +70,9 @@ class PageCurve(Curve):
             place=place,
             source=source,
             asked=dict(asked or {}),
-            span=(low, high),
+            span=of_light((low, high)),
             # The one with fewer ways to leave its range has the shorter sentence.
             beyond=min([curve.beyond for curve in curves], key=len),
-            unreal="; ".join(filter(None, [curve.unreal for curve in curves])),
         )
         if within is not None:
             clear = max(low, within[0]), min(high, within[1])
@@ -85,6 +84,19 @@ class PageCurve(Curve):
     @property
     def content(self) -> tuple[Hashable, ...]:
         return (self.label, self.span, *[(type(one).__name__, one.content) for one in self.curves])
+
+    def unreal_of(self, place: int) -> str:
+        curve, part = self._placed[place]
+        return curve.unreal_of(part)
+
+    def is_nowhere_0(self, place: int) -> bool:
+        curve, part = self._placed[place]
+        return curve.is_nowhere_0(part)
+
+    @property
+    def _placed(self) -> list[tuple[Curve, int]]:
+        """The curve that has each part, and which of its own that is."""
+        return [(curve, part) for curve in self.curves for part in range(len(curve.parts))]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments

@@ -122,6 +122,9 @@ class Tabulated(Curve):
         """The wavelengths of the first and the last sample, in metres."""
         return float(self.wavelengths[0]), float(self.wavelengths[-1])
 
+    def is_nowhere_0(self, place: int) -> bool:
+        return self.extrapolate != "linear" and bool(np.all(self.columns[place] > 0.0))
+
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
         del arguments
         # Each sample reaches halfway to its neighbours, so that it is exact on either side.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.values.domains.wavelengths import WAVELENGTH, WavelengthDomain
+from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH, WavelengthDomain
 from optipath.values.units import format_quantity
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from optipath.values.curves.curve import Curve
 
-_LONGEST = 12
+_MOST_CHARACTERS = 12
 """How many characters an end of a range may have."""
 
 _PICOMETRES = 1e12
@@ -48,6 +48,18 @@ def is_within(wavelength: Any, span: tuple[float, float]) -> Any:
     """
     low, high = span
     return (wavelength >= low * (1.0 - _ROUNDING)) & (wavelength <= high * (1.0 + _ROUNDING))
+
+
+def of_light(span: tuple[float, float]) -> tuple[float, float]:
+    """Return the part of a range that may be asked for: light has waves of a millimetre at most.
+
+    Examples
+    --------
+    >>> of_light((44.3e-9, 2.0))
+    (4.43e-08, 0.001)
+    """
+    low, high = span
+    return (low, LONGEST) if low <= LONGEST < high < math.inf else span
 
 
 @dataclass(frozen=True)
@@ -101,6 +113,6 @@ def span_text(span: tuple[float, float]) -> str:
 def _end(wavelength: float, inward: Callable[[float], int]) -> str:
     """Return an end of a range; one of many digits as a wavelength within the range."""
     text = format_quantity(wavelength, WAVELENGTH.unit)
-    if len(text) <= _LONGEST or not math.isfinite(wavelength):
+    if len(text) <= _MOST_CHARACTERS or not math.isfinite(wavelength):
         return text
     return f"{inward(wavelength * _PICOMETRES) / 1e3:.10g} nm"

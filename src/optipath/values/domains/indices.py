@@ -13,18 +13,15 @@ from optipath.values.arrays.jax_values import namespace
 from optipath.values.arrays.shapes import first_place
 from optipath.values.domains.domain import Domain
 from optipath.values.domains.followed import Followed
+from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.domains.pair import pair_in
 from optipath.values.materials import K, Material, N, index_of
 
-_NO_K = Domain("extinction coefficient of the medium that light comes from", minimum=0.0, maximum=0)
-_NO_K_BEHIND = Domain(
-    "extinction coefficient, since light comes from there too (by port 'back')",
-    minimum=0.0,
-    maximum=0.0,
+_NO_K = NoAbsorption("extinction coefficient", why=", since light comes from there")
+_NO_K_BEHIND = NoAbsorption(
+    "extinction coefficient", why=", since light comes from there too (by port 'back')"
 )
-_NO_K_BEYOND = Domain(
-    "extinction coefficient of the medium that light goes on in", minimum=0.0, maximum=0.0
-)
+_NO_K_BEYOND = NoAbsorption("extinction coefficient", why=", since light goes on in there")
 _LEAST = float(np.finfo(float).tiny)
 
 

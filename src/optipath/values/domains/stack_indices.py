@@ -16,6 +16,7 @@ from optipath.values.domains.indices import (
     INDEX,
     OutsideDomain,
 )
+from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.follows import FOLLOWS
 
 
@@ -39,21 +40,14 @@ class InnerDomain(OutsideDomain):
     @property
     def of_k(self) -> Domain:  # type: ignore[override]
         """What k may be."""
-        return _NoKInside("extinction coefficient", minimum=0.0, maximum=0.0, missing=self.missing)
+        absorbing = f"; or, for a layer that absorbs, give the stack {self.missing}, too"
+        return NoAbsorption("extinction coefficient", otherwise=absorbing)
 
     def described(self) -> str:
         return (
             f"a real index of refraction within {self.minimum:g} .. {self.maximum:g}; or, for a "
             f"layer that absorbs, give the stack {self.missing}, too"
         )
-
-
-@dataclass(frozen=True)
-class _NoKInside(Domain):
-    missing: str = ""
-
-    def described(self) -> str:
-        return f"0; or, for a layer that absorbs, give the stack {self.missing}, too"
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from optipath.errors import UnitError
 from optipath.values.domains.domain import Domain
-from optipath.values.spectral_units import wavelength_of
+from optipath.values.spectral_units import wavelength_of, with_other_units
 
 LONGEST = 1e-3
 """Above this many metres, a number was most likely meant in another unit."""
@@ -22,7 +23,12 @@ class WavelengthDomain(Domain):
 
     def parse(self, text: str) -> Any:
         read = wavelength_of(text)
-        return super().parse(text) if read is None else read
+        if read is not None:
+            return read
+        try:
+            return super().parse(text)
+        except UnitError as fault:
+            raise with_other_units(fault, text) from None
 
     def described(self) -> str:
         return "a wavelength above 0, in metres or as a text such as '516 nm'"

@@ -33,6 +33,8 @@ def grid_fault(wavelengths: Any) -> str:
     if is_traced(wavelengths):
         return "are traced by JAX, so that their order is not known"
     grid = np.asarray(wavelengths, np.float64)
+    if not grid.size:
+        return "are none at all"
     if grid.size < 2:
         return "are one wavelength alone"
     if grid.ndim != 1:
