@@ -46,6 +46,67 @@ def test_a_photon_energy_a_wave_number_or_a_frequency_is_a_wavelength(read, head
     assert found.wavelengths[0] == pytest.approx(516.6e-9, rel=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("head", "cell"),
+    [(f"wavelength {unit}", "4000.1") for unit in ("(A)", "[\u00c5]", "(Angstrom)", "(angstroms)")]
+    + [("wl_Angstrom", "4000.1"), ("wavelength (nm)", "400.01")],
+)
+def test_an_angstrom_is_a_tenth_of_a_nanometre_to_the_bit(read, head, cell):
+    assert read(f"{head},n\n{cell},1.5\n", ["n"]).wavelengths[0] == 400.01e-9
+
+
+@pytest.mark.parametrize("head", ["E [eV]", "E (eV)", "energy (eV)", "photon energy (eV)"])
+def test_a_photon_energy_has_several_names(read, head):
+    found = read(f"{head},n\n2,1.5\n", ["n"])
+    assert found.wavelengths[0] == pytest.approx(619.92e-9, rel=1e-5)
+
+
+def test_an_e_without_a_unit_of_energies_is_no_axis(read):
+    found = read("wavelength (nm),o,e,n_A\n500,1.5,1.6,1.7\n", ["e", "n_A"])
+    assert {name: column[0] for name, column in found.columns.items()} == {"e": 1.6, "n_A": 1.7}
+    assert read("E,n\n2,1\n", ["n"], unit="eV").wavelengths[0] > 6e-7
+
+
+EXPORTED = "wl,n\n0.1879,1.28\n0.1916,1.32\n\nwl,k\n0.1879,1.188\n0.1916,1.203\n"
+
+
+def test_blocks_one_below_the_other_are_read_as_one_table(read):
+    found = read(EXPORTED, unit="um")
+    assert found.wavelengths.tolist() == [187.9e-9, 191.6e-9]
+    assert found.columns["n"].tolist() == [1.28, 1.32]
+    assert found.columns["k"].tolist() == [1.188, 1.203]
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (EXPORTED, "line 1: 'wl' has no unit; write 'wl (um)', or give unit='um'"),
+        (
+            EXPORTED.replace("0.1916,1.203", "0.2,1"),
+            "line 7 has the wavelength 0.2, and line 3 0.1916; write one table, with a line for",
+        ),
+        (
+            EXPORTED + "0.2,1\n",
+            "the block of k that begins in line 5 has 3 wavelengths, and the first 2; write one",
+        ),
+    ],
+)
+def test_blocks_that_do_not_fit_are_told_with_their_lines(read, text, words):
+    with pytest.raises(ValueFault) as fault:
+        read(text, unit="" if text == EXPORTED else "um")
+    assert f"gold.csv: {words}" in str(fault.value)
+
+
+def test_numbers_below_0_are_told_with_their_lines_and_all_else(read):
+    with pytest.raises(ValueFault) as fault:
+        read("wl (nm),n,k\n400,-1,-0.1\n500,nan,1\n", not_negative={"n": "", "k": " (so)"})
+    assert fault.value.faults == (
+        "line 2: n is -1; give none below 0",
+        "line 2: k is -0.1; give none below 0 (so)",
+        "line 3: n is nan; write a number, or leave the line out",
+    )
+
+
 def test_a_unit_may_be_given_where_the_file_has_none(read):
     assert read("wavelength,n\n500,1\n", ["n"], unit="nm").wavelengths.tolist() == [5e-7]
 
@@ -66,7 +127,10 @@ def test_a_unit_may_be_given_where_the_file_has_none(read):
         ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
         ("wavelength (mn),n,k\n516,1,1\n", "the unit 'mn' of 'wavelength' is unknown"),
         ("energy (nm),n,k\n516,1,1\n", "the unit 'nm' of 'energy' is unknown"),
-        ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
+        (
+            "wavelength (m),n,k\n516,1,1\n",
+            "line 2: the wavelength is 516 metres, which",
+        ),
         ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl (nm)' and 'energy (eV)'; keep one"),
         ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 has 2 columns 'n'; keep one"),
         ("wavelength (nm),n,k\n500,nan,1\n", "line 2: n is nan; write a number"),

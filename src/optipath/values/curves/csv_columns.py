@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, shown
-from optipath.values.curves.csv_header import axis_of, has_numbers, places_of
+from optipath.values.curves.csv_blocks import joined_blocks
+from optipath.values.curves.csv_header import axis_of, has_numbers, places_of, quantity_text
 from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.spectral_units import wavelength_of
 from optipath.values.units import parse_quantity
@@ -47,6 +48,7 @@ def read_columns(
     *,
     unit: str = "",
     cures: Mapping[str, str] | None = None,
+    not_negative: Mapping[str, str] | None = None,
 ) -> CsvColumns:
     """Return the wavelengths and some columns of a file.
 
@@ -64,6 +66,8 @@ def read_columns(
         Of the wavelengths, where the first line has none.
     cures : mapping of str to str, optional
         What else to do where a column is missing, as a sentence goes on behind "or".
+    not_negative : mapping of str to str, optional
+        The columns that have no numbers below 0, and what is added to the sentence on one.
 
     Returns
     -------
@@ -78,7 +82,10 @@ def read_columns(
     lines = _lines(file)
     if not lines:
         raise ValueFault("it is empty; write a line for each wavelength", about=str(file))
-    (number, header), *rows = lines
+    try:
+        (number, header), *rows = joined_blocks(lines)
+    except ValueFault as fault:
+        raise ValueFault(*fault.faults, about=str(file)) from None
     faults: list[str] = []
     at, of_axis = axis_of(number, header, unit, faults)
     places = {} if has_numbers(header) else places_of(number, header, names, cures or {}, faults)
@@ -86,7 +93,7 @@ def read_columns(
         faults.append(f"line {number} is the only one; write a line for each wavelength behind it")
     if faults:
         raise ValueFault(*faults, about=str(file))
-    found = _Rows([], [], {name: [] for name in names}, [])
+    found = _Rows([], [], {name: [] for name in names}, [], not_negative or {})
     for row in rows:
         found.read(row, at, of_axis, places, len(header))
     found.check_order(of_axis)
@@ -105,6 +112,7 @@ class _Rows:
     wavelengths: list[float]
     columns: dict[str, list[float]]
     faults: list[str]
+    not_negative: Mapping[str, str]
 
     def read(
         self,
@@ -134,7 +142,7 @@ class _Rows:
 
     def _wavelength(self, line: int, cell: str, unit: str) -> float:
         try:
-            text = f"{cell} {unit}"
+            text = quantity_text(cell, unit)
             found = wavelength_of(text)
             found = parse_quantity(text, "length") if found is None else found  # type: ignore[assignment]
         except OptipathError as fault:
@@ -152,7 +160,13 @@ class _Rows:
             self.faults.append(f"line {line}: {name} {wanted}; write one, such as 1.5")
             return np.nan
         if not np.isfinite(found):
-            self.faults.append(f"line {line}: {name} is {cell}; write a number, or leave it out")
+            self.faults.append(
+                f"line {line}: {name} is {cell}; write a number, or leave the line out"
+            )
+        if found < 0.0 and name in self.not_negative:
+            self.faults.append(
+                f"line {line}: {name} is {cell}; give none below 0{self.not_negative[name]}"
+            )
         return found
 
     def check_order(self, unit: str) -> None:
@@ -161,9 +175,10 @@ class _Rows:
             return
         least = min(self.wavelengths)
         if least > LONGEST:
+            line = self.numbers[self.wavelengths.index(least)]
             self.faults.append(
-                f"the least wavelength is {least:g} metres, which is no wavelength of light; the "
-                f"unit {unit} is most likely another one"
+                f"line {line}: the wavelength is {least:g} metres, which is no wavelength of "
+                f"light; the unit {unit} is most likely another one"
             )
         lines = dict(zip(self.wavelengths, self.numbers, strict=True))
         if len(lines) < len(self.wavelengths):

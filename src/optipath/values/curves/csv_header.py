@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from decimal import Decimal, InvalidOperation
 from typing import TYPE_CHECKING
 
 from optipath.errors import did_you_mean, listed
@@ -17,6 +18,7 @@ _AXES = {
     "lambda": "length",
     "\u03bb": "length",
     "energy": "photon energy",
+    "e": "photon energy",
     "photon energy": "photon energy",
     "wavenumber": "wave number",
     "wave number": "wave number",
@@ -24,8 +26,19 @@ _AXES = {
 }
 """What the first column may be called, and what it is."""
 
-_SPELT = {"\u00b5m": "um", "\u03bcm": "um", "microns": "um", "micron": "um", "ev": "eV"}
+_ANGSTROM = "Angstrom"
+_ANGSTROMS = ("A", "\u00c5", "\u212b", _ANGSTROM, "angstrom", "Angstroms", "angstroms")
+_SPELT = {
+    "\u00b5m": "um",
+    "\u03bcm": "um",
+    "microns": "um",
+    "micron": "um",
+    "ev": "eV",
+    **dict.fromkeys(_ANGSTROMS, _ANGSTROM),
+}
 _SPECTRAL = ("eV", "meV", "keV", "1/cm", "cm^-1", "cm-1", "1/um", "1/mm", "1/m")
+_BEHIND_A_LINE = {*UNITS, *_SPECTRAL, *_SPELT} - {"A"}
+"""Units that may end a name; a single A is more likely that of a sample."""
 _FREQUENCIES = ("THz", "GHz", "PHz", "Hz")
 _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
 
@@ -35,9 +48,42 @@ def _name_and_unit(head: str) -> tuple[str, str]:
     match = _HEAD.fullmatch(head.strip())
     name, unit = (match[1], match[2] or match[3] or "") if match else (head, "")
     before, line, behind = name.rpartition("_")
-    if not unit and line and (behind in UNITS or behind in _SPECTRAL or behind in _SPELT):
+    if not unit and line and behind in _BEHIND_A_LINE:
         name, unit = before, behind
     return name.strip().lower(), _SPELT.get(unit.strip(), unit.strip())
+
+
+def quantity_text(cell: str, unit: str) -> str:
+    """Return a number of a file with a unit that texts have.
+
+    Parameters
+    ----------
+    cell : str
+        What stands in the file.
+    unit : str
+        As `axis_of` returns it.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> quantity_text("5890", "Angstrom"), quantity_text("2.1", "eV")
+    ('589.0 nm', '2.1 eV')
+    """
+    if unit != _ANGSTROM:
+        return f"{cell} {unit}"
+    try:
+        return f"{Decimal(cell).scaleb(-1)} nm"
+    except InvalidOperation:
+        return f"{cell} nm"
+
+
+def _is_axis(name: str, own: str, unit: str) -> bool:
+    """Tell whether a column has wavelengths; "e" is an energy only where its unit says so."""
+    energies = _SPECTRAL[:3]
+    return name in _AXES and (name != "e" or (own or _SPELT.get(unit, unit)) in energies)
 
 
 def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tuple[int, str]:
@@ -60,7 +106,7 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
     unit : str
     """
     heads = [_name_and_unit(head) for head in header]
-    found = [place for place, (name, _) in enumerate(heads) if name in _AXES]
+    found = [place for place, head in enumerate(heads) if _is_axis(*head, unit)]
     if not found:
         if has_numbers(header):
             what = f"line {number} has numbers, and no names of columns"
@@ -75,7 +121,7 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
     name, own = heads[found[0]]
     dimension = _AXES[name]
     known = {
-        "length": units_of("length"),
+        "length": [*units_of("length"), _ANGSTROM],
         "photon energy": [*_SPECTRAL[:3]],
         "wave number": [*_SPECTRAL[3:]],
         "frequency": [*_FREQUENCIES],
@@ -84,9 +130,10 @@ def axis_of(number: int, header: list[str], unit: str, faults: list[str]) -> tup
         faults.append(f"line {number} has the unit {own}, and unit='{unit}' is given; leave it out")
     own = own or _SPELT.get(unit, unit)
     if not own:
+        # Files of refractiveindex.info say "wl", and mean micrometres.
+        such = "um" if name == "wl" else known[0]
         faults.append(
-            f"line {number}: '{name}' has no unit; write '{name} ({known[0]})', or give "
-            f"unit='{known[0]}'"
+            f"line {number}: '{name}' has no unit; write '{name} ({such})', or give unit='{such}'"
         )
     elif own not in known:
         faults.append(

@@ -14,6 +14,9 @@ from optipath.values.curves.tabulated import Tabulated
 if TYPE_CHECKING:
     from os import PathLike
 
+_NOT_NEGATIVE = {"n": "", "k": " (the field is exp(-iwt): k > 0 absorbs)"}
+"""What no column has below 0, and what a sentence says besides."""
+
 
 class MaterialTables(CurveMaterial):
     """Materials of samples, from arrays and files."""
@@ -96,7 +99,8 @@ class MaterialTables(CurveMaterial):
 
         Its first line says what the columns are: ``wavelength (nm)`` or ``energy (eV)``, ``n`` and
         ``k``; the separator is a comma, a semicolon or a tabulator, and lines that begin with
-        ``#`` are comments.
+        ``#`` are comments. The file that refractiveindex.info exports, with n and k one below the
+        other, is read with ``unit="um"``.
 
         Parameters
         ----------
@@ -120,7 +124,11 @@ class MaterialTables(CurveMaterial):
         """
         names = ["n", "k"] if k is None else ["n"]
         table = read_columns(
-            path, names, unit=unit, cures={"k": "give k=0.0 where nothing absorbs"}
+            path,
+            names,
+            unit=unit,
+            cures={"k": "give k=0.0 where nothing absorbs"},
+            not_negative=_NOT_NEGATIVE,
         )
         return cls.tabulated(
             table.wavelengths,
@@ -137,7 +145,7 @@ def _refuse_negative(curve: Tabulated) -> None:
     faults = [
         f"{part} of {curve.label} is {column[bad][0]:g} at "
         f"{curve.wavelengths[bad][0] * 1e9:.10g} nm; give none below 0"
-        f"{' (the field is exp(-iwt): k > 0 absorbs)' * (part == 'k')}"
+        f"{_NOT_NEGATIVE[part]}"
         for part, column in zip(curve.parts, curve.columns, strict=True)
         if np.any(bad := column < 0.0)
     ]
