@@ -167,6 +167,13 @@ def test_all_faults_are_told_at_once(read):
     ]
 
 
+@pytest.mark.parametrize("last", ["400,1,1", "500,1,1"])
+def test_the_order_of_sound_lines_is_told_with_what_is_wrong_with_others(read, last):
+    with pytest.raises(ValueFault) as fault:
+        read(f"wavelength (nm),n,k\n500,1,1\n600,1,1\n700,nan,1\n{last}\n")
+    assert [sentence[:6] for sentence in fault.value.faults] == ["line 4", "line 5"]
+
+
 def test_a_thousand_faults_are_counted(read):
     with pytest.raises(ValueFault) as fault:
         read("wavelength (nm),n,k\n" + "1,nan,1\n" * 1000)

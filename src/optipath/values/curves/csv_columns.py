@@ -170,8 +170,8 @@ class _Rows:
         return found
 
     def check_order(self, unit: str) -> None:
-        """Look whether the wavelengths rise or fall throughout."""
-        if self.faults or not self.wavelengths:
+        """Look whether the wavelengths of sound lines rise or fall throughout."""
+        if not self.wavelengths:
             return
         least = min(self.wavelengths)
         if least > LONGEST:
