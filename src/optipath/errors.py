@@ -169,7 +169,7 @@ def did_you_mean(word: object, known: Iterable[str]) -> str:
     """
     if not looks_left():
         return ""
-    names = list(known)
+    names = [name for name in known if name]
     if (found := closest(word if isinstance(word, str) else shown(word), names)) is not None:
         return f"; did you mean '{found}'?"
     return there_are(names)

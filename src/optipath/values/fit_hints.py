@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from optipath.values.domains.domain import Domain
 
 
+IN_A_FIT = " (in a fit, give the optimiser bounds=)"
+
+
 def with_bounds_hint(
     faults: Iterable[str], value: Any, limits: tuple[float, float], domains: Sequence[Domain]
 ) -> list[str]:
@@ -44,7 +47,7 @@ def with_bounds_hint(
     """
     if not _is_one_beyond(value, limits, domains):
         return [*faults]
-    return [f"{fault} (in a fit, give the optimiser bounds=)" for fault in faults]
+    return [f"{fault}{IN_A_FIT}" for fault in faults]
 
 
 def _is_one_beyond(value: Any, limits: tuple[float, float], domains: Sequence[Domain]) -> bool:

@@ -135,7 +135,9 @@ class Inputs:
                     use.check_given(numbers, present, resolved)
             except OptipathError as fault:
                 value = given.get(name, use.value.default)
-                faults += self._of_a_fit(fault.faults, name, value)
+                told = self._of_a_fit(fault.faults, name, value)
+                # n and k of a material may have one fault.
+                faults += [sentence for sentence in told if sentence not in faults]
                 refused.add(name)
             else:
                 shape = getattr(numbers, "shape", ())

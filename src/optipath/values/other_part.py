@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import UnitError
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.materials import Material
 from optipath.values.open_materials import waits_for
 from optipath.values.parameters import Parameter
@@ -43,6 +44,8 @@ def other_part(uses: Iterable[Use], name: str, how: Callable[[str], str] = str) 
         if isinstance(value, Parameter) and value.name == name and part in _OTHER:
             other = _OTHER[part]
             found = values.get(f"{place}.{other}")
+            if isinstance(found, CurveValue):
+                return f"{other} is that of {found.curve.label}; give {part} alone, a real number"
             if isinstance(found, Parameter):
                 return f"give {other} by {how(found.name)}"
             if isinstance(found, (int, float)):

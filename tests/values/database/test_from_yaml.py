@@ -48,6 +48,25 @@ def test_a_table_is_linear_between_its_samples(written):
     assert np.allclose([there.n, there.k], [1.45, 0.3], rtol=1e-14)
 
 
+@pytest.mark.parametrize(
+    ("row", "words"),
+    [
+        ("0.4 1.7 0.1", "mine.yml has the wavelength 400 nm twice, in the rows 1 and 3; give each"),
+        ("0 1.7 0.1", "row 3 of mine.yml has the wavelength 0; give lengths above 0"),
+        ("-0.4 1.7 0.1", "row 3 of mine.yml has the wavelength -0.4; give lengths above 0"),
+        ("nan 1.7 0.1", "has no numbers in row 3, 'nan 1.7 0.1'"),
+    ],
+)
+def test_a_row_that_cannot_be_is_told(written, row, words):
+    assert words in refusal(written(TABLE.replace("0.6 1.4 0.4", row)))
+
+
+def test_all_rows_that_cannot_be_are_told_at_once(written):
+    told = refusal(written(TABLE + "        0.5 1 1\n        0 1 1\n        0.4 2 2\n"))
+    assert told.startswith("3 faults:")
+    assert "500 nm twice, in the rows 2 and 4" in told
+
+
 def test_a_formula_and_a_table_are_one_material_where_both_are_known(written):
     found = op.Material.from_yaml(written(FORMULA))
     assert found.span == (0.4e-6, 0.6e-6)

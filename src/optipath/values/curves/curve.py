@@ -12,9 +12,10 @@ from optipath.values.arrays.jax_values import is_traced, known, namespace
 from optipath.values.arrays.read_only import Unchanging
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Sequence
+    from collections.abc import Hashable, Mapping, Sequence
 
     from optipath.values.domains.domain import Domain
+    from optipath.values.resolved import Resolved
 
 
 class Curve(Unchanging, ABC):
@@ -64,6 +65,24 @@ class Curve(Unchanging, ABC):
             A name, a number or `Parameter`, and what it may be, in the order of `numbers`.
         """
         return ()
+
+    def misfits(self, arguments: Sequence[Any], given: Mapping[str, Resolved]) -> list[str]:
+        """Say which of its arguments do not fit to each other, whatever the wavelength.
+
+        Parameters
+        ----------
+        arguments : sequence of float or Parameter
+            As `arguments` lists them, some of them bound since.
+        given : mapping of str to Resolved
+            The parameters among them.
+
+        Returns
+        -------
+        list of str
+            A sentence for each.
+        """
+        del arguments, given
+        return []
 
     @abstractmethod
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:

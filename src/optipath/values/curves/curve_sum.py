@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 from optipath.values.curves.curve import Curve
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable
+    from collections.abc import Hashable, Mapping, Sequence
 
     from optipath.values.domains.domain import Domain
+    from optipath.values.resolved import Resolved
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +66,24 @@ class CurveSum(Curve):
         """Return the arguments of all curves, one after another."""
         return [argument for _, curve, _ in self.terms for argument in curve.arguments()]
 
+    def misfits(self, arguments: Sequence[Any], given: Mapping[str, Resolved]) -> list[str]:
+        own = self._own(arguments)
+        return [*dict.fromkeys([f for curve, its in own for f in curve.misfits(its, given)])]
+
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:
-        left = list(arguments)
         total = self.constant
-        for factor, curve, place in self.terms:
-            count = len(curve.arguments())
-            own, left = left[:count], left[count:]
+        for (factor, _, place), (curve, own) in zip(self.terms, self._own(arguments), strict=True):
             total = total + factor * curve.numbers(xp, wavelength, *own)[place]
         return (total,)
+
+    def _own(self, arguments: Sequence[Any]) -> list[tuple[Curve, list[Any]]]:
+        """Return each curve with its own arguments."""
+        left, found = list(arguments), []
+        for _, curve, _ in self.terms:
+            count = len(curve.arguments())
+            found.append((curve, left[:count]))
+            left = left[count:]
+        return found
 
 
 def _written(factor: float, curve: Curve, place: int) -> str:

@@ -85,8 +85,9 @@ class CurveValue(Parameter):
         ]
 
     def follows(self, given: Mapping[str, Resolved]) -> bool:
-        """Tell whether all is given that it is computed of."""
-        return all(one.bound or one.name in given for one in self.arguments)
+        """Tell whether all is given that it is computed of, and real: no curve is of complex."""
+        names = [one.name for one in self.arguments if not one.bound or one.name in given]
+        return all(name in given and not np.iscomplexobj(given[name].value) for name in names)
 
     def computed(self, given: Mapping[str, Resolved]) -> Resolved:
         """Return its numbers, scale and offset aside.

@@ -12,9 +12,10 @@ from optipath.values.arrays.jax_values import is_traced
 from optipath.values.cures import cure
 from optipath.values.curves.coefficients import REAL
 from optipath.values.curves.curve import Curve
-from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH, too_long
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
+from optipath.values.use import Use
 
 if TYPE_CHECKING:
     from collections.abc import Hashable
@@ -74,6 +75,7 @@ class FormulaCurve(Curve):
 
 def _check(owner: str, value: Any, domain: Domain) -> None:
     if isinstance(value, Parameter):
+        Use(owner, value, domain).check()
         return
     if domain.check(owner, value).ndim:
         raise ValueFault(f"{owner} is {shown(value)}; give one number, or a Parameter for several")
@@ -96,4 +98,6 @@ def _span(owner: str, span: Any) -> tuple[float, float]:
         raise ValueFault(
             f"{owner} is {shown(span)}; give the least and the largest wavelength, such as {such}"
         )
+    if ends[0] > LONGEST:
+        raise ValueFault(f"the least wavelength of the {owner} is {too_long(float(ends[0]))}")
     return float(ends[0]), float(ends[1])

@@ -8,6 +8,8 @@ from optipath.errors import ValueFault
 from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
 from optipath.kernels.dispersion.permittivity import index_of_permittivity
 from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
+from optipath.values.agreement import first_faults
+from optipath.values.curves.broadening_limit import BroadeningLimit
 from optipath.values.cures import cure
 from optipath.values.curves.coefficients import (
     NOT_NEGATIVE,
@@ -17,11 +19,14 @@ from optipath.values.curves.coefficients import (
     oscillators_of,
 )
 from optipath.values.curves.formula_curve import EVERYWHERE, FormulaCurve
-from optipath.values.parameters import Parameter
+from optipath.values.operands import Operand
 from optipath.values.spectral_units import HC
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from optipath.values.curves.coefficients import Coefficient
+    from optipath.values.resolved import Resolved
 
 _BOUND = ("strength", "energy", "damping")
 _ABOVE_GAP = ("amplitude", "energy", "broadening", "gap")
@@ -131,7 +136,7 @@ class TaucLorentz(FormulaCurve):
 
     oscillators: tuple[tuple[Any, ...], ...]
     background: Any
-    unreal = "its broadening is not below twice its energy"
+    unreal = "its coefficients give no permittivity that is a number"
 
     def __init__(
         self, label: str, oscillators: Any, *, background: Any = 1.0, span: Any = EVERYWHERE
@@ -144,19 +149,28 @@ class TaucLorentz(FormulaCurve):
                 f"same at all wavelengths"
             )
         super().__init__(label, span, oscillators=rows, background=background)
-        for place, (_, energy, broadening, _) in enumerate(rows):
-            known = not isinstance(energy, Parameter) and not isinstance(broadening, Parameter)
-            if known and not float(broadening) < 2.0 * float(energy):
-                raise ValueFault(
-                    f"oscillators[{place}] of {label} has the broadening {broadening} and the "
-                    f"energy {energy}; the formula holds for a broadening below twice the energy"
-                )
+        limits = self._limits([value for _, value, _ in self.arguments()])
+        if faults := first_faults([law for law in limits if not law.is_open]):
+            raise ValueFault(*faults)
 
     def arguments(self) -> list[Coefficient]:
         domains = (NOT_NEGATIVE, POSITIVE, POSITIVE, NOT_NEGATIVE)
         return [
             ("background", self.background, REAL),
             *coefficients_of(self.oscillators, _ABOVE_GAP, domains),
+        ]
+
+    def misfits(self, arguments: Sequence[Any], given: Mapping[str, Resolved]) -> list[str]:
+        return first_faults(self._limits(arguments), given)
+
+    def _limits(self, arguments: Sequence[Any]) -> list[BroadeningLimit]:
+        _, *rest = arguments
+        pairs = [rest[at + 1 : at + 3] for at in range(0, len(rest), 4)]
+        return [
+            BroadeningLimit(
+                (Operand(energy), Operand(broadening)), f"oscillators[{place}] of {self.label}"
+            )
+            for place, (energy, broadening) in enumerate(pairs)
         ]
 
     def numbers(self, xp: Any, wavelength: Any, *arguments: Any) -> tuple[Any, ...]:

@@ -12,7 +12,7 @@ from optipath.values.arrays.shapes import first_place
 from optipath.values.cures import argument, cure
 from optipath.values.curves.curve import Curve
 from optipath.values.curves.monotone_slopes import monotone_slopes
-from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH
+from optipath.values.domains.wavelengths import LONGEST, WAVELENGTH, too_long
 from optipath.values.texts import numbers_for
 from optipath.values.units import parse_quantity
 
@@ -169,10 +169,7 @@ def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:
     if (least := float(places.min())) <= 0.0:
         return f"a wavelength of {label} is {least:g}; give lengths above 0"
     if least > LONGEST:
-        return (
-            f"the least wavelength of {label} is {least:g} metres, which is no wavelength of "
-            f"light; multiply those in nanometres by 1e-9, and those in micrometres by 1e-6"
-        )
+        return f"the least wavelength of {label} is {too_long(least)}"
     if np.any(same := steps == 0.0):
         twice = float(places[:-1][same][0]) * 1e9
         return f"{label} has the wavelength {twice:.10g} nm twice; give each once"

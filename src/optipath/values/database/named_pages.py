@@ -149,10 +149,23 @@ def _unknown(name: str, page: str, curated: CuratedName | None) -> str:
     book = curated.place.split("/")[1] if curated else name
     if page and (of_book := [p.page for p in pages if _underscored(p.book) == _underscored(book)]):
         return f"material '{name}' has no page '{page}'{_meant(page, of_book)}"
+    if close := _page_meant(name, pages):
+        return f"material '{name}' is unknown; did you mean '{close}'?"
     known = [*[n for c in CURATED for n in c.names], VACUUM, *dict.fromkeys(p.book for p in pages)]
     glasses = [p.page for p in pages if p.shelf == "specs"]
     near = get_close_matches(name, glasses, n=3, cutoff=0.75) if looks_left() else []
     return f"material '{name}' is unknown{_meant(name, [*known[: _MOST_WORDS - 3], *near])}"
+
+
+def _page_meant(name: str, pages: tuple[CatalogPage, ...]) -> str:
+    """Return the page that was meant, of a book that there is; nothing where none is near."""
+    book, line, page = _underscored(name).rpartition("/")
+    if not line:
+        return ""
+    curated = curated_names().get(alike(book))
+    book = curated.place.rpartition("/")[0] if curated else book
+    found = closest(page, [p.page for p in pages if book in (p.book, f"{p.shelf}/{p.book}")])
+    return f"{book}/{found}" if found else ""
 
 
 def _meant(word: str, known: list[str]) -> str:

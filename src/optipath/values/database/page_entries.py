@@ -6,7 +6,7 @@ import re
 from decimal import Decimal, InvalidOperation
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import OptipathError, shown
+from optipath.errors import OptipathError, ValueFault, shown
 from optipath.values.curves.dispersion_formula import DispersionFormula
 from optipath.values.curves.tabulated import Tabulated
 
@@ -36,6 +36,8 @@ class PageEntry(NamedTuple):
         Those of a table: wavelengths in metres, and a column for each part.
     coefficients : tuple of float
         Those of a formula.
+    rows : tuple of int
+        Which rows of the data the lines of a table are.
     """
 
     kind: str
@@ -43,6 +45,7 @@ class PageEntry(NamedTuple):
     span: tuple[float, float]
     columns: tuple[tuple[float, ...], ...] = ()
     coefficients: tuple[float, ...] = ()
+    rows: tuple[int, ...] = ()
 
     def curve(
         self, label: str, parts: Sequence[str], interpolation: str, extrapolate: str
@@ -72,9 +75,27 @@ class PageEntry(NamedTuple):
             return DispersionFormula(
                 label, number, self.coefficients, self.span, extrapolate=extrapolate
             )
+        if faults := self._faults_of_rows(label):
+            raise ValueFault(*faults)
         wanted = [self.columns[1 + self.parts.index(part)] for part in parts]
         how = {"interpolation": interpolation, "extrapolate": extrapolate}
         return Tabulated(label, tuple(parts), self.columns[0], wanted, **how)
+
+    def _faults_of_rows(self, label: str) -> list[str]:
+        """Return what is wrong with the wavelengths of a table."""
+        places = self.columns[0]
+        faults = [
+            f"row {row} of {label} has the wavelength {place * 1e6:.10g}; give lengths above 0"
+            for row, place in zip(self.rows, places, strict=True)
+            if place <= 0.0
+        ]
+        same = [at for at in range(1, len(places)) if places[at] == places[at - 1] > 0.0]
+        return faults + [
+            f"{label} has the wavelength {places[at] * 1e9:.10g} nm twice, in the rows "
+            f"{min(self.rows[at - 1 : at + 1])} and {max(self.rows[at - 1 : at + 1])}; give each "
+            f"once"
+            for at in same
+        ]
 
 
 def entries_of(contents: Any, faults: list[str]) -> list[PageEntry]:
@@ -126,7 +147,8 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
     if not isinstance(data, str) or not data.strip():
         raise OptipathError(f"('{kind}') has no 'data'; give rows of wavelength and {kind[10:]}")
     lines = [(at, line.split()) for at, line in enumerate(data.splitlines(), 1) if line.strip()]
-    rows, faults = [], []
+    rows: dict[tuple[float, ...], int] = {}
+    faults = []
     for at, words in lines:
         numbers = _decimals(words)
         if not numbers:
@@ -139,11 +161,14 @@ def _table(kind: str, parts: tuple[str, ...], data: Any) -> PageEntry:
                 f"{1 + len(parts)}"
             )
             continue
-        rows.append((_metres(wavelength), *map(float, values)))
+        rows.setdefault((_metres(wavelength), *map(float, values)), at)
     if faults:
         raise OptipathError(*faults)
-    columns = tuple(zip(*sorted({*rows}), strict=True))
-    return PageEntry(kind, parts, (columns[0][0], columns[0][-1]), columns=columns)
+    ordered = sorted(rows)
+    columns = tuple(zip(*ordered, strict=True))
+    span = columns[0][0], columns[0][-1]
+    found = tuple([rows[row] for row in ordered])
+    return PageEntry(kind, parts, span, columns=columns, rows=found)
 
 
 def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:

@@ -12,6 +12,20 @@ LONGEST = 1e-3
 """Above this many metres, a number was most likely meant in another unit."""
 
 
+def too_long(wavelength: float) -> str:
+    """Say of a number above `LONGEST` that it is no wavelength, and what it may have been.
+
+    Examples
+    --------
+    >>> too_long(188.0).partition(";")[0]
+    '188 metres, which is no wavelength of light'
+    """
+    return (
+        f"{wavelength:g} metres, which is no wavelength of light; multiply those in nanometres by "
+        f"1e-9, and those in micrometres by 1e-6"
+    )
+
+
 class WavelengthDomain(Domain):
     """Wavelengths in vacuum, above 0 and in metres.
 
