@@ -181,3 +181,9 @@ def test_light_is_by_no_wavelength_where_several_are_in_doubt():
     known = light.at_wavelengths(GRID).integrate().intensity
     between = (light.intensity[1:] + light.intensity[:-1]) / 2.0
     assert known == pytest.approx(np.sum(between * np.diff(1e9 * GRID)))
+
+
+def test_a_spectrum_at_a_known_wavelength_leaves_the_wavelength_to_others():
+    dye = op.Material.cauchy([op.Parameter("a"), 0.004], wavelength=5e-7).n
+    light = probed_gold(spectrum=dye).trace(wavelength=GRID, a=1.5)
+    assert np.array_equal(light.wavelength, GRID)

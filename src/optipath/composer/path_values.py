@@ -141,7 +141,9 @@ class Values:
         per_nanometre = {
             use.value.given_by[0].name: None
             for use in self.uses
-            if use.domain is SPECTRAL and isinstance(use.value, CurveValue)
+            if use.domain is SPECTRAL
+            and isinstance(use.value, CurveValue)
+            and isinstance(use.value.given_by[0], Parameter)
         }
         return Inputs(
             open={name: p for name, p in self.parameters.items() if not p.bound},

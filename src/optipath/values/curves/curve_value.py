@@ -149,7 +149,20 @@ class CurveValue(Parameter):
         return _number(self.given_by[place], given)
 
     def check_place(self, owner: str, domain: Domain) -> None:
-        """Raise besides where a 0 is asked for, and there is one at no wavelength."""
+        """Raise besides where a 0 is asked for, and there is one at no wavelength.
+
+        Parameters
+        ----------
+        owner : str
+            The place, as sentences name it.
+        domain : Domain
+            What the values there may be.
+
+        Raises
+        ------
+        ValueFault
+            Naming the curve, and what to do about it.
+        """
         super().check_place(owner, domain)
         nowhere = not self.offset and self.scale and self.curve.is_nowhere_0(self.place)
         if nowhere and takes_0_alone(domain):

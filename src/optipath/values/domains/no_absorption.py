@@ -14,6 +14,8 @@ class NoAbsorption(Domain):
 
     Attributes
     ----------
+    minimum, maximum : float
+        Both are 0.
     why : str
         Why they must be, as a sentence goes on behind "0".
     otherwise : str
