@@ -9,8 +9,8 @@ from optipath.kernels.dispersion.drude_lorentz import drude_lorentz_permittivity
 from optipath.kernels.dispersion.permittivity import index_of_permittivity
 from optipath.kernels.dispersion.tauc_lorentz import tauc_lorentz_permittivity
 from optipath.values.agreement import first_faults
-from optipath.values.curves.broadening_limit import BroadeningLimit
 from optipath.values.cures import cure
+from optipath.values.curves.broadening_limit import BroadeningLimit
 from optipath.values.curves.coefficients import (
     NOT_NEGATIVE,
     POSITIVE,
