@@ -12,6 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from optipath.engines.program.execute import execute
+from optipath.engines.step_by_step import StepByStep
 from optipath.errors import ComposerError
 from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.numbers.primitives import NUMPY
@@ -162,12 +163,13 @@ class JaxPath:
         """Return the Stokes vector of every reading, and what has been solved for loops."""
         solvers: list[LoopSolver] = []
         fixed = JAX.fixed(operands)
-        found = execute(self.program, fixed, carrier, emitted, self._number, None, solvers)
+        found = execute(
+            self.program, fixed, StepByStep(carrier), emitted, self._number, None, solvers
+        )
         # Where the smaller of two intensities changes, the light that is carried has no slope,
         # but what matrices make of it has: light comes from the one, its slope from the other.
-        smooth = execute(
-            self.program, operands, MatrixCarrier(sloped(self.dtype)), emitted, self._number
-        )
+        matrices = StepByStep(MatrixCarrier(sloped(self.dtype)))
+        smooth = execute(self.program, operands, matrices, emitted, self._number)
         stokes = {}
         for name, reading in self.program.readings.items():
             components, exponent = found[reading.light]

@@ -35,25 +35,34 @@ def _ldexp(number: Any, power: Any) -> Any:
     return number * jnp.ldexp(one, half) * jnp.ldexp(one, power - half)
 
 
-def _apart(function: Callable[..., tuple[Any, ...]]) -> Callable[..., tuple[Any, ...]]:
-    """Make a kernel a function of its own for XLA, too, and not a part of whatever calls it.
+def _apart(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function a piece of its own for XLA, too, and not a part of whatever calls it.
 
-    On a CPU, XLA fuses all that comes before a result into its loop, again for each result: its
-    time grows with the square of what is in one piece. Numbers that are known stay so.
+    On a CPU, XLA fuses all that comes before a result into its loop, again for each result, and
+    computes what is shared by several terms of it again for each: its time grows with the square
+    of what is in one piece, at the least, and with a power of its depth at the worst. The function
+    takes and returns numbers in any nest of tuples; those that are known stay so.
     """
 
-    def called(*given: Any) -> tuple[Any, ...]:
+    def called(*given: Any) -> Any:
+        numbers, form = jax.tree_util.tree_flatten(given)
         known: dict[int, Any] = {}
+        forms: list[Any] = []
 
         def of_arrays(arrays: dict[int, Any]) -> dict[int, Any]:
-            found, plain = _parted(function(*(arrays.get(i, n) for i, n in enumerate(given))))
+            together = [arrays.get(place, number) for place, number in enumerate(numbers)]
+            result = function(*jax.tree_util.tree_unflatten(form, together))
+            results, form_of_result = jax.tree_util.tree_flatten(result)
+            forms.append(form_of_result)
+            found, plain = _parted(results)
             known.update(plain)
             return found
 
         with _not_inlined():
-            found = jax.jit(of_arrays)(_parted(given)[0])
+            found = jax.jit(of_arrays)(_parted(numbers)[0])
         together = found | known
-        return tuple(together[place] for place in range(len(together)))
+        in_order = [together[place] for place in range(len(together))]
+        return jax.tree_util.tree_unflatten(forms[-1], in_order)
 
     return called
 
