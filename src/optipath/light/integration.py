@@ -219,8 +219,8 @@ def noise_of_sum(
     floor = light.noise_floor + rounding(known(light.mantissa))
     with np.errstate(over="ignore", under="ignore"):
         share = np.ldexp(floor, light.exponent - np.expand_dims(exponent, axis))
-        found = np.sum(share * np.abs(weights).reshape(shape), axis=axis)
-    return found.astype(stokes.dtype)  # type: ignore[no-any-return]
+        found: Array = np.sum(share * np.abs(weights).reshape(shape), axis=axis)
+    return found.astype(stokes.dtype)
 
 
 def _widths_of(edges: Any, grid: Array) -> Array:

@@ -147,7 +147,7 @@ class Curve(Unchanging, ABC):
     def digest(self) -> str:
         """Some letters that equal curves share, and others do not."""
         return blake2b(
-            repr((type(self).__name__, self.content)).encode(), digest_size=6
+            repr((type(self).__name__, self.content)).encode(), digest_size=8
         ).hexdigest()
 
     def __eq__(self, other: object) -> bool:

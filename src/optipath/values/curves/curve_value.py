@@ -306,7 +306,7 @@ def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
     """Return a name that nobody can give, and that equal values alone share."""
     keys = [Operand(one).key() for one in given_by]
     bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
-    mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=4).hexdigest()
+    mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=8).hexdigest()
     return f"{curve.parts[place]} of {curve.label} [{mark}]"
 
 
