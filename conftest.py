@@ -2,4 +2,6 @@
 
 from importlib.util import find_spec
 
-collect_ignore_glob = [] if find_spec("jax") else ["src/optipath/engines/jax_[!e]*.py"]
+OF_JAX = ["src/optipath/engines/jax_path.py", "src/optipath/values/arrays/jax_primitives.py"]
+
+collect_ignore = [] if find_spec("jax") else OF_JAX
