@@ -71,7 +71,11 @@ def test_a_medium_that_does_not_follow_is_told():
         ((1.5, INTO_GLASS, 1), {"count": 0}, "count must be a whole number above 0, not 0"),
         ((1.5, op.Parameter("p"), 1), {}, "tell the number of vertices of the chain, count=..."),
         ((1.5 + 1j, INTO_GLASS, 1), {}, "index is complex; give a real index .* light goes on in"),
-        ((op.Material(1.5, 1), INTO_GLASS, 1), {}, "index.k is 1; give a real extinction"),
+        (
+            (op.Material(1.5, 1), INTO_GLASS, 1),
+            {},
+            "index.k is 1; give 0, since light goes on in there",
+        ),
         ((1.5, op.VerticesByAngles((0.3,)), 1), {}, "are angles, which say reflections alone"),
     ],
 )
