@@ -186,7 +186,12 @@ def test_points_that_no_surface_refracts_so_are_refused_when_they_are_given(engi
         (INTO_GLASS, [1.0], {}, "from n = 1 into n = 1 lets it go straight on; move the points"),
         (INTO_GLASS, [1.0], {"outside": 1.01}, "turns it by 8.0693"),
         (INTO_GLASS, [1.5 + 0.1j], {}, "vertex1.index is complex; give a real index"),
-        (INTO_GLASS, [op.Material(1.5, 0.1)], {}, "vertex1.index.k is 0.1; give a real ext"),
+        (
+            INTO_GLASS,
+            [op.Material(1.5, 0.1)],
+            {},
+            "vertex1.index.k is 0.1; give 0, since light goes on in there",
+        ),
         (INTO_GLASS, [0.0], {}, "vertex1.index is 0"),
         (op.VerticesByAngles((0.3,)), [1.5], {}, "'?vertex1'?.vertices are angles, which say refl"),
         (INTO_GLASS, [1.5], {"events": "t"}, "events is 't'; give R .*: 'T'"),
