@@ -123,6 +123,7 @@ def test_a_plan_says_what_ran():
     plan = op.load_preset("malus").compose()
     assert plan.engine_for(1) == FLOATS
     assert plan.engine_for(1000) == "numpy"
+    assert plan.engine_for(10**400) == plan.engine_for(2**53)
     stream = plan.stream(1000, angle=np.linspace(0.0, 1.0, 2500))
     assert [part.light.stokes.shape[0] for part in stream] == [1000, 1000, 500]
 

@@ -42,6 +42,7 @@ def fault_of(attack):
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", op.LoopWarning)
             warnings.simplefilter("ignore", op.AngleWarning)
+            warnings.simplefilter("ignore", op.ColourWarning)
             attack.act()
     except op.OptipathError as error:
         fault = _fault_of_sentences(error.faults)

@@ -2,6 +2,7 @@
 
 import inspect
 
+import numpy as np
 from tests.fuzz.attack import Attack
 from tests.fuzz.odd_values import a_value, given, taken
 
@@ -35,6 +36,9 @@ _PLAUSIBLE = [
         "{'delta': 0.3}",
         "3",
     ),
+    *("'516 nm'", "'2.4 eV'", "5e-7", "[4e-7, 5e-7, 6e-7]", "['400 nm', '500 nm']", "'nm'"),
+    *("'gold'", "'D65'", "'linear'", "'nearest'", "'deg/mm'", "[1.0, 0.5, 0.2]"),
+    *("op.Wavelength()", "op.Spectrum.black_body(3000.0)", "op.Material.cauchy([1.5, 0.004])"),
 ]
 
 
@@ -77,8 +81,26 @@ def _made():
         for name in dir(type(thing)):
             if name[0] != "_" and name != "of" and callable(getattr(type(thing), name)):
                 found[f"{label}.{name}"] = getattr(thing, name)
+    for made in (op.Material, op.Spectrum, op.Crystal, op.Waveplate):
+        for name, member in vars(made).items():
+            if name[0] != "_" and isinstance(member, classmethod):
+                found[f"op.{made.__name__}.{name}"] = getattr(made, name)
+    spectrum = op.Spectrum.histogram([4e-7, 5e-7, 6e-7], [1.0, 2.0])
+    glass = op.Material.cauchy([1.5, 0.004])
+    spectral = _spectral_light()
+    methods = [glass.at, spectrum.at, spectrum.power, spectrum.rebin, spectrum.resample]
+    methods += [spectral.integrate, spectral.at_wavelengths, spectral.to_xyz, spectral.to_srgb]
+    found |= {f"the {method.__qualname__}": method for method in methods}
     plate = op.Retarder(1.0, op.Parameter("angle"))
     return found | {"plate.port_back": plate.port_back, "there_and_back": _there_and_back}
+
+
+def _spectral_light():
+    path = op.PathGraph()
+    path.add("lamp", op.Source(spectrum=op.Spectrum.black_body(3000.0)))
+    path.add("eye", op.Detector())
+    path.connect("lamp", "eye")
+    return path.trace(wavelength=np.linspace(4e-7, 7e-7, 5))
 
 
 def _there_and_back(first, last):

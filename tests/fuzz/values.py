@@ -53,7 +53,9 @@ def _of_an_element(rng):
         for one, other in pairwise(nodes):
             _ = one >> other
         light = path.trace()
-        if not isinstance(element, op.Source) and element.physical is True:
+        if "response" in values or isinstance(element, op.Source):
+            return  # Which may say what is read in any unit.
+        if element.physical is True:
             check_light(light, emitted=1.0 + 1e-5)
 
     return Attack(f"op.{made.__name__}({texts})", act)

@@ -227,6 +227,7 @@ def test_light_that_is_no_spectrum_is_refused(light, sentence):
         ({"response": ["a", "b", "c"]}, "the response must be of real numbers"),
         ({"edges": [4e-7, 5e-7]}, "3 wavelengths have 4 edges of bins"),
         ({"edges": [3e-7, 4.1e-7, 4.2e-7, 7e-7]}, "bin 1 is from 410 nm to 420 nm, and its wave"),
+        ({"edges": [[4e-7], [4e-7, 5e-7]]}, "rows of unequal lengths"),
         ({"edges": [400, 500, 600, 700]}, "for nanometres write '400 nm'"),
     ],
 )

@@ -410,3 +410,8 @@ def test_a_large_array_of_vertices_is_described_by_its_shape():
     path = op.path_from_vertices(random_chains(15, 2, (1000,)), MATERIALS[:2])
     assert "vertices=array(1000, 4, 3)" in draw(path)
     assert len(path.compose().explain()) < 2000
+
+
+def test_what_is_done_with_bad_vertices_is_a_word_and_no_array():
+    with pytest.raises(op.PathError, match=r"bad .* is unknown; there are: refuse, mask"):
+        op.path_from_vertices([[0, 0, 1], [0, 0, 0]], [1.5], bad=np.zeros((1, 2)))

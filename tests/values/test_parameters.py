@@ -19,6 +19,7 @@ def test_words_stand_for_values_and_none_for_absence():
     ("keywords", "message"),
     [
         ({"name": "not a name"}, "letters, digits"),
+        ({"name": "a", "offset": "D65", "offset_dimension": ["length"]}, "must be a text, not"),
         ({"name": "a", "unit": "dge"}, "did you mean 'deg'"),
         ({"name": "a", "default": 2.0, "maximum": 1.0}, "outside its range"),
         ({"name": "a", "default": "up"}, "no word 'up'"),

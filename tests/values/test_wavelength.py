@@ -24,7 +24,14 @@ def test_a_number_of_nanometres_is_refused_with_the_cure():
 
 @pytest.mark.parametrize(
     ("given", "said"),
-    [("516", "has no unit"), (np.nan, "finite"), (-5e-7, "outside its range"), (5e6, "outside")],
+    [
+        ("516", "has no unit"),
+        (np.nan, "finite"),
+        (-5e-7, "outside its range"),
+        (5e6, "outside"),
+        (np.float16(48), "48 metres, which is no wavelength"),
+        (np.zeros(0, complex), "range of reals"),
+    ],
 )
 def test_what_is_no_wavelength_is_refused(given, said):
     with pytest.raises(op.OptipathError, match=said):

@@ -251,6 +251,7 @@ def _are_turned(turns: tuple[Any, ...]) -> bool:
         return False
     try:
         turn = sum(operand.numbers() for operand in operands)
-        return bool(np.all(np.abs(np.sin(turn)) > TURNED))
+        with np.errstate(invalid="ignore"):
+            return bool(np.all(np.abs(np.sin(turn)) > TURNED))
     except (TypeError, ValueError):
         return False  # What is no angle is a fault of its own.

@@ -104,9 +104,10 @@ def integrated(
     exponent : int or ndarray
     noise : tuple or None
     """
-    one_bin = edges is not None and np.size(edges) == 2
+    ends = None if edges is None else _edges(edges)
+    one_bin = ends is not None and ends.size == 2
     light, grid, axis = _along_bins(light, one_bin=one_bin)
-    weights = grid_widths(grid) if edges is None else _widths_of(edges, grid)
+    weights = grid_widths(grid) if ends is None else _widths_of(ends, grid)
     if response is not None:
         weights = weights * _response_at(response, grid)
     numbers = light.mantissa
@@ -223,10 +224,14 @@ def noise_of_sum(
     return found.astype(stokes.dtype)
 
 
-def _widths_of(edges: Any, grid: Array) -> Array:
-    """Return the widths, in nanometres, of bins that somebody gives, each about a wavelength."""
-    check_known("the edges of bins", edges)
-    found = np.asarray(Wavelength("edges").resolve(edges).value, np.float64)
+def _edges(given: Any) -> Array:
+    """Return the edges of bins that somebody gives, in metres."""
+    check_known("the edges of bins", given)
+    return np.asarray(Wavelength("edges").resolve(given).value, np.float64)
+
+
+def _widths_of(found: Array, grid: Array) -> Array:
+    """Return the widths, in nanometres, of bins with these edges, each about a wavelength."""
     if found.shape != (len(grid) + 1,):
         raise ShapeError(
             f"{len(grid)} wavelengths have {len(grid) + 1} edges of bins, one more than there "

@@ -118,7 +118,9 @@ def path_from_vertices(
     points, not_points = _chain(vertices, chains.count)
     of_start = medium_faults("outside", outside, OUTSIDE)
     start = 1.0 if of_start else kept_value("outside", outside, OUTSIDE)
-    faults += [*not_points, *of_start, *unknown("bad", bad, BAD)]
+    of_bad = unknown("bad", bad, BAD)
+    bad = BAD[0] if of_bad else bad
+    faults += [*not_points, *of_start, *of_bad]
     if isinstance(points, VerticesByAngles) and isinstance(chains.events, np.ndarray):
         faults.append("vertices by angles have one length and reflect; give the points")
     if not several:

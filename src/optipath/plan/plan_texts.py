@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.engines.automatic import LARGE
 from optipath.errors import ParameterError
+from optipath.values.arrays.shapes import MOST_PATHS
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ class PlanTexts:
         """
         if faults := whole_number("the number of paths", count, 0):
             raise ParameterError(*faults)
-        return self.answers.light.engine_for(count)  # type: ignore[no-any-return]
+        return self.answers.light.engine_for(min(count, MOST_PATHS))  # type: ignore[no-any-return]
 
     def explain(self) -> str:
         """Return the plan in words: its steps in order, what it reads, what leaves unread.

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 _KINDS: dict[str, tuple[type, str]] = {
-    "help": (str, "a text"),
+    **dict.fromkeys(("help", "offset_dimension"), (str, "a text")),
     "words": (dict, "a dict from word to number"),
     **dict.fromkeys(("optional", "bound"), (bool, "True or False")),
 }

@@ -93,8 +93,10 @@ class Wavelength(Parameter):
         try:
             super()._check_range(array)
         except ParameterError as error:
-            first = array[~self.allows(array)].ravel()[0]
-            if array.dtype.kind == "c" or not 1.0 <= first <= _MOST_NANOMETRES:
+            if array.dtype.kind == "c":
+                raise
+            first = float(array[~self.allows(array)].ravel()[0])
+            if not 1.0 <= first <= _MOST_NANOMETRES:
                 raise
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "

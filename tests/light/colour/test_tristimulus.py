@@ -139,6 +139,7 @@ def test_warnings_are_of_the_line_that_asks():
         ({"observer": "CIE 1931"}, "observer 'CIE 1931' is unknown; did you mean 'CIE 1931 2 deg'"),
         ({"outside": "bright"}, "outside 'bright' is unknown; there are: dark, nearest"),
         ({"white": 1.0}, "white is 1.0, which has no spectrum; give the light of the same path"),
+        ({"white": op.Material(1.5)}, "which has no spectrum; give the light of the same path"),
         ({"white": light_of(np.zeros(81), VISIBLE)}, r"white is dark \(Y = 0\)"),
     ],
 )

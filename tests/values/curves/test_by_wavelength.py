@@ -1,6 +1,7 @@
 """Numbers of one's own by wavelength, and their sums."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -28,6 +29,67 @@ def test_a_table_of_another_dimension_is_refused_where_it_stands():
 def test_what_is_no_table_is_refused_in_words(values, unit):
     with pytest.raises(op.OptipathError):
         op.tabulated(["500 nm", "600 nm"], values, unit)
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"values": np.zeros(0)}, "must be a row of real numbers, not of shape"),
+        ({"values": [1.0, 2.0j]}, "must be a row of real numbers, not"),
+        ({"wavelengths": np.array([5e-7, 6e-7], complex)}, "must be a row of real numbers"),
+        ({"values": [[1.0], [1.0, 2.0]]}, "has rows of unequal lengths"),
+        ({"values": [True, False]}, "must be a row of real numbers, not"),
+        ({"unit": np.eye(3)}, "unit '.*' is unknown"),
+        ({"label": 5}, "the name of a table is 5; give a text"),
+    ],
+)
+def test_what_makes_no_table_is_named(given, sentence):
+    usual = {"wavelengths": ["500 nm", "600 nm"], "values": [1.0, 2.0]}
+    with pytest.raises(op.OptipathError, match=sentence):
+        op.tabulated(**usual | given)
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ({"strengths": 1.0}, "strengths of the rotation must be a row of one coefficient or more"),
+        ({"poles": 1.0}, "poles of the rotation must be a row of one coefficient or more"),
+        ({"poles": [0.1, 0.2]}, "the rotation has 1 strengths and 2 poles"),
+        ({"poles": ["x"]}, "the rotation has the coefficient 'x'; give finite real numbers"),
+        ({"constant": math.inf}, "the rotation has the coefficient inf"),
+        ({"span": "X1"}, "span of the rotation"),
+        ({"span": (1.0,)}, "span of the rotation"),
+        ({"label": None}, "the name of a rotation is None; give a text"),
+    ],
+)
+def test_what_makes_no_rotation_is_named(given, sentence):
+    with pytest.raises(op.OptipathError, match=sentence):
+        op.drude_rotation(**{"strengths": [1.0], "poles": [0.1]} | given)
+
+
+@pytest.mark.parametrize("bound", [{}, {"A": [1.5, 1.6, 1.7]}, {"wavelength": [5e-7, 6e-7]}])
+def test_coefficients_and_wavelengths_that_do_not_broadcast_are_named(bound):
+    glass = op.Material.cauchy([op.Parameter("A"), 0.004])
+    path = (op.Source() >> op.Interface(glass, 0.3) >> op.Detector()).bind(**bound)
+    given = {"A": [1.5, 1.6, 1.7], "wavelength": [5e-7, 6e-7]}
+    open_ones = {name: value for name, value in given.items() if name not in bound}
+    with pytest.raises(op.ParameterError, match="arrays do not broadcast together") as caught:
+        path.trace(**open_ones)
+    assert "A (3,)" in str(caught.value)
+    assert "wavelength (2,)" in str(caught.value)
+
+
+def test_a_coefficient_of_several_values_is_named_beside_wavelengths_that_it_does_not_fit():
+    first = op.Parameter("A", default=1.5, bound=True)
+    several = replace(first, default=np.array([1.5, 1.6, 1.7]))
+    with pytest.raises(op.ShapeError, match="arrays do not broadcast together"):
+        op.Material.cauchy([several, 0.004]).at([5e-7, 6e-7])
+
+
+def test_wavelengths_of_more_axes_than_numpy_has_are_refused_as_others_are():
+    path = op.Source() >> op.Interface(op.Material.cauchy([1.5, 0.004]), 0.3) >> op.Detector()
+    with pytest.raises(op.ParameterError, match="wavelength has 40 axes, and a batch has 30 at m"):
+        path.trace(wavelength=np.full((1,) * 40, 5e-7))
 
 
 def test_sums_and_differences_are_those_of_the_numbers():

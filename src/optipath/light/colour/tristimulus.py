@@ -15,7 +15,9 @@ from optipath.light.wavelength_on_demand import WavelengthOnDemand
 from optipath.values.arrays.jax_values import is_traced, known
 from optipath.values.arrays.shapes import check_broadcast
 from optipath.values.calls_up import calls_up
+from optipath.values.curves.curve_value import CurveValue
 from optipath.values.spectra.grid_bins import NANOMETRES
+from optipath.values.spectra.spectrum import Spectrum
 
 if TYPE_CHECKING:
     from optipath.values.roundings import Array
@@ -87,7 +89,7 @@ def white_sums(
     """
     if isinstance(white, WavelengthOnDemand):
         total, power = _sums(white, observer, outside)
-    elif hasattr(white, "at"):
+    elif isinstance(white, (Spectrum, CurveValue)):
         grid, _ = spectral_axis(light)
         values = np.asarray(white.at(grid), np.float64)[:, np.newaxis]
         weights = _weights(grid, observer, outside)

@@ -7,9 +7,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ValueFault, shown
+from optipath.values.arrays.array_likes import as_given
+from optipath.values.curves.coefficients import several
 from optipath.values.curves.curve_value import curve_values
 from optipath.values.curves.drude_rotation import DrudeRotation
+from optipath.values.curves.formula_curve import EVERYWHERE
 from optipath.values.curves.tabulated import Tabulated
+from optipath.values.labels import label_of
 from optipath.values.texts import numbers_for
 from optipath.values.units import dimension_of, parse_quantity, unit_of
 from optipath.values.wavelength import Wavelength
@@ -70,10 +74,13 @@ def tabulated(
     >>> round(green.at("525 nm"), 12)
     0.4
     """
-    samples = np.asarray(values)
+    label = label_of("a table", label, "the table")
+    samples = as_given(f"values of {label}", values)
     texts = [entry for entry in samples.ravel().tolist() if isinstance(entry, str)]
-    unit = unit or next(map(unit_of, texts), "")
     dimension = dimension_of(unit)
+    if not unit:
+        unit = next(map(unit_of, texts), "")
+        dimension = dimension_of(unit)
     numbers = numbers_for(
         f"values of {label}", values, lambda text: parse_quantity(text, dimension, unit)
     )
@@ -99,7 +106,7 @@ def drude_rotation(
     unit: str = "rad/m",
     *,
     label: str = "the rotation",
-    span: tuple[Any, Any] = (0.0, np.inf),
+    span: tuple[Any, Any] = EVERYWHERE,
     wavelength: Any = None,
 ) -> CurveValue:
     """Return a rotation that follows from the wavelength by the formula of Drude.
@@ -144,7 +151,15 @@ def drude_rotation(
     >>> round(math.degrees(quartz.at("589.3 nm")) / 1000, 3)
     21.725
     """
-    curve = DrudeRotation(label, tuple(strengths), tuple(poles), constant, unit, span)
+    label = label_of("a rotation", label, "the rotation")
+    curve = DrudeRotation(
+        label,
+        several(f"strengths of {label}", strengths),
+        several(f"poles of {label}", poles),
+        constant,
+        unit,
+        span,
+    )
     return curve_values(curve, Wavelength() if wavelength is None else wavelength)[0]  # type: ignore[no-any-return]
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from hashlib import blake2b
 from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
@@ -12,8 +11,10 @@ from optipath.errors import ParameterError, ValueFault, shown
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import changed
+from optipath.values.arrays.shapes import broadcast_fault, check_broadcast
 from optipath.values.curves.computed_check import check_computed, takes_0_alone
 from optipath.values.curves.curve_sum import CurveSum
+from optipath.values.curves.marked_names import marked_name
 from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.domain import Domain
 from optipath.values.operands import Operand
@@ -23,7 +24,7 @@ from optipath.values.units import dimension_of, with_article
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Hashable, Iterable, Mapping
+    from collections.abc import Iterable, Mapping
 
     from optipath.values.curves.curve import Curve
 
@@ -85,9 +86,15 @@ class CurveValue(Parameter):
         ]
 
     def follows(self, given: Mapping[str, Resolved]) -> bool:
-        """Tell whether all is given that it is computed of, and real: no curve is of complex."""
+        """Tell whether all is given that it is computed of, in one shape, and real."""
         names = [one.name for one in self.arguments if not one.bound or one.name in given]
-        return all(name in given and not np.iscomplexobj(given[name].value) for name in names)
+        if any(name not in given or np.iscomplexobj(given[name].value) for name in names):
+            return False
+        return not broadcast_fault(self.shapes(given))
+
+    def shapes(self, given: Mapping[str, Resolved]) -> dict[str, tuple[int, ...]]:
+        """Return the shapes of what it is computed of, by name."""
+        return {one.name: np.shape(_number(one, given)) for one in self.arguments}
 
     def computed(self, given: Mapping[str, Resolved]) -> Resolved:
         """Return its numbers, scale and offset aside.
@@ -195,6 +202,8 @@ class CurveValue(Parameter):
         ------
         ParameterError
             If what else it is computed of is a parameter that has no value yet.
+        ShapeError
+            If that has an array that does not broadcast with the wavelengths.
         ValueFault
             If the curve is not known there.
         """
@@ -209,6 +218,7 @@ class CurveValue(Parameter):
         where = Wavelength().resolve(wavelength).value
         WavelengthRange.of(self.curve).check("the wavelength", where)
         there = _of(self.curve, self.place, (changed(_THERE, default=where), *others))
+        check_broadcast(there.shapes(known))
         found = there.computed(known).value
         check_computed(there.like(self), "", Domain("number"), found, known)
         found = self.placed(found)
@@ -282,7 +292,7 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
     parameters = [one for one in given_by if isinstance(one, Parameter)]
     bound = all(one.bound for one in parameters)
     made = CurveValue(
-        _name(curve, place, given_by),
+        marked_name(curve, place, given_by),
         None,
         unit=curve.unit,
         bound=bound,
@@ -300,19 +310,6 @@ def _of(curve: Curve, place: int, given_by: tuple[Any, ...]) -> CurveValue:
 def _defaults(values: Iterable[Any]) -> dict[str, Resolved]:
     parameters = [one for one in values if isinstance(one, Parameter)]
     return {p.name: p.resolve(p.default) for p in parameters if p.default is not None}
-
-
-def _name(curve: Curve, place: int, given_by: tuple[Any, ...]) -> str:
-    """Return a name that nobody can give, and that equal values alone share."""
-    keys = [Operand(one).key() for one in given_by]
-    bound = [_content(p.default) for p in given_by if isinstance(p, Parameter) and p.bound]
-    mark = blake2b(repr((curve.digest, keys, bound)).encode(), digest_size=8).hexdigest()
-    return f"{curve.parts[place]} of {curve.label} [{mark}]"
-
-
-def _content(number: Any) -> Hashable:
-    """Return what equal numbers share; what JAX traces is equal to itself alone."""
-    return id(number) if is_traced(number) else np.asarray(number).tobytes()
 
 
 def _number(one: Any, given: Mapping[str, Resolved]) -> Any:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ValueFault, shown
 from optipath.values.affine import real_number
 from optipath.values.curves.curve import Curve
-from optipath.values.domains.wavelengths import WAVELENGTH
+from optipath.values.curves.formula_curve import EVERYWHERE, read_span
 from optipath.values.units import dimension_of, parse_quantity
 
 if TYPE_CHECKING:
@@ -46,13 +45,12 @@ class DrudeRotation(Curve):
     poles: tuple[float, ...]
     constant: float = 0.0
     unit: str = "rad/m"
-    span: tuple[float, float] = (0.0, math.inf)
+    span: tuple[float, float] = EVERYWHERE
 
     def __post_init__(self) -> None:
-        numbers = (*self.strengths, *self.poles, self.constant)
         faults = [
             f"{self.label} has the coefficient {shown(one)}; give finite real numbers"
-            for one in numbers
+            for one in (*self.strengths, *self.poles, self.constant)
             if real_number(one) is None
         ]
         if len(self.strengths) != len(self.poles):
@@ -62,12 +60,11 @@ class DrudeRotation(Curve):
             )
         if faults:
             raise ValueFault(*faults)
-        ends = [WAVELENGTH.parse(end) if isinstance(end, str) else end for end in self.span]
         vars(self).update(
             strengths=tuple(map(float, self.strengths)),
             poles=tuple(map(float, self.poles)),
             constant=float(self.constant),
-            span=tuple(ends),
+            span=read_span(f"span of {self.label}", self.span),
             _size=parse_quantity(f"1 {self.unit}", dimension_of(self.unit)),
         )
 

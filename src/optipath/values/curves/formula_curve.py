@@ -55,7 +55,7 @@ class FormulaCurve(Curve):
             except ValueFault as fault:
                 faults += fault.faults
         try:
-            vars(self).update(span=_span(f"span of {label}", span))
+            vars(self).update(span=read_span(f"span of {label}", span))
         except ValueFault as fault:
             faults += fault.faults
         if faults:
@@ -89,7 +89,30 @@ def _plain(given: Any) -> Any:
     return given if is_open else REAL.check("", given).item() + 0.0
 
 
-def _span(owner: str, span: Any) -> tuple[float, float]:
+def read_span(owner: str, span: Any) -> tuple[float, float]:
+    """Return the least and the largest wavelength that a formula holds for, in metres.
+
+    Parameters
+    ----------
+    owner : str
+        What sentences call the pair.
+    span : pair of float or str
+        What is given.
+
+    Returns
+    -------
+    tuple of float
+
+    Raises
+    ------
+    ValueFault
+        If they are no two wavelengths of which the first is less.
+
+    Examples
+    --------
+    >>> read_span("span of a glass", ("400 nm", "1 um"))
+    (4e-07, 1e-06)
+    """
     if span == EVERYWHERE:
         return EVERYWHERE
     ends = WAVELENGTH.check(owner, list(span) if isinstance(span, tuple) else span)

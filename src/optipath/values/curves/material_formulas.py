@@ -8,6 +8,7 @@ from optipath.values.curves.curve_material import CurveMaterial
 from optipath.values.curves.formula_curve import EVERYWHERE
 from optipath.values.curves.oscillator_curve import DrudeLorentz, TaucLorentz
 from optipath.values.curves.sellmeier_curve import Cauchy, Sellmeier
+from optipath.values.labels import label_of
 
 
 class MaterialFormulas(CurveMaterial):
@@ -63,7 +64,7 @@ class MaterialFormulas(CurveMaterial):
         >>> round(Material.sellmeier(b, c, name="BK7").at("587.6 nm").n, 5)
         1.5168
         """
-        label = name or "a Sellmeier formula"
+        label = label_of("a material", name, "a Sellmeier formula")
         curve = Sellmeier(label, b, c, resonances=resonances, offset=offset, span=span)
         return cls.of_curve(curve, wavelength, k)
 
@@ -103,7 +104,7 @@ class MaterialFormulas(CurveMaterial):
         >>> Material.cauchy([1.5, 0.004], wavelength="500 nm")
         Material(n=1.516, k=0.0)
         """
-        curve = Cauchy(name or "a Cauchy formula", coefficients, span=span)
+        curve = Cauchy(label_of("a material", name, "a Cauchy formula"), coefficients, span=span)
         return cls.of_curve(curve, wavelength, k)
 
     @classmethod
@@ -152,7 +153,7 @@ class MaterialFormulas(CurveMaterial):
         >>> Material.drude_lorentz(9.0, 0.02, background=4.0, name="silver")
         Material 'silver', any wavelength
         """
-        label = name or "a Drude-Lorentz model"
+        label = label_of("a material", name, "a Drude-Lorentz model")
         given = {"strength": strength, "oscillators": oscillators, "background": background}
         return cls.of_curve(DrudeLorentz(label, plasma, damping, **given, span=span), wavelength)
 
@@ -196,7 +197,7 @@ class MaterialFormulas(CurveMaterial):
         >>> round(silicon.at("500 nm").n, 4)
         4.4573
         """
-        label = name or "a Tauc-Lorentz model"
+        label = label_of("a material", name, "a Tauc-Lorentz model")
         return cls.of_curve(
             TaucLorentz(label, oscillators, background=background, span=span), wavelength
         )

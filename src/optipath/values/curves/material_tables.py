@@ -10,6 +10,7 @@ from optipath.errors import ValueFault
 from optipath.values.curves.csv_columns import read_columns
 from optipath.values.curves.curve_material import CurveMaterial
 from optipath.values.curves.tabulated import Tabulated
+from optipath.values.labels import label_of
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -66,7 +67,7 @@ class MaterialTables(CurveMaterial):
         >>> gold
         Material 'gold', 500 nm .. 521 nm
         """
-        label = name or "a table of n and k"
+        label = label_of("a material", name, "a table of n and k")
         columns: dict[str, Any] = {"n": np.full(np.shape(wavelengths), n) if np.ndim(n) == 0 else n}
         constant = np.ndim(k) == 0
         if not constant:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, shown, unknown
+from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.read_only import locked
 from optipath.values.arrays.shapes import first_place
 from optipath.values.cures import argument, cure
@@ -148,7 +149,7 @@ def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray
     of_wavelengths = name == "wavelengths"
     try:
         parse = WAVELENGTH.parse if of_wavelengths else lambda text: parse_quantity(text, "")
-        array = np.array(numbers_for(owner, given, parse), np.float64)
+        array = _real(owner, numbers_for(owner, given, parse))
     except OptipathError as fault:
         faults += fault.faults
     except (TypeError, ValueError):
@@ -161,6 +162,13 @@ def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray
             return array
         faults.append(f"{owner} must be a row of real numbers, not of shape {array.shape}")
     return np.zeros(1)
+
+
+def _real(owner: str, given: Any) -> np.ndarray[Any, Any]:
+    array = as_given(owner, given)
+    if array.dtype.kind not in "iufO":
+        raise TypeError
+    return array.astype(np.float64)
 
 
 def _wavelength_fault(label: str, places: np.ndarray[Any, Any]) -> str:

@@ -8,6 +8,7 @@ from optipath.errors import ValueFault, shown
 from optipath.values.curves.csv_columns import read_columns
 from optipath.values.curves.curve import Curve
 from optipath.values.domains.domain import Domain
+from optipath.values.labels import label_of
 from optipath.values.spectra.black_body import BlackBody
 from optipath.values.spectra.even_spectrum import EvenSpectrum
 from optipath.values.spectra.gaussian_line import GaussianLine
@@ -75,7 +76,8 @@ class SpectrumMaking(Curve):
         ValueFault
             With all that is wrong with the samples.
         """
-        return cls(Sampled(wavelengths, values, outside, _label(name, "a sampled spectrum")))
+        label = label_of("a spectrum", name, "a sampled spectrum")
+        return cls(Sampled(wavelengths, values, outside, label))
 
     @classmethod
     def from_csv(
@@ -139,7 +141,7 @@ class SpectrumMaking(Curve):
         ValueFault
             If these are no bins.
         """
-        return cls(Histogram(edges, powers, outside, _label(name, "a histogram")))
+        return cls(Histogram(edges, powers, outside, label_of("a spectrum", name, "a histogram")))
 
     @classmethod
     def line(cls, wavelength: Any, power: Any = 1.0, *, outside: Any = None) -> Self:
@@ -269,9 +271,3 @@ class SpectrumMaking(Curve):
             If it is none.
         """
         return cls(EvenSpectrum(one_number("value of a constant spectrum", value)))
-
-
-def _label(name: Any, usual: str) -> str:
-    if not isinstance(name, str):
-        raise ValueFault(f"the name of a spectrum is {shown(name)}; give a text")
-    return name or usual
