@@ -31,5 +31,7 @@ def test_what_is_not_above_0_is_refused(text):
 @pytest.mark.parametrize("text", ["516", "516 deg"])
 def test_all_units_of_a_wavelength_are_named_where_one_is_missing(text):
     for read in (op.Wavelength().resolve, op.Material.cauchy([1.5, 0.004]).at, op.Spectrum.line):
-        with pytest.raises(op.OptipathError, match=r"nm, um, mm, cm, dm, m, or eV, 1/cm, THz$"):
+        with pytest.raises(
+            op.OptipathError, match=r"nm, um, mm, cm, dm, m, angstrom, or eV, 1/cm, THz$"
+        ):
             read(text)

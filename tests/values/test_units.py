@@ -47,6 +47,7 @@ def test_quantities_are_read_in_their_units(text, dimension, value):
         ("30,40", "", r"'30.40'\? \(a text is one value; several are an array, in Python\)$"),
         ("45 degrees", "angle", "'degrees' of '45 degrees' is unknown; did you mean 'deg'"),
         ("0.5 µm", "length", "'µm' of '0.5 µm' is unknown; did you mean 'um'"),
+        ("5000 Å", "length", "'Å' of '5000 Å' is unknown; did you mean 'angstrom'"),
         ("500 Nanometres", "length", "of '500 Nanometres' is unknown; did you mean 'nm'"),
         ("-5 / cm", "inverse length", r"'-5 / cm' is not a quantity; did you mean '-5 1/cm'"),
         ("5 cm^-1", "inverse length", r"of '5 cm\^-1' is unknown; did you mean '1/cm'"),

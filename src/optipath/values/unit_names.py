@@ -17,6 +17,9 @@ _SINGULAR = {
     **_ANGLES,
     "degree": "deg",
     "micron": "um",
+    "ångström": "angstrom",
+    "angstroem": "angstrom",
+    "angstrom": "angstrom",
     "tesla": "T",
     "millitesla": "mT",
     "gauss": "G",
@@ -25,6 +28,7 @@ _SINGULAR = {
     "arc second": "arcsec",
 }
 _SIGNS = {"°": "deg", "º": "deg", "'": "arcmin", '"': "arcsec", "µm": "um", "μm": "um", "µ": "um"}
+_SIGNS |= dict.fromkeys(("å", "\u212b"), "angstrom")
 _NAMES = {**_SINGULAR, **{f"{name}s": unit for name, unit in _SINGULAR.items()}, **_SIGNS}
 _NAMES |= {"degs": "deg", "rads": "rad", "mic": "um", "mu": "um"}
 

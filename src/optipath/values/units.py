@@ -42,7 +42,7 @@ _ANGLES = {
     "arcmin": Unit("angle", size=math.pi / 10800.0),
     "arcsec": Unit("angle", size=math.pi / 648000.0),
 }
-_LENGTHS = {"nm": -9, "um": -6, "mm": -3, "cm": -2, "dm": -1, "m": 0}
+_LENGTHS = {"nm": -9, "um": -6, "mm": -3, "cm": -2, "dm": -1, "m": 0, "angstrom": -10}
 _PER_LENGTH = ("um", "mm", "cm", "dm", "m")
 
 UNITS: dict[str, Unit] = {

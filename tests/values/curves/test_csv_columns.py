@@ -30,6 +30,9 @@ def read(tmp_path):
         "wavelength,n,k\n500 nm,0.97,1.87\n0.521 um,0.62,2.08\n",
         "wavelength (nm),n,k\n500 nm,0.97,1.87\n521,0.62,2.08\n",
         '"wavelength (nm)",n,"k"\n"500","0.97",1.87\n521,0.62,"2.08"\n',
+        "wavelength (angstrom),n,k\n5000,0.97,1.87\n5210,0.62,2.08\n",
+        "\u03bb (\u00c5),n,k\n5000,0.97,1.87\n5210,0.62,2.08\n",
+        "wl (um),n\n0.5,0.97\n0.521,0.62\n\nwl (um),k\n0.5,1.87\n0.521,2.08\n",
     ],
 )
 def test_columns_are_found_by_their_names_and_units(read, text):
@@ -47,6 +50,13 @@ def test_columns_are_found_by_their_names_and_units(read, text):
 def test_a_photon_energy_a_wave_number_or_a_frequency_is_a_wavelength(read, head, cell):
     found = read(f"{head},n\n{cell},1.5\n", ["n"])
     assert found.wavelengths[0] == pytest.approx(516.6e-9, rel=1e-5)
+
+
+def test_a_second_table_may_be_left_unread_or_have_the_unit_that_is_given(read):
+    # As refractiveindex.info writes files.
+    text = "wl,n\n0.5,1.5\n0.6,1.4\nwl,k\n0.5,2\n0.6,3\n"
+    assert read(text, unit="um").columns["k"].tolist() == [2.0, 3.0]
+    assert [*read(text, ["n"], unit="um").columns] == ["n"]
 
 
 def test_a_unit_may_be_given_where_the_file_has_none(read):
@@ -96,7 +106,7 @@ def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):
         ("wavelength,n,k\n400 nm,1,1\n500,1,1\n", "line 3: '500' has no unit"),
         (
             "wavelength (um),n,k\n400 nm,1,1\n",
-            "line 2: '400 nm' is in another unit than 'um' of the first line; leave one of them",
+            "line 2: '400 nm' is in another unit than 'um' of line 1; leave one of them",
         ),
         ("wavelength (nm),n,k\n500,-1,1\n", "line 2: n is -1; write none below 0"),
         (
@@ -116,14 +126,21 @@ def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):
             "wavelength (nm),n,k\n0.4,1,1\n0.5,1,1\n",
             "the wavelengths are 0.4 nm .. 0.5 nm, which are most likely um; give the unit um, or",
         ),
+        (
+            "wl (um),n\n0.5,1\n0.6,1\nwl (um),k\n0.5,1\n",
+            "line 4 begins a second table, whose wavelengths are not those of the first; write all",
+        ),
+        ("wl (um),n,k\n0.5,1,1\nwl (um),k\n0.5,1\n", "line 3 begins a second table of k; keep"),
+        ("wl (um),n\n0.5,1\nwl (um),k\n0.5,x\n", "line 4: k is 'x', which is no number"),
+        ("wl (um),n\n0.5,1\nwl (um),n2\n0.5,1\n", "line 1 names no column 'k'"),
         ("wavelength (m),n,k\n516,1,1\n", "516 metres, which is no wavelength of light"),
         ("wl (nm),energy (eV),n,k\n516,2.4,1,1\n", "has 'wl (nm)' and 'energy (eV)'; keep one"),
         ("wavelength (nm),n,n,k\n516,1,1,1\n", "line 1 has 2 columns 'n'; keep one"),
         ("wavelength (nm),n,k\n500,nan,1\n", "line 2: n is nan; write a number"),
         ("wavelength (nm),n,k\n500,,1\n", "line 2: n is empty; write one"),
         ("wavelength (nm);n;k\n500;1,5;1\n", "line 2: n is '1,5', which is no number"),
-        ("wavelength (nm),n,k\n500,1\n", "line 2 has 2 values, and the first line 3 names"),
-        ("wavelength (nm),n,k\n500,1,5,1\n", "line 2 has 4 values, and the first line 3 names"),
+        ("wavelength (nm),n,k\n500,1\n", "line 2 has 2 values, and line 1 has 3 names"),
+        ("wavelength (nm),n,k\n500,1,5,1\n", "line 2 has 4 values, and line 1 has 3 names"),
         ("wavelength (nm),n,k\n-5,1,1\n", "line 2: the wavelength is -5; give numbers above 0"),
         ("wavelength (nm),n,k\nred,1,1\n", "line 2: 'red nm' is not a quantity"),
         (

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import csv
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from optipath.errors import OptipathError, ValueFault, shown
-from optipath.values.curves.csv_header import axis_of, has_numbers, places_of
+from optipath.errors import OptipathError, ValueFault, listed, shown
+from optipath.values.curves.csv_header import axis_of, has_numbers, is_header, names_in, places_of
 from optipath.values.curves.doubtful_units import unit_doubted
 from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.given_files import given_file
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from os import PathLike
     from pathlib import Path
+
+Array: TypeAlias = "np.ndarray[Any, Any]"
 
 _MOST_TOLD = 12
 
@@ -56,7 +59,8 @@ def read_columns(
     The first line has the names of the columns, a unit in parentheses: ``wavelength (nm)``, ``wl
     [um]``, ``wavelength_nm``, ``energy (eV)``; or each wavelength has one, ``400 nm``. Values are
     separated by commas, semicolons or tabulators; empty lines and those that begin with ``#`` are
-    comments.
+    comments. A second first line begins a second table, of the same wavelengths, as files of
+    refractiveindex.info have n and k.
 
     Parameters
     ----------
@@ -85,23 +89,71 @@ def read_columns(
     lines = _lines(file)
     if not lines:
         raise ValueFault("it is empty; write a line for each wavelength", about=str(file))
+    blocks = _blocks(lines)
+    wanted = [names_in(block[0][1], names) for block in blocks]
+    # What is in none is missed in the first.
+    others = {name for here in wanted[1:] for name in here}
+    wanted[0] = [name for name in names if name in wanted[0] or name not in others]
+    try:
+        tables = [
+            (block[0][0], *_table(block, here, unit, cures or {}, signs or {}))
+            for block, here in zip(blocks, wanted, strict=True)
+            if here
+        ]
+        wavelengths, columns = _joined(tables)
+    except ValueFault as fault:
+        raise ValueFault(*_told([*fault.faults]), about=str(file)) from None
+    return CsvColumns(file.stem, wavelengths, columns)
+
+
+_Line: TypeAlias = tuple[int, list[str]]
+
+
+def _blocks(lines: list[_Line]) -> list[list[_Line]]:
+    """Return the lines of each table of a file, of which each begins with the names of columns."""
+    begins = [0, *[at for at, (_, cells) in enumerate(lines) if at and is_header(cells)]]
+    return [lines[begin:end] for begin, end in pairwise([*begins, len(lines)])]
+
+
+def _table(
+    lines: list[_Line],
+    names: Sequence[str],
+    unit: str,
+    cures: Mapping[str, str],
+    signs: Mapping[str, str],
+) -> tuple[Array, dict[str, Array]]:
+    """Return the wavelengths and the columns of a table."""
     (number, header), *rows = lines
     faults: list[str] = []
     first = rows[0][1] if rows else []
     at, of_axis = axis_of(number, header, unit, faults, names=names, first=first)
-    places = {} if has_numbers(header) else places_of(number, header, names, cures or {}, faults)
+    places = {} if has_numbers(header) else places_of(number, header, names, cures, faults)
     if not faults and not rows:
         faults.append(f"line {number} is the only one; write a line for each wavelength behind it")
     if faults:
-        raise ValueFault(*faults, about=str(file))
-    found = _Rows({name: [] for name in names}, signs or {})
+        raise ValueFault(*faults)
+    found = _Rows({name: [] for name in names}, signs, number)
     for row in rows:
         found.read(row, at, of_axis, places, len(header))
     found.check_order(of_axis)
     if found.faults:
-        raise ValueFault(*_told(found.faults), about=str(file))
-    columns = {name: np.array(values) for name, values in found.columns.items()}
-    return CsvColumns(file.stem, np.array(found.wavelengths), columns)
+        raise ValueFault(*found.faults)
+    return np.array(found.wavelengths), {name: np.array(v) for name, v in found.columns.items()}
+
+
+def _joined(tables: list[tuple[int, Array, dict[str, Array]]]) -> tuple[Array, dict[str, Array]]:
+    """Return the columns of tables of the same wavelengths."""
+    (_, wavelengths, columns), *others = tables
+    for number, here, more in others:
+        if twice := sorted(columns.keys() & more):
+            raise ValueFault(f"line {number} begins a second table of {listed(twice)}; keep one")
+        if not np.array_equal(here, wavelengths):
+            raise ValueFault(
+                f"line {number} begins a second table, whose wavelengths are not those of the "
+                f"first; write all columns of a wavelength into one line"
+            )
+        columns |= more
+    return wavelengths, columns
 
 
 def _check_texts(names: Sequence[Any], unit: Any) -> None:
@@ -123,6 +175,7 @@ class _Rows:
 
     columns: dict[str, list[float]]
     signs: Mapping[str, str]
+    header: int
     numbers: list[int] = field(default_factory=list)
     wavelengths: list[float] = field(default_factory=list)
     faults: list[str] = field(default_factory=list)
@@ -140,8 +193,8 @@ class _Rows:
         line, cells = row
         if len(cells) != count:
             self.faults.append(
-                f"line {line} has {len(cells)} values, and the first line {count} names; write "
-                f"one for each"
+                f"line {line} has {len(cells)} values, and line {self.header} has {count} names; "
+                f"write one for each"
             )
             return
         before = len(self.faults)
@@ -159,8 +212,8 @@ class _Rows:
         self.have_units |= bool(own)
         if own and unit and own != unit:
             self.faults.append(
-                f"line {line}: '{cell}' is in another unit than '{unit}' of the first line; leave "
-                f"one of them out"
+                f"line {line}: '{cell}' is in another unit than '{unit}' of line {self.header}; "
+                f"leave one of them out"
             )
             return np.nan
         try:

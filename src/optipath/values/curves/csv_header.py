@@ -26,6 +26,7 @@ _AXES = {
 _CALLED = {dimension: name for name, dimension in reversed(_AXES.items())}
 
 _SPELT = {"\u00b5m": "um", "\u03bcm": "um", "microns": "um", "micron": "um", "ev": "eV"}
+_SPELT |= dict.fromkeys(("\u00c5", "\u212b", "A", "angstroms", "Angstrom"), "angstrom")
 _SPECTRAL = ("eV", "meV", "keV", "1/cm", "cm^-1", "cm-1", "1/um", "1/mm", "1/m")
 _FREQUENCIES = ("THz", "GHz", "PHz", "Hz")
 _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
@@ -118,6 +119,40 @@ def axis_of(
             f"line {number}: the unit '{own}' of '{name}' is unknown{did_you_mean(own, known)}"
         )
     return found[0], own
+
+
+def is_header(cells: Sequence[str]) -> bool:
+    """Tell whether a line names a column of wavelengths.
+
+    Examples
+    --------
+    >>> is_header(["wl", "k"]), is_header(["0.5", "1.2"])
+    (True, False)
+    """
+    return any(_name_and_unit(cell)[0] in _AXES for cell in cells)
+
+
+def names_in(header: Sequence[str], names: Sequence[str]) -> list[str]:
+    """Return those of some names that a first line has.
+
+    Parameters
+    ----------
+    header : sequence of str
+        What stands in the line.
+    names : sequence of str
+        What columns may be called, capitals or not.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> names_in(["wl (um)", "N"], ["n", "k"])
+    ['n']
+    """
+    heads = [_name_and_unit(head)[0] for head in header]
+    return [name for name in names if name.lower() in heads]
 
 
 def places_of(
