@@ -166,7 +166,8 @@ class Values:
         looked_at = set()
         ranges, out_of = [], set()
         told: set[str] = set()
-        for use in sorted(self.uses, key=self._is_taken_over):
+        some_taken_over = TAKEN_OVER in self.graph.graph
+        for use in sorted(self.uses, key=self._is_taken_over) if some_taken_over else self.uses:
             follows = isinstance(use.value, CurveValue) and use.rests_on(faulty)
             if of_range := isinstance(use.domain, WavelengthRange):
                 ranges.append(use)

@@ -157,8 +157,10 @@ class Parameter(AffineArithmetic):
 
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
-        mine, others = vars(self), vars(other)
-        return self is other or all(same(mine[n], others[n]) for n in mine.keys() - _ASIDE)
+        told = vars(self).keys() - _ASIDE
+        return self is other or all(
+            map(same, map(vars(self).get, told), map(vars(other).get, told))
+        )
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
