@@ -158,9 +158,7 @@ class Parameter(AffineArithmetic):
     def same_specification(self, other: Parameter) -> bool:
         """Tell whether another parameter says the same of the value, scale and offset aside."""
         told = vars(self).keys() - _ASIDE
-        return self is other or all(
-            map(same, map(vars(self).get, told), map(vars(other).get, told))
-        )
+        return self is other or all(map(same, *[map(vars(p).get, told) for p in (self, other)]))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Parameter):
