@@ -1,8 +1,11 @@
 """Columns of numbers by wavelength, read from files."""
 
+import re
+
 import numpy as np
 import pytest
 
+import optipath as op
 from optipath.errors import ValueFault
 from optipath.values.curves.csv_columns import read_columns
 
@@ -59,6 +62,18 @@ def test_a_second_table_may_be_left_unread_or_have_the_unit_that_is_given(read):
     assert [*read(text, ["n"], unit="um").columns] == ["n"]
 
 
+@pytest.mark.parametrize("unit", ["", "um"])
+def test_tables_of_different_wavelengths_are_read_as_the_refusal_has_it(tmp_path, unit):
+    axis = "wl" if unit else "wl (um)"
+    path = tmp_path / "gold.csv"
+    path.write_text(f"{axis},n\n0.4,1.5\n0.6,1.4\n{axis},k\n0.45,1\n0.7,2\n", "utf-8")
+    with pytest.raises(ValueFault, match="begins a second table, whose") as fault:
+        op.Material.from_csv(path, unit=unit)
+    code = re.search(r"op\.Material\(.*", str(fault.value))[0]
+    found = eval(code, {"op": op, "path": path}).at("500 nm")  # noqa: S307 - it is our own
+    assert (found.n, found.k) == pytest.approx((1.45, 1.2), rel=1e-14)
+
+
 def test_a_unit_may_be_given_where_the_file_has_none(read):
     assert read("wavelength,n\n500,1\n", ["n"], unit="nm").wavelengths.tolist() == [5e-7]
 
@@ -95,6 +110,9 @@ def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):
         ("x,n,k\n500,1,1\n", "line 1 names no column of wavelengths, but x, n and k; begin with"),
         ("500,1,1\n510,1,1\n", "line 1 has numbers, and no names of columns; begin with a line"),
         ("wavelength,n,k\n516,1,1\n", "line 1: 'wavelength' has no unit; write 'wavelength (nm)'"),
+        ("wl,n,k\n0.4,1,1\n0.6,1,1\n", "write 'wl (um)', or give unit='um'"),
+        ("wl,n,k\n0.4,1,1\n400,1,1\n", "write 'wl (nm)', or give unit='nm'"),
+        ("energy,n,k\n2.4,1,1\n", "write 'energy (eV)', or give unit='eV'"),
         ("wavelength (mn),n,k\n516,1,1\n", "the unit 'mn' of 'wavelength' is unknown"),
         (
             "energy (nm),n,k\n516,1,1\n",

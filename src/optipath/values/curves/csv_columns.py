@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -11,6 +10,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ValueFault, listed, shown
 from optipath.values.curves.csv_header import axis_of, has_numbers, is_header, names_in, places_of
+from optipath.values.curves.csv_lines import Line, first_of, lines_of
 from optipath.values.curves.doubtful_units import unit_doubted
 from optipath.values.domains.wavelengths import LONGEST
 from optipath.values.given_files import given_file
@@ -20,11 +20,8 @@ from optipath.values.units import parse_quantity, unit_of
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from os import PathLike
-    from pathlib import Path
 
 Array: TypeAlias = "np.ndarray[Any, Any]"
-
-_MOST_TOLD = 12
 
 
 @dataclass(frozen=True)
@@ -86,7 +83,7 @@ def read_columns(
     """
     file = given_file(path)
     _check_texts(names, unit)
-    lines = _lines(file)
+    lines = lines_of(file)
     if not lines:
         raise ValueFault("it is empty; write a line for each wavelength", about=str(file))
     blocks = _blocks(lines)
@@ -100,23 +97,20 @@ def read_columns(
             for block, here in zip(blocks, wanted, strict=True)
             if here
         ]
-        wavelengths, columns = _joined(tables)
+        wavelengths, columns = _joined(tables, unit)
     except ValueFault as fault:
-        raise ValueFault(*_told([*fault.faults]), about=str(file)) from None
+        raise ValueFault(*first_of([*fault.faults]), about=str(file)) from None
     return CsvColumns(file.stem, wavelengths, columns)
 
 
-_Line: TypeAlias = tuple[int, list[str]]
-
-
-def _blocks(lines: list[_Line]) -> list[list[_Line]]:
+def _blocks(lines: list[Line]) -> list[list[Line]]:
     """Return the lines of each table of a file, of which each begins with the names of columns."""
     begins = [0, *[at for at, (_, cells) in enumerate(lines) if at and is_header(cells)]]
     return [lines[begin:end] for begin, end in pairwise([*begins, len(lines)])]
 
 
 def _table(
-    lines: list[_Line],
+    lines: list[Line],
     names: Sequence[str],
     unit: str,
     cures: Mapping[str, str],
@@ -125,8 +119,8 @@ def _table(
     """Return the wavelengths and the columns of a table."""
     (number, header), *rows = lines
     faults: list[str] = []
-    first = rows[0][1] if rows else []
-    at, of_axis = axis_of(number, header, unit, faults, names=names, first=first)
+    below = [cells for _, cells in rows]
+    at, of_axis = axis_of(number, header, unit, faults, names=names, rows=below)
     places = {} if has_numbers(header) else places_of(number, header, names, cures, faults)
     if not faults and not rows:
         faults.append(f"line {number} is the only one; write a line for each wavelength behind it")
@@ -141,7 +135,9 @@ def _table(
     return np.array(found.wavelengths), {name: np.array(v) for name, v in found.columns.items()}
 
 
-def _joined(tables: list[tuple[int, Array, dict[str, Array]]]) -> tuple[Array, dict[str, Array]]:
+def _joined(
+    tables: list[tuple[int, Array, dict[str, Array]]], unit: str
+) -> tuple[Array, dict[str, Array]]:
     """Return the columns of tables of the same wavelengths."""
     (_, wavelengths, columns), *others = tables
     for number, here, more in others:
@@ -150,10 +146,18 @@ def _joined(tables: list[tuple[int, Array, dict[str, Array]]]) -> tuple[Array, d
         if not np.array_equal(here, wavelengths):
             raise ValueFault(
                 f"line {number} begins a second table, whose wavelengths are not those of the "
-                f"first; write all columns of a wavelength into one line"
+                f"first; write all columns into lines of common wavelengths, or read each from its "
+                f"own table, as {_apart([*columns, *more], unit)}"
             )
         columns |= more
     return wavelengths, columns
+
+
+def _apart(names: Sequence[str], unit: str) -> str:
+    """Return code that reads columns at wavelengths of their own."""
+    given = f", unit='{unit}'" if unit else ""
+    one = f"op.Spectrum.from_csv(path, column{given}).at(op.Wavelength())"
+    return f"op.Material(*[{one} for column in {(*names,)}])"
 
 
 def _check_texts(names: Sequence[Any], unit: Any) -> None:
@@ -275,41 +279,3 @@ class _Rows:
 def _is_plain(cell: str) -> bool:
     """Tell whether Python reads no more into a text than a number: ``1_5`` is not meant as 15."""
     return cell.isascii() and "_" not in cell
-
-
-def _lines(file: Path) -> list[tuple[int, list[str]]]:
-    """Return the lines with values, each with its number."""
-    try:
-        text = file.read_text("utf-8-sig")
-    except FileNotFoundError:
-        raise ValueFault("there is no such file; look at its name", about=str(file)) from None
-    except (OSError, UnicodeDecodeError) as fault:
-        why = "it is no text in UTF-8" if isinstance(fault, ValueError) else fault.strerror
-        raise ValueFault(f"it cannot be read: {why}", about=str(file)) from None
-    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
-    lines = [(number, line) for number, line in lines if line and not line.startswith("#")]
-    if not lines:
-        return []
-    separator = next((each for each in ";\t" if each in lines[0][1]), ",")
-    faults: list[str] = []
-    found = [(number, _cells(number, line, separator, faults)) for number, line in lines]
-    if faults:
-        raise ValueFault(*_told(faults), about=str(file))
-    return found
-
-
-def _cells(number: int, line: str, separator: str, faults: list[str]) -> list[str]:
-    try:
-        (cells,) = csv.reader([line], delimiter=separator, strict=True)
-    except csv.Error as fault:
-        quotes = "quotation marks are not closed, or amid a cell"
-        why = quotes if '"' in line else f"it cannot be read ({fault})"
-        faults.append(f"line {number}: {why}; write numbers alone, without quotation marks")
-        return []
-    return [cell.strip() for cell in cells]
-
-
-def _told(faults: list[str]) -> list[str]:
-    """Return the first of many faults, and how many more there are."""
-    more = len(faults) - _MOST_TOLD
-    return [*faults[:_MOST_TOLD], *[f"and {more} more"] * (more > 0)]

@@ -49,7 +49,7 @@ def axis_of(
     faults: list[str],
     *,
     names: Sequence[str] = (),
-    first: Sequence[str] = (),
+    rows: Sequence[Sequence[str]] = (),
 ) -> tuple[int, str]:
     """Return which column has the wavelengths, and in which unit.
 
@@ -65,8 +65,8 @@ def axis_of(
         To which is added what is wrong.
     names : sequence of str, optional
         The columns besides.
-    first : sequence of str, optional
-        What stands in the line behind it.
+    rows : sequence of sequence of str, optional
+        What stands in the lines behind it.
 
     Returns
     -------
@@ -101,13 +101,15 @@ def axis_of(
     if own and unit and own != _SPELT.get(unit, unit):
         faults.append(f"line {number} has the unit {own}, and unit='{unit}' is given; leave it out")
     own = own or _SPELT.get(unit, unit)
-    if not own and unit_of("".join(first[found[0] : found[0] + 1])):
+    cells = [row[found[0]] for row in rows if len(row) > found[0]]
+    if not own and cells and unit_of(cells[0]):
         return found[0], ""
     other = next((_CALLED[one] for one, those in units.items() if own in those), name)
     if not own:
+        likely = "um" if dimension == "length" and _in_micrometres(cells) else known[0]
         faults.append(
-            f"line {number}: '{name}' has no unit; write '{name} ({known[0]})', or give "
-            f"unit='{known[0]}'"
+            f"line {number}: '{name}' has no unit; write '{name} ({likely})', or give "
+            f"unit='{likely}'"
         )
     elif own not in known and other != name:
         faults.append(
@@ -119,6 +121,14 @@ def axis_of(
             f"line {number}: the unit '{own}' of '{name}' is unknown{did_you_mean(own, known)}"
         )
     return found[0], own
+
+
+def _in_micrometres(cells: Sequence[str]) -> bool:
+    """Tell whether all numbers are such as wavelengths of light have in micrometres."""
+    try:
+        return bool(cells) and all(0.1 <= float(cell) <= 30.0 for cell in cells)
+    except ValueError:
+        return False
 
 
 def is_header(cells: Sequence[str]) -> bool:
