@@ -85,10 +85,13 @@ def test_a_unit_may_be_given_where_the_file_has_none(read):
         ("wavelength (nm),n\n0.4 nm,1\n0.5 nm,1\n", 0.4e-9),
         ("wavelength (mm),n\n0.4,1\n0.5,1\n", 400e-6),
         ("wavelength (um),n\n0.2,1\n500,1\n", 0.2e-6),
+        ("wavelength (nm),n\n400000,1\n500000,1\n", 400e-6),
+        ("energy (eV),n\n400,1\n500,1\n", 4.135667696923859e-15 * 299792458.0 / 400.0),
+        ("frequency (THz),n\n0.4,1\n0.5,1\n", 299792458.0 / 0.4e12),
     ],
 )
 def test_the_far_infrared_and_x_rays_can_be_said(read, text, least):
-    assert read(text, ["n"]).wavelengths[0] == pytest.approx(least, rel=1e-15)
+    assert read(text, ["n"]).wavelengths[0] == pytest.approx(least, rel=1e-14)
 
 
 def test_a_first_line_that_is_missing_is_told_by_the_columns_asked_for(read):

@@ -15,7 +15,8 @@ _DOUBTS = {"um": (100e-6, np.inf, "nm"), "nm": (0.0, 10e-9, "um")}
 """Between which metres all wavelengths of a table in a unit are doubted, and what is meant.
 
 The far infrared is 100 um and more, and 100 to 1000 is what light has in nanometres; X-rays are
-below 10 nm, and 0.1 to 10 is what it has in micrometres.
+below 10 nm, and 0.1 to 10 is what it has in micrometres. Of other units nothing is doubted: tables
+of X-rays are usual in eV, and those of the far infrared in THz and 1/cm.
 """
 
 
