@@ -89,7 +89,10 @@ def test_a_width_in_electronvolts_is_taken_at_the_peak_in_files_as_well():
             r"wavelengths: the wavelengths are 400 um .. 500 um, which are most likely nm",
         ),
         ('{ edges = [0.4, 0.5], unit = "nm", powers = [1] }', "which are most likely um"),
-        ('{ edges = ["500 nm"], powers = [] }', "one sample or more"),
+        (
+            '{ edges = ["500 nm"], powers = [] }',
+            "must be a list with a number for each wavelength or bin",
+        ),
         ("{ sum = 3 }", "a list of tables"),
         ('"D65"', r"'D65' is no spectrum by itself; write \{ illuminant = \"D65\" \}"),
         ('"633 nm"', r"write \{ line = \"633 nm\" \}"),

@@ -5,6 +5,7 @@ import pytest
 import optipath as op
 
 SAMPLES = 'wavelengths = [400, 500, 600], unit = "nm", n = [1.5, 1.0, 0.3], k = [1.9, 1.8, 2.9]'
+OF_N = 'wavelengths = [400, 600], unit = "nm", n = [1.5, 1.0]'
 LORENTZ = "drude_lorentz = { plasma = 9, damping = 0.02, oscillators = [[0.02, 0.4, 0.2]] }"
 
 
@@ -12,8 +13,10 @@ LORENTZ = "drude_lorentz = { plasma = 9, damping = 0.02, oscillators = [[0.02, 0
 def read(tmp_path):
     def of(index):
         file = tmp_path / "path.toml"
+        declared = "[parameters.absorbed]\n" if "$absorbed" in index else ""
         file.write_text(
             'format = 1\nelements.lamp.kind = "source"\nelements.eye.kind = "detector"\n'
+            f"{declared}"
             f'[elements.metal]\nkind = "interface"\nincidence = "60 deg"\nindex = {index}\n'
             '[[links]]\nfrom = "lamp"\nto = "metal"\n'
             '[[links]]\nfrom = "metal.reflected"\nto = "eye"\n',
@@ -47,6 +50,8 @@ def read_back(path, tmp_path):
             f'{{ n = 1.5, k = {{ difference = [{{ {SAMPLES} }}, {{ {SAMPLES}, part = "n" }}] }} }}',
             (1.5, 0.8),
         ),
+        (f"{{ {OF_N}, k = 0.1 }}", (1.25, 0.1)),
+        (f"{{ {OF_N}, k = {{ {SAMPLES} }} }}", (1.25, 1.8)),
         ("{ n = 1.5, k = { cauchy = { coefficients = [0.25] } } }", (1.5, 0.25)),
     ],
 )
@@ -84,3 +89,24 @@ def test_a_name_gives_its_k_where_a_k_stands(read, tmp_path):
         assert again == path
         assert at_500(again) == at_500(path)
     assert at_500(path)[1] == gold[1]
+
+
+def test_a_k_beside_samples_may_be_a_parameter(read, tmp_path):
+    path = read(f'{{ {OF_N}, k = "$absorbed" }}')
+    known = read(f"{{ {OF_N}, k = 0.2 }}")
+    assert path.trace(wavelength="500 nm", absorbed=0.2) == known.trace(wavelength="500 nm")
+    assert read_back(path, tmp_path) == path
+
+
+@pytest.mark.parametrize(
+    ("index", "told"),
+    [
+        (f"{{ {OF_N}, k = [0.1] }}", "2 wavelengths and 1 of k; give one of each for each"),
+        (f"{{ {OF_N}, k = -0.1 }}", "metal.index.k is -0.1; give a real extinction"),
+        (f"{{ n = {{ {OF_N}, k = 0.1 }} }}", "k: must be a list with a number for each wavel"),
+    ],
+)
+def test_a_k_that_does_not_fit_its_samples_is_told(read, index, told):
+    with pytest.raises(op.PathError) as caught:
+        read(index)
+    assert told in str(caught.value)

@@ -96,7 +96,7 @@ def decode_curve(
         raise PresetError(f"'{form}' gives one number; write it for n, as {one}")
     whole = {key: raw[key] for key in raw if of_index or key not in _OF_NUMBER}
     found = _parts(whole, form, domain, of_index, parameters, decode)
-    if of_index and form in FORMULAS and "k" in raw:
+    if of_index and _has_k_beside(raw, form):
         return _with_k(found, raw, form, decode)
     if of_index:
         return Material(**found)
@@ -129,16 +129,24 @@ def _parts(
         return material_by_name(raw, when, decode)
     if form == CRYSTAL:
         return {CRYSTAL: number_of_crystal(raw[CRYSTAL], domain, when)}
+    if of_index and form == SAMPLES and _has_k_beside(raw, form):
+        columns = ("n",)
     curve = (
         sampled_curve(raw, columns, domain) if form == SAMPLES else formula_of(raw, form, decode)
     )
     return _at(curve, when)
 
 
+def _has_k_beside(raw: Mapping[str, Any], form: str) -> bool:
+    """Tell whether the k of a material stands beside a formula or samples, and is none of it."""
+    sampled = form == SAMPLES and isinstance(raw.get("k"), list)
+    return form in (SAMPLES, *FORMULAS) and "k" in raw and not sampled
+
+
 def _with_k(
     found: Mapping[str, Any], raw: Mapping[str, Any], form: str, decode: Decode
 ) -> Material:
-    """Return the material of a formula of n, with the k that stands beside it."""
+    """Return the material of a formula or of samples of n, with the k that stands beside it."""
     if "k" in found:
         raise PresetError(f"'{form}' gives k as well; leave k out")
     faults = Faults()

@@ -132,7 +132,10 @@ def samples_of(raw: Any, unit: str) -> list[float]:
     >>> samples_of([1.5, 1.6], ""), samples_of(["1 mm"], "mm")
     ([1.5, 1.6], [0.001])
     """
-    return [_sample(entry, place, unit) for place, entry in enumerate(_list(raw))]
+    return [
+        _sample(entry, place, unit)
+        for place, entry in enumerate(_list(raw, "with a number for each wavelength or bin"))
+    ]
 
 
 def _sample(entry: Any, place: int, unit: str) -> float:
@@ -150,10 +153,10 @@ def _sample(entry: Any, place: int, unit: str) -> float:
     return number
 
 
-def _list(raw: Any) -> list[Any]:
+def _list(raw: Any, of: str = "of one wavelength or more") -> list[Any]:
     if isinstance(raw, list) and raw:
         return raw
-    raise PresetError(f"must be a list of one sample or more, not {shown(raw)}")
+    raise PresetError(f"must be a list {of}, not {shown(raw)}")
 
 
 def _real(entry: Any, place: int) -> float:
