@@ -81,6 +81,11 @@ class Affine:
         return f"{multiple} {sign} {format_quantity(abs(self.offset), self.unit)}"
 
     @property
+    def called(self) -> str:
+        """What sentences call it: a parameter by its name, what follows from one by its curve."""
+        return getattr(self, "spoken", f"parameter '{self.name}'")
+
+    @property
     def plain_numbers(self) -> Any:
         """What it is known to be, of which degrees are told from radians; None for nothing."""
         return getattr(self, "default", None)

@@ -160,6 +160,14 @@ def test_a_wavelength_that_is_known_is_within_the_range(made, when):
         made(when)
 
 
+def test_what_no_value_by_wavelength_may_be_is_refused_by_the_name_of_its_curve():
+    glass = op.Material.cauchy([1.5, 0.004], name="glass")
+    with pytest.raises(op.ParameterError, match=r"n of glass cannot be raised .* 2 \* n of glass"):
+        glass.n**2
+    with pytest.raises(op.ValueFault, match="such as n of glass, n of glass; give op"):
+        op.Interface((glass.n, glass.n), 0.3)
+
+
 @pytest.mark.parametrize("place", [op.Rotator, op.Retarder])
 def test_plain_samples_beyond_a_whole_turn_are_told_where_they_are_angles(place):
     with pytest.warns(op.AngleWarning, match="has a value of 95 rad, which is 5443.1 deg"):
