@@ -55,6 +55,7 @@ def test_a_table_is_linear_between_its_samples(written):
         ("0 1.7 0.1", "row 3 of mine.yml has the wavelength 0; give lengths above 0"),
         ("-0.4 1.7 0.1", "row 3 of mine.yml has the wavelength -0.4; give lengths above 0"),
         ("nan 1.7 0.1", "has no numbers in row 3, 'nan 1.7 0.1'"),
+        ("0.6 1_7 0.1", "has no numbers in row 3, '0.6 1_7 0.1'"),
     ],
 )
 def test_a_row_that_cannot_be_is_told(written, row, words):

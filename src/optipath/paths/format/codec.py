@@ -31,7 +31,7 @@ from optipath.values.domains.quantities import AMPLITUDE, ANGLE
 from optipath.values.domains.spectral import SpectralDomain
 from optipath.values.domains.states import IntensityDomain
 from optipath.values.follows import FOLLOWS
-from optipath.values.materials import Material
+from optipath.values.materials import K, Material
 from optipath.values.parameters import Parameter
 from optipath.values.units import dimension_of, format_quantity, parse_quantity, with_article
 
@@ -249,8 +249,12 @@ def _parts(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> dic
     faults = unknown_keys(raw, (*names, *FORMS) if names == INDEX.complex_parts else names)
     if names[0] not in raw and not any(closest(key, FORMS) for key in raw):
         faults.append(f"an {domain.name} written as a table needs '{names[0]}'")
-    pure, given = Domain(domain.name), [key for key in names if key in raw]
-    parts = {key: faults.attempt(f".{key}", decode, raw[key], pure, parameters) for key in given}
+    pure, of_index = Domain(domain.name), names == INDEX.complex_parts
+    domains = {key: K if of_index and key == "k" else pure for key in names if key in raw}
+    parts = {
+        key: faults.attempt(f".{key}", decode, raw[key], of, parameters)
+        for key, of in domains.items()
+    }
     if faults:
         raise PresetError(*faults)
     return parts

@@ -100,7 +100,7 @@ def decode_curve(
         return _with_k(found, raw, form, decode)
     if of_index:
         return Material(**found)
-    return _placed(_chosen(found, raw), raw, domain, decode)
+    return _placed(_chosen(found, raw, domain), raw, domain, decode)
 
 
 def _parts(
@@ -154,9 +154,10 @@ def _at(curve: Curve, when: Any) -> dict[str, Any]:
     return dict(zip(curve.parts, curve_values(curve, when), strict=True))
 
 
-def _chosen(found: Mapping[str, Any], raw: Mapping[str, Any]) -> Any:
-    """Return the number of a table where one is asked for: n where it has both."""
-    part = raw.get("part", next(iter(found)))
+def _chosen(found: Mapping[str, Any], raw: Mapping[str, Any], domain: Domain) -> Any:
+    """Return the number of a table where one is asked for: of n and k the k for a k, else n."""
+    usual = "k" if domain is K and "k" in found else next(iter(found))
+    part = raw.get("part", usual)
     if part not in found:
         raise PresetError(f"'part' is '{part}', but the table has {' and '.join(found)}")
     return found[part]

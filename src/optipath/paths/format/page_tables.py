@@ -100,3 +100,26 @@ def own_part(curve: PageCurve, n: Any, k: Any) -> dict[str, Any]:
         return own  # Without them, it is no material.
     same = isinstance(usual.n, CurveValue) and usual.n.curve.span == curve.span
     return {} if same and own == {"k": 0.0} == {"k": usual.k} else own
+
+
+def is_usual_part(curve: PageCurve, part: str) -> bool:
+    """Tell whether a name by itself gives a curve, with no other part beside it.
+
+    The index of a page without k reaches further, or is had at all, where a k is given.
+
+    Parameters
+    ----------
+    curve : PageCurve
+        Of a material by name.
+    part : str
+        Which it has, ``"n"`` or ``"k"``.
+
+    Returns
+    -------
+    bool
+    """
+    try:
+        usual = getattr(Material.named(**curve.asked), part)
+    except OptipathError:
+        return False
+    return isinstance(usual, CurveValue) and usual.curve == curve

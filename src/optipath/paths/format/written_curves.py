@@ -10,7 +10,7 @@ from optipath.errors import PresetError
 from optipath.paths.format.crystal_tables import CRYSTAL, crystal_of
 from optipath.paths.format.curve_tables import SUM, WHEN
 from optipath.paths.format.formula_tables import formula_table
-from optipath.paths.format.page_tables import own_part, page_table
+from optipath.paths.format.page_tables import is_usual_part, own_part, page_table
 from optipath.paths.format.samples import written_wavelengths
 from optipath.paths.format.spectrum_tables import spectrum_table
 from optipath.values.curves.curve_sum import CurveSum
@@ -56,7 +56,8 @@ def material_table(material: Material, encode: Encode) -> dict[str, Any]:
     for part, value in (("n", n), ("k", k)):
         if _is_plain(value) and isinstance(value.curve, PageCurve):
             curve = value.curve
-            if curve.asked and curve.parts == (part,) and not _are_both_curves(n, k):
+            apart = _are_both_curves(n, k) and is_usual_part(curve, part)
+            if curve.asked and curve.parts == (part,) and not apart:
                 own = own_part(curve, n, k)
                 named = _table(curve, value.given_by, "", encode)
                 return named | {key: encode(each, "") for key, each in own.items()}
@@ -104,15 +105,21 @@ def number_table(value: CurveValue, unit: str, encode: Encode) -> dict[str, Any]
     PresetError
         If its curve has no form in files.
     """
-    table = _table(value.curve, value.given_by, unit, encode)
-    part = value.curve.parts[value.place]
-    if part not in ("value", "n"):  # It is n where a table does not say.
-        table["part"] = part
+    table = _table(value.curve, value.given_by, unit, encode) | _part(value.curve, value.place)
     if value.scale != 1.0:
         table["scale"] = value.scale
     if value.offset:
         table["offset"] = encode(value.offset, unit)
     return table
+
+
+def _part(curve: Curve, place: int) -> dict[str, str]:
+    """Return which of several numbers is meant, in words: where k stands, it is another by default.
+
+    A name gives n and k, whatever its page has.
+    """
+    alone = len(curve.parts) == 1 and not isinstance(curve, PageCurve)
+    return {} if alone else {"part": curve.parts[place]}
 
 
 def _table(curve: Curve, given_by: tuple[Any, ...], unit: str, encode: Encode) -> dict[str, Any]:
@@ -153,9 +160,7 @@ def _sum(curve: CurveSum, given_by: tuple[Any, ...], unit: str, encode: Encode) 
     for factor, one, place in curve.terms:
         count = len(one.arguments())
         own, left = (when, *left[:count]), left[count:]
-        table = _table(one, own, unit, encode)
-        if one.parts[place] not in ("value", "n"):
-            table["part"] = one.parts[place]
+        table = _table(one, own, unit, encode) | _part(one, place)
         terms.append(table | ({"scale": factor} if factor != 1.0 else {}))
     if curve.constant:
         terms[0]["offset"] = encode(curve.constant, unit)

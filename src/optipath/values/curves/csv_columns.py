@@ -229,7 +229,7 @@ class _Rows:
 
     def _number(self, line: int, name: str, cell: str) -> float:
         try:
-            found = float(cell)
+            found = float(cell if _is_plain(cell) else "")
         except ValueError:
             wanted = "is empty" if not cell else f"is {shown(cell)}, which is no number"
             self.faults.append(f"line {line}: {name} {wanted}; write one, such as 1.5")
@@ -270,6 +270,11 @@ class _Rows:
                 f"{'rise' if steps[0] > 0 else 'fall'}, and from line {self.numbers[place]} to "
                 f"this one they do not; sort the lines by wavelength"
             )
+
+
+def _is_plain(cell: str) -> bool:
+    """Tell whether Python reads no more into a text than a number: ``1_5`` is not meant as 15."""
+    return cell.isascii() and "_" not in cell
 
 
 def _lines(file: Path) -> list[tuple[int, list[str]]]:

@@ -181,6 +181,8 @@ def _numbers(entry: dict[str, Any], key: str) -> list[Decimal]:
 
 def _decimals(words: Sequence[str]) -> list[Decimal]:
     """Return numbers, none of them rounded; nothing where one is no finite number."""
+    if not all(word.isascii() and "_" not in word for word in words):
+        return []  # Python reads 15 into 1_5.
     try:
         found = [Decimal(word) for word in words]
     except InvalidOperation:

@@ -8,8 +8,10 @@ import numpy as np
 
 from optipath.errors import ValueFault
 from optipath.values.displayed import displayed
+from optipath.values.spectra.gaussian_line import GaussianLine
 from optipath.values.spectra.histogram import Histogram
 from optipath.values.spectra.lines import Lines
+from optipath.values.spectra.lost_between_samples import lost_between
 from optipath.values.spectra.sampled import Sampled
 from optipath.values.spectra.spectral_values import values_at
 from optipath.values.spectra.sum_of_kinds import SumOfKinds
@@ -161,6 +163,9 @@ def _sampled_at(first: SpectrumKind, second: SpectrumKind, done: str) -> Array:
             f"{both} are sampled at different wavelengths, and cannot be {done} sample by sample; "
             f"resample one to those of the other, first.resample(second.wavelengths)"
         )
+    narrow = [kind for kind in (*first.terms, *second.terms) if isinstance(kind, GaussianLine)]
+    if lost := [fault for kind in narrow if (fault := lost_between(kind, sampled[0]))]:
+        raise ValueFault(*lost)
     return places
 
 
