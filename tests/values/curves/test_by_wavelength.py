@@ -38,6 +38,8 @@ def test_what_is_no_table_is_refused_in_words(values, unit):
         ({"values": [1.0, 2.0j]}, "must be a row of real numbers, not"),
         ({"wavelengths": np.array([5e-7, 6e-7], complex)}, "must be a row of real numbers"),
         ({"values": [[1.0], [1.0, 2.0]]}, "has rows of unequal lengths"),
+        ({"values": [1, 10**400]}, "must be a row of real numbers, not"),
+        ({"values": [1, 10**400], "unit": "deg"}, "must be real numbers, not"),
         ({"values": [True, False]}, "must be a row of real numbers, not"),
         ({"unit": np.eye(3)}, "unit '.*' is unknown"),
         ({"label": 5}, "the name of a table is 5; give a text"),

@@ -163,5 +163,5 @@ def drude_rotation(
 def _in_base_units(label: str, number: Any, unit: str) -> float:
     try:
         return float(parse_quantity(f"{float(number)} {unit}", dimension_of(unit)).real)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         raise ValueFault(f"values of {label} must be real numbers, not {shown(number)}") from None
