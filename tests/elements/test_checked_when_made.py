@@ -190,8 +190,14 @@ def test_a_material_is_understood_wherever_an_index_is():
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
-        (lambda: op.Source(stokes=[1, A, B, 0]), "side by side, such as 'a', 'b'; give one Param"),
-        (lambda: op.Polarizer([A, 0.1]), "Polarizer angle .* such as 'a'; give one Parameter for"),
+        (
+            lambda: op.Source(stokes=[1, A, B, 0]),
+            "side by side, such as parameter 'a', parameter 'b'; give",
+        ),
+        (
+            lambda: op.Polarizer([A, 0.1]),
+            "Polarizer angle .* such as parameter 'a'; give one Parameter for",
+        ),
         (lambda: op.Interface(1.5, op.CosSin(0.6, 0.8)), "give a Parameter here and these where"),
         (lambda: op.CosSin("30 deg"), "takes a cosine and a sine, not '30 deg' alone; give an ang"),
     ],

@@ -150,3 +150,20 @@ def test_the_reference_takes_what_a_curve_comes_to():
     exact = [float(part) for part in exact_stokes(path, wavelength="516 nm")["E"]]
     light = path.trace(wavelength="516 nm")
     np.testing.assert_allclose(light.stokes, exact, rtol=20 * 2.0**-52)
+
+
+def test_a_material_may_be_bound_behind_the_wavelength():
+    path = op.load_preset("npgr026", case=7, n1=metal())
+    found = path.bind(wavelength="500 nm").bind(n2=metal())
+    expected = path.bind(wavelength="500 nm", n2=metal())
+    assert found.trace() == expected.trace()
+    assert found.parameters["wavelength"].bound
+
+
+def test_a_wavelength_that_is_bound_in_a_part_of_a_path_and_open_in_another_is_refused():
+    part = (op.Source() >> op.Interface(metal(), 0.3)).bind(wavelength="500 nm")
+    path = part >> op.Interface(metal(), 0.3) >> op.Detector()
+    with pytest.raises(
+        op.PathError, match=r"'wavelength' is open at .*, and bound elsewhere to 500 nm; bind it"
+    ):
+        path.trace()

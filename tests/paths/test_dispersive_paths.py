@@ -83,7 +83,7 @@ RUNS = [
 def test_light_of_each_wavelength_is_that_of_the_numbers_there(build, engine):
     path = build(lambda given: given, op.Wavelength())
     together = op.Composer(engine=engine).compose(path).run(wavelength=WAVELENGTHS).stokes
-    for found, wavelength in zip(together, WAVELENGTHS.tolist(), strict=True):
+    for found, wavelength in zip(np.asarray(together), WAVELENGTHS.tolist(), strict=True):
 
         def at(given, wavelength=wavelength):
             return given.at(wavelength) if isinstance(given, op.Material) else given

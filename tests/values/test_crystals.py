@@ -87,3 +87,9 @@ def test_what_is_no_crystal_is_refused():
         op.Crystal(op.Material(1.5), 1.6)
     with pytest.raises(op.ValueFault, match="known"):
         op.Crystal.named("quartz").birefringence.at("3 um")
+
+
+def test_a_crystal_at_one_wavelength_has_a_rotatory_power_where_one_was_measured():
+    assert op.Crystal.named("quartz", "1.5 um").rotatory_power is None
+    exact = op.Crystal.named("quartz").rotatory_power.at("589.3 nm")
+    assert op.Crystal.named("quartz", "589.3 nm").rotatory_power == pytest.approx(exact, rel=1e-15)

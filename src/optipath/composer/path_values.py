@@ -205,7 +205,8 @@ class Values:
             name = use.value.name
             known = self.parameters[name]
             alike = use.value is known or use.value.same_specification(known)
-            if not alike and not (_yields(use.value) and dimension_of(known.unit) == "length"):
+            yields = _yields(use.value) and not known.bound
+            if not alike and not (yields and dimension_of(known.unit) == "length"):
                 yield self._difference(use, known)
             if use.domain.tail != self._tails[name]:
                 yield (
@@ -223,6 +224,11 @@ class Values:
     def _difference(self, use: Use, known: Parameter) -> str:
         """Say in what a parameter differs from the one of its name that is met first."""
         name, alike = known.name, changed(use.value, unit=known.unit)
+        if known.bound and not use.value.bound:
+            return (
+                f"parameter '{name}' is open at {use.owner}, and bound elsewhere to "
+                f"{known.text(known.default)}; bind it where the path is whole"
+            )
         if not alike.same_specification(known):
             return (
                 f"parameter '{name}' at {use.owner} differs from the one of that name "

@@ -76,7 +76,8 @@ class Waveplate(Element, kind="waveplate"):
         crystal: str | Crystal | Parameter | float = "quartz",
         *,
         order: int = 0,
-        **others: Any,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
     ) -> Self:
         """Return a quarter-wave plate by the wavelength at which it is one.
 
@@ -88,8 +89,8 @@ class Waveplate(Element, kind="waveplate"):
             What it is made of: a name of `Crystal.named`, or the birefringence.
         order : int, optional
             How many whole waves it retards by besides.
-        **others : float, array_like or Parameter
-            ``angle``, of the fast axis at that wavelength, and ``azimuth``.
+        angle, azimuth : float, array_like or Parameter, optional
+            Of the fast axis at that wavelength, and of the plate's frame.
 
         Returns
         -------
@@ -106,7 +107,7 @@ class Waveplate(Element, kind="waveplate"):
         >>> round(Waveplate.quarter("550 nm", order=10).thickness * 1e6, 1)
         615.5
         """
-        return cls.retarding(math.pi / 2, at, crystal, order=order, **others)
+        return cls.retarding(math.pi / 2, at, crystal, order=order, angle=angle, azimuth=azimuth)
 
     @classmethod
     def half(
@@ -115,7 +116,8 @@ class Waveplate(Element, kind="waveplate"):
         crystal: str | Crystal | Parameter | float = "quartz",
         *,
         order: int = 0,
-        **others: Any,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
     ) -> Self:
         """Return a half-wave plate by the wavelength at which it is one.
 
@@ -123,7 +125,7 @@ class Waveplate(Element, kind="waveplate"):
         ----------
         at : float or str
             The wavelength, in metres, or ``"550 nm"``.
-        crystal, order, **others
+        crystal, order, angle, azimuth
             As in `quarter`.
 
         Returns
@@ -135,7 +137,7 @@ class Waveplate(Element, kind="waveplate"):
         ValueFault
             If any is no such value.
         """
-        return cls.retarding(math.pi, at, crystal, order=order, **others)
+        return cls.retarding(math.pi, at, crystal, order=order, angle=angle, azimuth=azimuth)
 
     @classmethod
     def retarding(
@@ -145,7 +147,8 @@ class Waveplate(Element, kind="waveplate"):
         crystal: str | Crystal | Parameter | float = "quartz",
         *,
         order: int = 0,
-        **others: Any,
+        angle: Any = 0.0,
+        azimuth: Any = 0.0,
     ) -> Self:
         """Return a plate by its retardance at a wavelength.
 
@@ -157,7 +160,7 @@ class Waveplate(Element, kind="waveplate"):
             Beyond whole waves, in radians, not negative; 0 with an order of 1 is a full-wave plate.
         at : float or str
             The wavelength, in metres, or ``"550 nm"``.
-        crystal, order, **others
+        crystal, order, angle, azimuth
             As in `quarter`.
 
         Returns
@@ -170,7 +173,7 @@ class Waveplate(Element, kind="waveplate"):
             If any is no such value.
         """
         thickness, birefringence, wavelength = plate_for(retardance, at, crystal, order)
-        return cls(thickness, birefringence, wavelength, **others)
+        return cls(thickness, birefringence, wavelength, angle, azimuth)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the retarder, its axes turned by the angle."""

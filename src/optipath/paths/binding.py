@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from optipath.composer.path_values import Values, value_faults
+from optipath.composer.path_values import Values, parameters_of, value_faults
 from optipath.errors import OptipathError, ParameterError
 from optipath.paths.bound_materials import materials_placed
 from optipath.paths.exchanged_values import exchanged
@@ -54,6 +54,8 @@ def bind(
                 f"parameters as its default; bind it, by path.bind({min(placed)}=...)"
             )
         graph = exchanged(graph, placed)
+        # A material may follow from a wavelength to which the path is bound already.
+        graph = exchanged(graph, {n: p for n, p in parameters_of(graph).items() if p.bound})
     known_values = Values(graph)
     parameters, inputs = known_values.parameters, known_values.inputs()
     known_names = [*parameters, *graph.graph.get("choices", ())]

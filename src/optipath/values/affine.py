@@ -80,6 +80,16 @@ class Affine:
         sign = "-" if self.offset < 0.0 else "+"
         return f"{multiple} {sign} {format_quantity(abs(self.offset), self.unit)}"
 
+    @property
+    def called(self) -> str:
+        """What sentences call it: a parameter by its name, what follows from one by its curve."""
+        return getattr(self, "spoken", f"parameter '{self.name}'")
+
+    @property
+    def plain_numbers(self) -> Any:
+        """What it is known to be, of which degrees are told from radians; None for nothing."""
+        return getattr(self, "default", None)
+
     def alone(self) -> Self:
         """Return the value itself."""
         is_alone = self.scale == 1.0 and not self.offset and not self.offset_dimension

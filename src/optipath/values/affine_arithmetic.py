@@ -72,14 +72,14 @@ class AffineArithmetic(Affine):
     def _refuse(self, done: str, other: Any = None) -> NoReturn:
         if isinstance(other, (complex, np.complexfloating)):
             raise ParameterError(
-                f"parameter '{self.name}' cannot be {done}; for an index n + ik of which either is "
+                f"{self.called} cannot be {done}; for an index n + ik of which either is "
                 f"a parameter, write op.Material(n, k), and for any other complex number one "
                 f"parameter that is given it whole"
             )
         raise ParameterError(
-            f"parameter '{self.name}' cannot be {done}: it may stand as a multiple with an offset, "
-            f"such as 2 * {self.name} + 0.1, and as nothing else; compute other values in NumPy "
-            f"and give them as the parameter, or write an element of your own"
+            f"{self.called} cannot be {done}: it may stand as a multiple with an offset, "
+            f"such as 2 * {getattr(self, 'spoken', self.name)} + 0.1, and as nothing else; compute "
+            f"other values in NumPy and give them as the parameter, or write an element of your own"
         )
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:
@@ -92,7 +92,7 @@ class AffineArithmetic(Affine):
 
 def _named(other: Any) -> str:
     if isinstance(other, Affine):
-        return f"parameter '{other.name}'"
+        return other.called
     return "a value of JAX" if is_jax(other) else shown(other)
 
 

@@ -12,7 +12,6 @@ from optipath.values.curves.by_wavelength import drude_rotation
 from optipath.values.curves.curve_value import CurveValue, curve_values
 from optipath.values.curves.sellmeier_curve import Sellmeier
 from optipath.values.materials import Material
-from optipath.values.wavelength import Wavelength
 
 
 class _Ray(NamedTuple):
@@ -131,9 +130,9 @@ class Crystal:
         name : str
             ``"quartz"``, ``"calcite"``, ``"magnesium fluoride"`` or ``"sapphire"``; or a
             formula, such as ``"MgF2"``.
-        wavelength : Parameter or float, optional
-            The wavelength of the run; ``Wavelength()`` by default. Where it is a number, so
-            are the indices.
+        wavelength : Parameter, float, str or array_like, optional
+            The wavelength of the run; ``Wavelength()`` by default. Where it is known, the
+            indices are numbers, and there is a rotatory power where one was measured.
 
         Returns
         -------
@@ -153,12 +152,11 @@ class Crystal:
         if key not in _KNOWN:
             raise ValueFault(f"crystal {shown(name)} is unknown{did_you_mean(str(name), _KNOWN)}")
         source, *rays, span = _KNOWN[key]
-        when = Wavelength() if wavelength is None else wavelength
         materials = [
-            _material(f"{way} {key} ({source})", ray, span, when)
+            _material(f"{way} {key} ({source})", ray, span, wavelength)
             for way, ray in zip(("ordinary", "extraordinary"), rays, strict=True)
         ]
-        rotation = _rotation_of_quartz(when) if key == "quartz" else None
+        rotation = _rotation_of_quartz(wavelength) if key == "quartz" else None
         return cls(materials[0], materials[1], rotation, f"{key} ({source})")
 
     @property
@@ -184,17 +182,15 @@ def _is_plain(ray: CurveValue) -> bool:
 
 def _material(label: str, ray: _Ray, span: tuple[str, str], wavelength: Any) -> Material:
     curve = Sellmeier(label, ray.b, ray.c, resonances=ray.resonances, offset=ray.offset, span=span)
-    return Material(curve_values(curve, wavelength)[0])
+    return Material.of_curve(curve, wavelength)
 
 
 def _rotation_of_quartz(wavelength: Any) -> Any:
     """Return the rotatory power; measurements of 1882 are within 0.5 % of it up to 760 nm."""
-    return drude_rotation(
-        (9.5639, -2.3113),
-        (0.0127493, 0.000974),
-        -0.1905,
-        "deg/mm",
-        label="the rotatory power of quartz (Lowry and Coode-Adams 1927)",
-        span=("226 nm", "1.1 um"),
-        wavelength=wavelength,
-    )
+    numbers = (9.5639, -2.3113), (0.0127493, 0.000974), -0.1905
+    label = "the rotatory power of quartz (Lowry and Coode-Adams 1927)"
+    span = ("226 nm", "1.1 um")
+    try:
+        return drude_rotation(*numbers, "deg/mm", label=label, span=span, wavelength=wavelength)
+    except ValueFault:
+        return None  # The indices are known farther.

@@ -160,7 +160,7 @@ def kept_value(owner: str, value: Any, domain: Domain) -> Any:
         # Of a parameter with a unit, it has been told when it was made.
         without = isinstance(value, Parameter) and (value.bound or not value.unit)
         if without:
-            warn_of_degrees(owner, value.default, value)
+            warn_of_degrees(owner, value.plain_numbers, value)
         elif not isinstance(value, Parameter):
             warn_of_degrees(owner, value)
         if isinstance(value, Parameter) and not value.offset_dimension:

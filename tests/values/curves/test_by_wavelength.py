@@ -38,6 +38,8 @@ def test_what_is_no_table_is_refused_in_words(values, unit):
         ({"values": [1.0, 2.0j]}, "must be a row of real numbers, not"),
         ({"wavelengths": np.array([5e-7, 6e-7], complex)}, "must be a row of real numbers"),
         ({"values": [[1.0], [1.0, 2.0]]}, "has rows of unequal lengths"),
+        ({"values": [1, 10**400]}, "must be a row of real numbers, not"),
+        ({"values": [1, 10**400], "unit": "deg"}, "must be real numbers, not"),
         ({"values": [True, False]}, "must be a row of real numbers, not"),
         ({"unit": np.eye(3)}, "unit '.*' is unknown"),
         ({"label": 5}, "the name of a table is 5; give a text"),
@@ -137,3 +139,40 @@ def test_degrees_and_radians_make_the_same_curve():
     in_degrees = op.tabulated(places, ["95 deg", "100 deg"])
     assert in_degrees == op.tabulated(places, np.radians([95.0, 100.0]))
     assert in_degrees != op.tabulated(places, ["95 deg", "101 deg"])
+
+
+KNOWN = [
+    lambda when: op.tabulated(["400 nm", "500 nm"], [1.0, 2.0], wavelength=when),
+    lambda when: op.drude_rotation([1.0], [0.01], span=("400 nm", "500 nm"), wavelength=when),
+    lambda when: op.Crystal.named("calcite", when).birefringence,
+]
+
+
+@pytest.mark.parametrize("made", KNOWN)
+def test_a_wavelength_that_is_known_may_be_a_text(made):
+    assert made("450 nm") == made(450e-9) == pytest.approx(made(None).at("450 nm"), rel=1e-13)
+    several = np.array([4.2e-7, 4.5e-7])
+    np.testing.assert_allclose(made(several), made(None).at(several), rtol=1e-13)
+
+
+@pytest.mark.parametrize("made", KNOWN)
+@pytest.mark.parametrize("when", ["5 um", 5e-6, [4.5e-7, 5e-6], 450, -4.5e-7, 0.0, np.nan, "red"])
+def test_a_wavelength_that_is_known_is_within_the_range(made, when):
+    with pytest.raises(op.OptipathError, match="wavelength"):
+        made(when)
+
+
+def test_what_no_value_by_wavelength_may_be_is_refused_by_the_name_of_its_curve():
+    glass = op.Material.cauchy([1.5, 0.004], name="glass")
+    with pytest.raises(op.ParameterError, match=r"n of glass cannot be raised .* 2 \* n of glass"):
+        glass.n**2
+    with pytest.raises(op.ValueFault, match="such as n of glass, n of glass; give op"):
+        op.Interface((glass.n, glass.n), 0.3)
+
+
+@pytest.mark.parametrize("place", [op.Rotator, op.Retarder])
+def test_plain_samples_beyond_a_whole_turn_are_told_where_they_are_angles(place):
+    with pytest.warns(op.AngleWarning, match="has a value of 95 rad, which is 5443.1 deg"):
+        place(op.tabulated(["400 nm", "700 nm"], [95, 78]))
+    place(op.tabulated(["400 nm", "700 nm"], [95, 78], "deg"))
+    place(op.tabulated(["400 nm", "700 nm"], [95, 78], "rad"))

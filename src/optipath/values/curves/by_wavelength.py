@@ -9,19 +9,16 @@ import numpy as np
 from optipath.errors import ValueFault, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.curves.coefficients import several
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curves.curve_at import curve_at
 from optipath.values.curves.drude_rotation import DrudeRotation
 from optipath.values.curves.formula_curve import EVERYWHERE
 from optipath.values.curves.tabulated import Tabulated
 from optipath.values.labels import label_of
 from optipath.values.texts import numbers_for
 from optipath.values.units import dimension_of, parse_quantity, unit_of
-from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from optipath.values.curves.curve_value import CurveValue
 
 
 def tabulated(
@@ -33,7 +30,7 @@ def tabulated(
     interpolation: str = "linear",
     extrapolate: str = "",
     wavelength: Any = None,
-) -> CurveValue:
+) -> Any:
     """Return a number that follows from the wavelength by samples.
 
     It stands wherever a `Parameter` does: a transmittance, a retardance, a birefringence, a
@@ -54,12 +51,12 @@ def tabulated(
         By straight lines, or by cubics that overshoot no sample.
     extrapolate : {"", "nearest", "linear"}, optional
         What it is beyond its samples: an error, the last sample, or the straight line on.
-    wavelength : Parameter or float, optional
+    wavelength : Parameter, float, str or array_like, optional
         The wavelength of the run; ``Wavelength()`` by default.
 
     Returns
     -------
-    CurveValue
+    CurveValue, or float or ndarray where the wavelength is known
 
     Raises
     ------
@@ -96,7 +93,7 @@ def tabulated(
         extrapolate=extrapolate,
         unit=unit,
     )
-    return curve_values(curve, Wavelength() if wavelength is None else wavelength)[0]  # type: ignore[no-any-return]
+    return curve_at(curve, wavelength)[0]
 
 
 def drude_rotation(
@@ -108,7 +105,7 @@ def drude_rotation(
     label: str = "the rotation",
     span: tuple[Any, Any] = EVERYWHERE,
     wavelength: Any = None,
-) -> CurveValue:
+) -> Any:
     """Return a rotation that follows from the wavelength by the formula of Drude.
 
     It is constant + the sum of A / (w^2 - C): rotatory power (P. Drude, Lehrbuch der Optik (1900),
@@ -128,12 +125,12 @@ def drude_rotation(
         What sentences call it.
     span : pair of float or str, optional
         The wavelengths for which it holds.
-    wavelength : Parameter or float, optional
+    wavelength : Parameter, float, str or array_like, optional
         The wavelength of the run; ``Wavelength()`` by default.
 
     Returns
     -------
-    CurveValue
+    CurveValue, or float or ndarray where the wavelength is known
 
     Raises
     ------
@@ -160,11 +157,11 @@ def drude_rotation(
         unit,
         span,
     )
-    return curve_values(curve, Wavelength() if wavelength is None else wavelength)[0]  # type: ignore[no-any-return]
+    return curve_at(curve, wavelength)[0]
 
 
 def _in_base_units(label: str, number: Any, unit: str) -> float:
     try:
         return float(parse_quantity(f"{float(number)} {unit}", dimension_of(unit)).real)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         raise ValueFault(f"values of {label} must be real numbers, not {shown(number)}") from None

@@ -138,6 +138,10 @@ class Curve(Unchanging, ABC):
         del place
         return self.unreal
 
+    def samples(self, place: int) -> Any:
+        """Return the numbers that somebody gave for one of its parts; None where it has none."""
+        del place
+
     def is_nowhere_0(self, place: int) -> bool:
         """Tell whether it is known that the numbers of one of its parts are above 0 throughout."""
         del place

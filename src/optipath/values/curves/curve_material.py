@@ -4,12 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self
 
-from optipath.values.curves.curve_value import CurveValue, curve_values
-from optipath.values.curves.wavelength_range import WavelengthRange
-from optipath.values.domains.domain import in_unit_of
-from optipath.values.domains.wavelengths import WAVELENGTH
-from optipath.values.parameters import Parameter
-from optipath.values.wavelength import Wavelength
+from optipath.values.curves.curve_at import curve_at
 
 if TYPE_CHECKING:
     from optipath.values.curves.curve import Curve
@@ -54,13 +49,5 @@ class CurveMaterial:
         ValueFault
             If the curve is not known at the wavelength.
         """
-        if isinstance(wavelength, Parameter) or wavelength is None:
-            values = curve_values(curve, in_unit_of(wavelength or Wavelength(), WAVELENGTH))
-        else:
-            there = Wavelength().resolve(wavelength).value
-            WavelengthRange.of(curve).check("the wavelength", there)
-            values = curve_values(curve, there)
-            if not isinstance(values[0], CurveValue):  # Else its coefficients are given later.
-                values = tuple([one.at(there) for one in curve_values(curve, Wavelength())])
-        n, *rest = values
+        n, *rest = curve_at(curve, wavelength)
         return cls(n, rest[0] if rest else k)

@@ -179,12 +179,14 @@ class CurveValue(Parameter):
             )
 
     @property
+    def plain_numbers(self) -> Any:
+        return self.default if self.curve.unit else self.curve.samples(self.place)
+
+    @property
     def spoken(self) -> str:
         """What sentences call it: by its curve, and by its part where that has several."""
-        several = len(self.curve.parts) > 1 or self.curve.parts[0] != "value"
-        return (
-            f"{self.curve.parts[self.place]} of {self.curve.label}" if several else self.curve.label
-        )
+        parts, label = self.curve.parts, self.curve.label
+        return label if parts == ("value",) else f"{parts[self.place]} of {label}"
 
     def at(self, wavelength: Any) -> Any:
         """Return its numbers at wavelengths, scale and offset applied.

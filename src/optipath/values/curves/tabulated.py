@@ -123,6 +123,9 @@ class Tabulated(Curve):
         """The wavelengths of the first and the last sample, in metres."""
         return float(self.wavelengths[0]), float(self.wavelengths[-1])
 
+    def samples(self, place: int) -> Any:
+        return self.columns[place]
+
     def is_nowhere_0(self, place: int) -> bool:
         return self.extrapolate != "linear" and bool(np.all(self.columns[place] > 0.0))
 
@@ -152,7 +155,7 @@ def _samples(label: str, name: str, given: Any, faults: list[str]) -> np.ndarray
         array = _real(owner, numbers_for(owner, given, parse))
     except OptipathError as fault:
         faults += fault.faults
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         faults.append(f"{owner} must be a row of real numbers, not {shown(given)}")
     else:
         if array.ndim == 1 and array.size:

@@ -5,16 +5,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import MaterialError
-from optipath.values.curves.curve_value import curve_values
+from optipath.values.curves.curve_at import curve_at
 from optipath.values.database.curated_names import alike
 from optipath.values.database.installed import read_yaml
 from optipath.values.database.named_pages import VACUUM, NamedPage, named_page
 from optipath.values.database.page_reading import page_curve
-from optipath.values.domains.domain import in_unit_of
-from optipath.values.domains.wavelengths import WAVELENGTH
 from optipath.values.given_files import given_file
-from optipath.values.parameters import Parameter
-from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -63,7 +59,7 @@ def parts_by_name(
     else:
         found = found._replace(clear=None)
     curve = curve_of(found, own=given, interpolation=interpolation, extrapolate=extrapolate)
-    return {**_at(curve, wavelength), **given}
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
 
 
 def parts_of_file(
@@ -106,7 +102,7 @@ def parts_of_file(
         interpolation=interpolation,
         extrapolate=extrapolate,
     )
-    return {**_at(curve, wavelength), **given}
+    return {**dict(zip(curve.parts, curve_at(curve, wavelength), strict=True)), **given}
 
 
 def curve_of(
@@ -158,12 +154,3 @@ def _wanted(name: str, own: Mapping[str, Any]) -> list[str]:
             f"'{name}' is asked for with an n and a k of its own; op.Material(n, k) needs no name"
         )
     return wanted
-
-
-def _at(curve: PageCurve, wavelength: Any) -> dict[str, Any]:
-    """Return the parts of a curve, known if the wavelength is."""
-    if wavelength is None or isinstance(wavelength, Parameter):
-        when = in_unit_of(wavelength or Wavelength(), WAVELENGTH)
-        return dict(zip(curve.parts, curve_values(curve, when), strict=True))
-    several = curve_values(curve, Wavelength())
-    return {part: one.at(wavelength) for part, one in zip(curve.parts, several, strict=True)}

@@ -100,11 +100,10 @@ class Domain:
     def _no_number(self, value: Any, array: npt.NDArray[Any]) -> str:
         """Return why something is no number; what comes behind the name of its owner."""
         entries = array.ravel().tolist() if array.dtype.kind == "O" else []
-        if names := [f"'{entry.name}'" for entry in entries if isinstance(entry, Parameter)]:
-            return (
-                f"cannot have numbers and parameters side by side, such as {', '.join(names[:3])}; "
-                f"give one Parameter for the whole, and all numbers where the path is traced"
-            )
+        if names := [entry.called for entry in entries if isinstance(entry, Parameter)]:
+            whole = "one Parameter for the whole, and all numbers where the path is traced"
+            such, cure = ", ".join(names[:3]), "op.Material(n, k)" if self.complex_parts else whole
+            return f"cannot have numbers and parameters side by side, such as {such}; give {cure}"
         if isinstance(value, CosSin) and self.dimension == "angle":
             return (
                 "cannot keep a cosine and a sine; give a Parameter here and these where the path "

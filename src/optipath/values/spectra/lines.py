@@ -93,8 +93,8 @@ def density_of_lines(lines: Sequence[EmissionLine], wavelengths: Any) -> np.ndar
         raise ParameterError(
             f"{called(lines)} has its power in one bin of a grid, and the wavelengths of this run "
             f"{fault}; give two or more that rise or fall along one axis, with which all else "
-            f"broadcasts, such as wavelength=op.wavelengths('380 nm', '700 nm', '40 nm'), as "
-            f"numbers and not traced"
+            f"broadcasts, as numbers and not traced: in Python, "
+            f"path.trace(wavelength=op.wavelengths('380 nm', '700 nm', '40 nm'))"
         )
     edges = grid_edges(wavelengths)
     found = np.zeros(edges.size - 1)
