@@ -37,6 +37,8 @@ class Affine:
         Of the value.
     unit : str
         In which people write it.
+    default : Any
+        What it is where nobody gives it, or None.
     scale, offset : float
         1 and 0 where it stands for the value itself.
     offset_dimension : str
@@ -45,6 +47,7 @@ class Affine:
 
     name: str
     unit: str
+    default: Any
     scale: float
     offset: float
     offset_dimension: str
@@ -81,14 +84,19 @@ class Affine:
         return f"{multiple} {sign} {format_quantity(abs(self.offset), self.unit)}"
 
     @property
+    def spoken(self) -> str:
+        """What formulas in sentences call the value."""
+        return self.name
+
+    @property
     def called(self) -> str:
-        """What sentences call it: a parameter by its name, what follows from one by its curve."""
-        return getattr(self, "spoken", f"parameter '{self.name}'")
+        """What sentences call the value."""
+        return f"parameter '{self.name}'"
 
     @property
     def plain_numbers(self) -> Any:
         """What it is known to be, of which degrees are told from radians; None for nothing."""
-        return getattr(self, "default", None)
+        return self.default
 
     def alone(self) -> Self:
         """Return the value itself."""

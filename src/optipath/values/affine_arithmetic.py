@@ -78,8 +78,8 @@ class AffineArithmetic(Affine):
             )
         raise ParameterError(
             f"{self.called} cannot be {done}: it may stand as a multiple with an offset, "
-            f"such as 2 * {getattr(self, 'spoken', self.name)} + 0.1, and as nothing else; compute "
-            f"other values in NumPy and give them as the parameter, or write an element of your own"
+            f"such as 2 * {self.spoken} + 0.1, and as nothing else; compute other values in NumPy "
+            f"and give them as the parameter, or write an element of your own"
         )
 
     def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any, **options: Any) -> Any:

@@ -74,10 +74,9 @@ def tabulated(
     label = label_of("a table", label, "the table")
     samples = as_given(f"values of {label}", values)
     texts = [entry for entry in samples.ravel().tolist() if isinstance(entry, str)]
-    dimension = dimension_of(unit)
-    if not unit:
+    if not dimension_of(unit):
         unit = next(map(unit_of, texts), "")
-        dimension = dimension_of(unit)
+    dimension = dimension_of(unit)
     numbers = numbers_for(
         f"values of {label}", values, lambda text: parse_quantity(text, dimension, unit)
     )

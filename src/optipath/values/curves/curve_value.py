@@ -156,20 +156,6 @@ class CurveValue(Parameter):
         return _number(self.given_by[place], given)
 
     def check_place(self, owner: str, domain: Domain) -> None:
-        """Raise besides where a 0 is asked for, and there is one at no wavelength.
-
-        Parameters
-        ----------
-        owner : str
-            The place, as sentences name it.
-        domain : Domain
-            What the values there may be.
-
-        Raises
-        ------
-        ValueFault
-            Naming the curve, and what to do about it.
-        """
         super().check_place(owner, domain)
         nowhere = not self.offset and self.scale and self.curve.is_nowhere_0(self.place)
         if nowhere and takes_0_alone(domain):
@@ -187,6 +173,10 @@ class CurveValue(Parameter):
         """What sentences call it: by its curve, and by its part where that has several."""
         parts, label = self.curve.parts, self.curve.label
         return label if parts == ("value",) else f"{parts[self.place]} of {label}"
+
+    @property
+    def called(self) -> str:
+        return self.spoken
 
     def at(self, wavelength: Any) -> Any:
         """Return its numbers at wavelengths, scale and offset applied.
