@@ -27,6 +27,7 @@ ROOMS = [
     "plan",
     "composer",
     "paths",
+    "sweeps",
     "lab",
     "cli",
 ]

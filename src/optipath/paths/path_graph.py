@@ -11,6 +11,7 @@ from optipath.elements.element import Element
 from optipath.errors import ParameterError, PathError, shown, unknown
 from optipath.paths.described_graph import DescribedGraph
 from optipath.paths.joining import name_by_kind
+from optipath.paths.sweeping import Sweeping
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from optipath.plan.plan import Plan
 
 
-class PathGraph(DescribedGraph):
+class PathGraph(Sweeping, DescribedGraph):
     """An optical path: named elements, linked from out-port to in-port.
 
     Parameters

@@ -10,13 +10,12 @@ from typing import TYPE_CHECKING, Any, Never
 from optipath.errors import (
     OptipathError,
     ParameterError,
-    PathError,
     PresetError,
     did_you_mean,
     shown,
     there_are,
 )
-from optipath.spelling import closest, few_suggestions
+from optipath.spelling import closest
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
@@ -48,8 +47,10 @@ def preset_descriptions() -> dict[str, str]:
     >>> preset_descriptions()["glass-slab"][:15]
     'A slab of glass'
     """
+    from optipath.paths.presets.toml_text import parsed  # noqa: PLC0415 - not for every import
+
     files = {name: locate(name) for name in preset_names()}
-    return {name: _parse(file, _text(file))["description"] for name, file in files.items()}
+    return {name: parsed(_text(f), str(f))["description"] for name, f in files.items()}
 
 
 def load_preset(
@@ -251,23 +252,9 @@ def read_preset(path: Path) -> PathGraph:
     PathError
         With every fault of what it says.
     """
-    # Not for every import of the library.
-    from optipath.paths.format.schema import FORMAT  # noqa: PLC0415
-    from optipath.paths.presets.reader.document import read  # noqa: PLC0415
-    from optipath.values.cures import of_files  # noqa: PLC0415
-    from optipath.values.written_units import units_are_written  # noqa: PLC0415
+    from optipath.paths.presets.preset_text import path_of_text  # noqa: PLC0415 - not for all
 
-    document = _parse(path, _text(path))
-    number = document.get("format", FORMAT)
-    if number != FORMAT or isinstance(number, bool):
-        raise PresetError(
-            f"'{path}' has format {shown(number)}, but this version reads format {FORMAT}"
-        )
-    try:
-        with few_suggestions(), units_are_written(), of_files():
-            return read(document)
-    except OptipathError as error:
-        raise PathError(*error.faults, about=path.name) from None
+    return path_of_text(_text(path), str(path), path.name)
 
 
 def _number_of(case: object) -> str:
@@ -292,24 +279,6 @@ def _text(path: Path) -> str:
             f"'{path}' is not UTF-8: byte {error.start} is 0x{data[error.start]:02x}; "
             f"save it as UTF-8"
         ) from None
-
-
-def _parse(path: Path, text: str) -> dict[str, Any]:
-    import tomllib  # noqa: PLC0415 - as above
-
-    from optipath.paths.format.limits import refuse_unwieldy  # noqa: PLC0415 - as above
-    from optipath.paths.format.slips import likely_cure  # noqa: PLC0415 - as above
-
-    try:
-        refuse_unwieldy(text)
-    except PresetError as error:
-        raise PresetError(f"'{path}' is not TOML as presets use it: {error}") from None
-    try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # Numbers of 4300 digits are a ValueError.
-        reason = "too deeply nested" if isinstance(error, RecursionError) else str(error)
-        cure = likely_cure(text, reason)
-        raise PresetError(f"'{path}' is not TOML: {reason}{cure}") from None
 
 
 def _folder() -> Path:

@@ -1,0 +1,68 @@
+"""What a path is asked of the room above it: sweeps, and how uncertain its light is."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Never
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from os import PathLike
+
+    from optipath.composer.composer import Composer
+
+
+class Sweeping:
+    """A path whose parameters take many values, each along an axis of its own."""
+
+    def sweep(
+        self,
+        /,
+        *unnamed: Never,
+        zip: Sequence[str] | Sequence[Sequence[str]] | Mapping[str, Sequence[str]] = (),  # noqa: A002 - what it does
+        coords: str | PathLike[str] | Any = None,
+        chunks: int | str | Mapping[str, int] | None = None,
+        store: str | PathLike[str] | None = None,
+        scheduler: Any = None,
+        progress: bool = False,
+        composer: Composer | None = None,
+        **axes: Any,
+    ) -> Any:
+        """Return the light for every combination of some values, with named axes.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        zip : sequence of str, or several, optional
+            Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
+            or a mapping of its name to them.
+        coords : str, PathLike or Dataset, optional
+            Axes besides: a CSV file with a column for each parameter, its unit in the heading, or
+            the coordinates of a Dataset.
+        chunks : int, str or mapping of str to int, optional
+            The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
+            blocks of about a million.
+        store : str or PathLike, optional
+            A Zarr store (``.zarr``) or a NetCDF file (``.nc``) that is written block by block; a
+            Zarr store goes on where it stopped.
+        scheduler : str or distributed.Client, optional
+            What computes the blocks for a store: ``"threads"``, ``"processes"``, ``"synchronous"``,
+            a client, or the address of a cluster.
+        progress : bool, optional
+            Whether a bar shows how far it is.
+        composer : Composer, optional
+            How the path is composed.
+        **axes : array_like
+            The values of parameters, in radians and metres, or texts with units; a single value
+            is no axis.
+
+        Returns
+        -------
+        xarray.Dataset
+            The dimensions are called as the parameters, in the order given.
+        """
+        sweep = import_module("optipath.sweeps.sweep").sweep
+        own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
+        more = {"scheduler": scheduler, "progress": progress, "composer": composer}
+        return sweep(self, unnamed, axes, **own, **more)

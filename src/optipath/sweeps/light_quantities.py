@@ -1,0 +1,60 @@
+"""The quantities of light that a sweep has a variable for."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from optipath.light.light import Light
+
+
+class LightQuantity(NamedTuple):
+    """A quantity of light.
+
+    Attributes
+    ----------
+    variable : str
+        What the variable of a Dataset is called.
+    attribute : str
+        That of `Light`; a component of the Stokes vector stands as ``"0"`` to ``"3"``.
+    unit, name : str
+        Its unit, and what it is.
+    """
+
+    variable: str
+    attribute: str
+    unit: str
+    name: str
+
+    def of(self, light: Light) -> npt.NDArray[np.float64]:
+        """Return the numbers that it has for some light, of the shape of the batch."""
+        if self.attribute.isdigit():
+            return light.stokes[..., int(self.attribute)]
+        return getattr(light, self.attribute)  # type: ignore[no-any-return]
+
+
+COMPONENTS = tuple(
+    LightQuantity(f"S{place}", str(place), "", name)
+    for place, name in enumerate(
+        [
+            "intensity",
+            "horizontal over vertical",
+            "diagonal over antidiagonal",
+            "right-handed over left-handed circular",
+        ]
+    )
+)
+DERIVED = (
+    LightQuantity("DoP", "dop", "", "degree of polarisation"),
+    LightQuantity("DoLP", "dolp", "", "degree of linear polarisation"),
+    LightQuantity("AoP", "aop", "rad", "angle of polarisation, from x towards y"),
+    LightQuantity("ellipticity", "ellipticity", "", "minor over major axis, with the sign of S3"),
+    LightQuantity("psi", "psi", "rad", "ellipsometric psi of the polarised part"),
+    LightQuantity("delta", "delta", "rad", "ellipsometric Delta of the polarised part"),
+)
+"""What is computed of the light when somebody asks for it."""
+
+QUANTITIES = (*COMPONENTS, *DERIVED)
