@@ -40,7 +40,7 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
     >>> chunk_sizes("auto", {"delta": 1000, "rho": 1000, "phi": 100})
     {'delta': 10, 'rho': 1000, 'phi': 100}
     >>> chunk_sizes({"delta": 250, "phi": -1}, {"delta": 1000, "rho": 1000, "phi": 100})
-    {'delta': 250, 'rho': 41, 'phi': 100}
+    {'delta': 250, 'rho': 40, 'phi': 100}
     """
     if not sizes:
         raise ParameterError(
