@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.sweeps.variable_names import detectors_of
+
 if TYPE_CHECKING:
     import numpy.typing as npt
 
@@ -65,7 +67,5 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     BlockLight
     """
     plan, given = recipe.plan, block.given()
-    if len(plan.program.detectors) == 1:
-        return BlockLight((plan.run(**given),))
     lights = plan.run_all(**given)
-    return BlockLight(tuple([lights[name] for name in plan.program.detectors]))
+    return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))

@@ -3,23 +3,95 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import dask.array as da
 import numpy as np
+import xarray as xr
 from dask.base import tokenize
 from dask.delayed import delayed
 
 from optipath.sweeps.block_light import BlockLight, run_block
+from optipath.sweeps.chunk_sizes import chunk_sizes
+from optipath.sweeps.dataset_attributes import dataset_attributes
+from optipath.sweeps.labels import attributes_of, coordinates_of, dimensions_of
+from optipath.sweeps.light_quantities import QUANTITIES
+from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.sweeps.sweep_grid import SweepGrid
+from optipath.sweeps.variable_names import DETECTOR, detectors_of, variable_names
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import numpy.typing as npt
 
+    from optipath.composer.composer import Composer
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
     from optipath.sweeps.light_quantities import LightQuantity
-    from optipath.sweeps.plan_recipe import PlanRecipe
+
+
+class ChunkedSweep(NamedTuple):
+    """A sweep of which nothing is computed yet, and what it is made of.
+
+    Attributes
+    ----------
+    recipe : PlanRecipe
+        What is run.
+    grid : SweepGrid
+        With the values of its parameters.
+    quantities : mapping of str to LightQuantity
+        By the names of their variables.
+    dataset : xarray.Dataset
+        Of Dask arrays, with the labels of a sweep in memory.
+    """
+
+    recipe: PlanRecipe
+    grid: SweepGrid
+    quantities: Mapping[str, LightQuantity]
+    dataset: xr.Dataset
+
+
+def swept_in_chunks(
+    path: PathGraph, plan: Plan, grid: SweepGrid, chunks: Any, composer: Composer | None = None
+) -> ChunkedSweep:
+    """Return the light of a grid, to be computed block by block.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What is swept.
+    plan : Plan
+        What it is composed to.
+    grid : SweepGrid
+        With the values of its parameters.
+    chunks
+        As `PathGraph.sweep` takes it.
+    composer : Composer, optional
+        What has made the plan; the default one if not given.
+
+    Returns
+    -------
+    ChunkedSweep
+
+    Raises
+    ------
+    ParameterError
+        If the chunks are none of the grid, or a coordinate is called as a variable.
+    PathError
+        If the path has no form in TOML, in which it travels.
+    """
+    names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
+    sizes = chunk_sizes(chunks, grid.sizes, len(detectors_of(plan)))
+    recipe = PlanRecipe.of(path, composer)
+    light = ChunkedLight(recipe, grid, sizes)
+    quantities = {names[each.variable]: each for each in QUANTITIES}
+    variables = {
+        name: (dims, light.of(each), attributes_of(each)) for name, each in quantities.items()
+    }
+    attrs = dataset_attributes(path, plan, composer)
+    found = xr.Dataset(variables, coordinates_of(grid, plan), attrs)
+    return ChunkedSweep(recipe, grid, quantities, found)
 
 
 class ChunkedLight:
@@ -36,7 +108,7 @@ class ChunkedLight:
     """
 
     def __init__(self, recipe: PlanRecipe, grid: SweepGrid, sizes: Mapping[str, int]) -> None:
-        self.detectors = len(recipe.plan.program.detectors)
+        self.detectors = len(detectors_of(recipe.plan))
         self.dtype = np.dtype(recipe.plan.dtype)
         self.places = tuple(range(len(sizes)))
         self.token = tokenize(recipe, grid, dict(sizes))
@@ -62,13 +134,13 @@ class ChunkedLight:
         several = self.detectors > 1
         found: da.Array = da.blockwise(  # type: ignore[no-untyped-call]
             BlockLight.of,
-            (*(["detector"] if several else []), *self.places),
+            (*([DETECTOR] if several else []), *self.places),
             self._light,
             self.places,
             quantity,
             None,
             name=f"{quantity.variable}-{self.token}",
-            new_axes={"detector": self.detectors} if several else {},
+            new_axes={DETECTOR: self.detectors} if several else {},
             meta=np.empty((0,) * (len(self.places) + several), self.dtype),
         )
         return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from hashlib import sha256
 from importlib.metadata import version
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import shown
 from optipath.sweeps.block_light import run_block
 from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
 
@@ -18,10 +18,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     import numpy.typing as npt
-    import xarray as xr
 
+    from optipath.sweeps.in_chunks import ChunkedSweep
     from optipath.sweeps.light_quantities import LightQuantity
     from optipath.sweeps.plan_recipe import PlanRecipe
+    from optipath.sweeps.sweep_axis import SweepAxis
     from optipath.sweeps.sweep_grid import SweepGrid
 
 LAYOUT = 1
@@ -55,62 +56,54 @@ class SweepJob:
     attrs: Mapping[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def of(
-        cls,
-        recipe: PlanRecipe,
-        grid: SweepGrid,
-        quantities: Mapping[str, LightQuantity],
-        chunked: xr.Dataset,
-    ) -> SweepJob:
+    def of(cls, chunked: ChunkedSweep) -> SweepJob:
         """Return the job that keeps a sweep in chunks.
 
         Parameters
         ----------
-        recipe, grid, quantities
-            What the sweep is made of.
-        chunked : xarray.Dataset
-            The sweep as Dask arrays, of which nothing is computed.
+        chunked : ChunkedSweep
+            The sweep, of which nothing is computed yet.
 
         Returns
         -------
         SweepJob
         """
-        sizes = {name: chunked.chunksizes[name][0] for name in grid.sizes}
-        every = dict(chunked.sizes) | sizes
+        dataset, sizes = chunked.dataset, chunked.dataset.chunksizes
         arrays = {
             str(name): KeptArray(
                 tuple(map(str, each.dims)),
                 each.shape,
-                tuple([every[dimension] for dimension in each.dims]),
+                tuple([sizes[dimension][0] for dimension in each.dims]),
                 str(each.dtype),
                 each.attrs,
             )
-            for name, each in chunked.data_vars.items()
+            for name, each in dataset.data_vars.items()
         }
         coords = {
             str(name): WholeArray(tuple(map(str, each.dims)), each.to_numpy(), each.attrs)
-            for name, each in chunked.coords.items()
+            for name, each in dataset.coords.items()
         }
-        return cls(recipe, grid, sizes, quantities, arrays, coords, chunked.attrs)
+        each_size = {name: sizes[name][0] for name in chunked.grid.sizes}
+        return cls(
+            chunked.recipe,
+            chunked.grid,
+            each_size,
+            chunked.quantities,
+            arrays,
+            coords,
+            dataset.attrs,
+        )
 
     @property
     def identity(self) -> str:
-        """All of what is computed: another path, value, block or library is another sweep."""
-        axes = [
-            (axis.name, axis.dimension, axis.unit, _digest(axis.given), _digest(axis.shown))
-            for axis in self.grid.axes
-        ]
-        told = {
-            "layout": LAYOUT,
-            "version": version("optipath"),
-            "path": self.recipe.text,
-            "options": {name: repr(value) for name, value in self.recipe.options},
-            "axes": axes,
-            "fixed": {name: repr(value) for name, value in self.grid.fixed.items()},
-            "chunks": dict(self.sizes),
-            "variables": {name: each.dtype for name, each in self.arrays.items()},
-        }
-        return json.dumps(told)
+        """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
+        lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
+        lines += [f"option {name}: {value!r}" for name, value in self.recipe.options]
+        lines += [f"fixed {name}: {value!r}" for name, value in self.grid.fixed.items()]
+        lines += [f"axis {axis.name}: {_told(axis)}" for axis in self.grid.axes]
+        lines += [f"chunks of {name}: {size}" for name, size in self.sizes.items()]
+        lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
+        return "\n".join([*lines, self.recipe.text])
 
     @property
     def _counts(self) -> tuple[int, ...]:
@@ -152,7 +145,11 @@ class SweepJob:
         return {name: ((*front, *region), light.of(each)) for name, each in self.quantities.items()}
 
 
-def _digest(values: npt.NDArray[Any]) -> str:
-    """Return what tells arrays from each other, to the last bit."""
-    held = values.tobytes() if values.dtype.kind != "O" else repr(values.tolist()).encode()
-    return sha256(f"{values.dtype.str} {values.shape} ".encode() + held).hexdigest()
+def _told(axis: SweepAxis) -> str:
+    """Return what tells an axis from all others, to the last bit."""
+    ends = f"{shown(axis.shown[0])} to {shown(axis.shown[-1])} {axis.unit}"
+    digest = sha256()
+    for values in (axis.given, axis.shown):
+        held = values.tobytes() if values.dtype.kind != "O" else repr(values.tolist()).encode()
+        digest.update(f"{values.dtype.str} {values.shape} ".encode() + held)
+    return f"{len(axis)} values, {ends}, along {axis.dimension}, {digest.hexdigest()[:16]}"
