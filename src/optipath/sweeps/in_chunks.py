@@ -14,7 +14,7 @@ from dask.delayed import delayed
 from optipath.sweeps.block_light import BlockLight, run_block
 from optipath.sweeps.chunk_sizes import chunk_sizes
 from optipath.sweeps.dataset_attributes import dataset_attributes
-from optipath.sweeps.labels import attributes_of, coordinates_of, dimensions_of
+from optipath.sweeps.dataset_labels import attributes_of, coordinates_of, dimensions_of
 from optipath.sweeps.light_quantities import QUANTITIES
 from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.sweeps.sweep_grid import SweepGrid
