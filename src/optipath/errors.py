@@ -103,7 +103,7 @@ class CacheError(OptipathError):
 
 
 class JobError(OptipathError):
-    """A large job that cannot begin or go on: its store is another's, its disk full, nobody works."""
+    """A large job that cannot begin or go on: for its store, its disk or its workers."""
 
 
 class LoopWarning(UserWarning):

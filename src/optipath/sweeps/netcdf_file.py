@@ -14,13 +14,15 @@ from optipath.errors import ParameterError
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from optipath.sweeps.sweep_job import SweepJob
 
 _IDENTITY = "sweep_identity"
 """The attribute by which a file is known again."""
+
+_TAKEN = "'{}' is there already, and holds something else; give another name, or move it away"
 
 
 def kept_in_netcdf(
@@ -57,21 +59,28 @@ def kept_in_netcdf(
     if file.exists():
         return _opened(file, identity)
     store = keep_blocks(job, file.with_name(f"{file.name}.zarr"), scheduler, tell)
+    _write(file, store, identity, {name: each.chunks for name, each in job.arrays.items()})
+    shutil.rmtree(store)
+    return _opened(file, identity)
+
+
+def _write(file: Path, store: Path, identity: str, chunks: Mapping[str, tuple[int, ...]]) -> None:
+    """Write what a store holds beside the place of a file, and put it there."""
     draft = file.with_name(f".{secrets.token_hex(8)}.draft")
+    encoding = {name: {"chunksizes": sizes} for name, sizes in chunks.items()}
     try:
         with xr.open_zarr(store) as kept:
-            written = kept.assign_attrs({_IDENTITY: identity}).to_netcdf(
-                draft, engine="h5netcdf", compute=False
-            )
+            told = kept.assign_attrs({_IDENTITY: identity})
+            written = told.to_netcdf(draft, engine="h5netcdf", encoding=encoding, compute=False)
             # One block after another: each is read, written, and forgotten.
             written.compute(scheduler="synchronous")
+        if file.exists():
+            raise ParameterError(_TAKEN.format(file))
         draft.replace(file)
     except BaseException:
         with suppress(OSError):
             draft.unlink()
         raise
-    shutil.rmtree(store)
-    return _opened(file, identity)
 
 
 def _opened(file: Path, identity: str) -> xr.Dataset:
@@ -81,8 +90,5 @@ def _opened(file: Path, identity: str) -> xr.Dataset:
     except OSError:
         found = None
     if found is None or found.attrs.pop(_IDENTITY, None) != identity:
-        raise ParameterError(
-            f"'{file}' is there already, and holds something else; give another name, or move it "
-            f"away"
-        )
+        raise ParameterError(_TAKEN.format(file))
     return found

@@ -22,7 +22,9 @@ def progress_line(done: int, total: int) -> None:
     ...     progress_line(4, 4)
     [########################################] 4 of 4 blocks
     """
-    filled = _WIDTH * done // max(total, 1)
+    filled = _WIDTH * done // total
+    if done and filled == _WIDTH * (done - 1) // total:
+        return  # It looks the same.
     bar = f"[{'#' * filled}{' ' * (_WIDTH - filled)}] {done} of {total} blocks"
     sys.stderr.write(f"{bar}\n" if done == total else f"{bar}\r")
     sys.stderr.flush()

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import shown
 from optipath.sweeps.block_light import run_block
 from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
 
@@ -80,7 +79,7 @@ class SweepJob:
             for name, each in dataset.data_vars.items()
         }
         coords = {
-            str(name): WholeArray(tuple(map(str, each.dims)), each.to_numpy(), each.attrs)
+            str(name): WholeArray(tuple(map(str, each.dims)), _fixed(each.to_numpy()), each.attrs)
             for name, each in dataset.coords.items()
         }
         each_size = {name: sizes[name][0] for name in chunked.grid.sizes}
@@ -99,7 +98,7 @@ class SweepJob:
         """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
         lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
         lines += [f"option {name}: {value!r}" for name, value in self.recipe.options]
-        lines += [f"fixed {name}: {value!r}" for name, value in self.grid.fixed.items()]
+        lines += [f"fixed {name}: {_plain(value)!r}" for name, value in self.grid.fixed.items()]
         lines += [f"axis {axis.name}: {_told(axis)}" for axis in self.grid.axes]
         lines += [f"chunks of {name}: {size}" for name, size in self.sizes.items()]
         lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
@@ -145,9 +144,19 @@ class SweepJob:
         return {name: ((*front, *region), light.of(each)) for name, each in self.quantities.items()}
 
 
+def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return words as words of a fixed length, which stores have."""
+    return values.astype(str) if values.dtype.kind == "O" else values
+
+
+def _plain(value: Any) -> Any:
+    """Return a single number of NumPy as one of Python: they are the same sweep."""
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value
+
+
 def _told(axis: SweepAxis) -> str:
     """Return what tells an axis from all others, to the last bit."""
-    ends = f"{shown(axis.shown[0])} to {shown(axis.shown[-1])} {axis.unit}"
+    ends = f"{axis.shown[0]} to {axis.shown[-1]} {axis.unit}".rstrip()
     digest = sha256()
     for values in (axis.given, axis.shown):
         held = values.tobytes() if values.dtype.kind != "O" else repr(values.tolist()).encode()

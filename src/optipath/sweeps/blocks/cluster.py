@@ -89,5 +89,5 @@ def _processes() -> LocalCluster:
     except RuntimeError as fault:
         raise JobError(
             f"no processes can be started ({fault}); in a script, put what is run under if "
-            f"__name__ == '__main__':, since each process imports it, or take threads"
+            f"__name__ == '__main__':, since each process imports it, or give scheduler='threads'"
         ) from None

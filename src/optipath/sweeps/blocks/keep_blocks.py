@@ -79,7 +79,7 @@ def _handed_out(
     pending: dict[Future[None], int] = {}
     try:
         while True:
-            for number in islice(ahead, max(2 * workers.places(), 2) - len(pending)):
+            for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
                 pending[workers.executor.submit(_keep_block, job, kept, number)] = number
             if not pending:
                 return

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
 SCHEDULERS = ("synchronous", "threads", "processes")
 
+_AHEAD = 2
+"""How many blocks a worker is given at a time, so that it need not wait for the next."""
+
 
 class Workers(NamedTuple):
     """Those who compute.
@@ -24,12 +27,12 @@ class Workers(NamedTuple):
     ----------
     executor : Executor
         Who hands out what is to be done.
-    places : callable
-        How many blocks are computed at a time; a cluster may grow.
+    handed_out : callable
+        How many blocks are given to them at a time, which bounds what waits; a cluster may grow.
     """
 
     executor: Executor
-    places: Callable[[], int]
+    handed_out: Callable[[], int]
 
 
 class AtOnce(Executor):
@@ -80,14 +83,18 @@ def workers_of(scheduler: Any) -> Iterator[Workers]:
         yield Workers(AtOnce(), lambda: 1)
     elif given == "threads":
         with ThreadPoolExecutor(CPU_COUNT) as executor:
-            yield Workers(executor, lambda: CPU_COUNT)
+            yield Workers(executor, lambda: _AHEAD * CPU_COUNT)
     else:
         _check(given)
         # It takes a second to import.
         from optipath.sweeps.blocks.cluster import client_of  # noqa: PLC0415
 
         with client_of(given) as client:
-            yield Workers(client.get_executor(pure=False), lambda: sum(client.nthreads().values()))
+            yield Workers(
+                client.get_executor(pure=False),
+                # One that grows when there is work has no workers at first.
+                lambda: _AHEAD * max(sum(client.nthreads().values()), 1),
+            )
 
 
 def _check(scheduler: Any) -> None:
