@@ -9,6 +9,8 @@ import numpy as np
 
 from optipath.plan.running.pieces import pieces
 from optipath.sweeps.variable_names import detectors_of
+from optipath.values.written_units import units_are_written
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -78,11 +80,13 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     -------
     BlockLight
     """
+<<<<<<< HEAD
     plan = recipe.plan
-    found = [
-        plan.run_all(**block.given(_region(piece.where, block.shape)))
-        for piece in pieces(block.shape, _AT_ONCE)
-    ]
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        found = [
+            plan.run_all(**block.given(_region(piece.where, block.shape)))
+            for piece in pieces(block.shape, _AT_ONCE)
+        ]
     lights = [tuple([light[name] for light in found]) for name in detectors_of(plan)]
     return BlockLight(block.shape, tuple(lights))
 
@@ -91,3 +95,13 @@ def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slic
     """Return an index as a slice for each dimension."""
     told = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
     return told + [slice(None)] * (len(shape) - len(told))
+||||||| 5642864
+    plan, given = recipe.plan, block.given()
+    lights = plan.run_all(**given)
+    return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))
+=======
+    plan, given = recipe.plan, block.given()
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        lights = plan.run_all(**given)
+    return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))
+>>>>>>> axes
