@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from optipath.cli.given_axes import axis_given, gives_axis
 from optipath.cli.given_light import (
     WAVELENGTH,
     extinction_beside,
@@ -16,6 +17,7 @@ from optipath.cli.given_light import (
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
+from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.values.cases import ALL
 from optipath.values.domains.axis import axes_for
 from optipath.values.other_part import other_part
@@ -44,12 +46,15 @@ class Chosen:
         A named set of its values.
     values : mapping of str to Any
         Values that take precedence over the case.
+    axes : mapping of str to SweepAxis, optional
+        What takes several values, one after the other, in the order of the options.
     """
 
     preset: str
     opened: PathGraph
     case: str | None
     values: Mapping[str, Any]
+    axes: Mapping[str, SweepAxis] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
@@ -62,8 +67,8 @@ class Chosen:
         return {name: self.values[name] for name in self.opened.choices if name in self.values}
 
     def path(self, reads: str | None = None) -> PathGraph:
-        """Return the path, bound to what is given, and with other readings if they are."""
-        bound = bound_preset(self.opened, self.preset, self.case, self.values)
+        """Return the path, bound to single values, and with other readings if they are given."""
+        bound = bound_preset(self.opened, self.preset, self.case, self.values, self.axes)
         return bound if reads is None else bound.reading(reads)
 
 
@@ -103,8 +108,9 @@ def chosen_by(
         take_wavelength(preset, path, sound)
     elif WAVELENGTH.name not in path.parameters:
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
-    found = [Chosen(preset, path, case, sound) for case in dict.fromkeys(cases)]
-    found = found or [Chosen(preset, path, None, sound)]
+    axes = {name: value for name, value in sound.items() if isinstance(value, SweepAxis)}
+    single = {name: value for name, value in sound.items() if name not in axes}
+    found = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
     if faults or len(found) > 1:
         try:
             of_each(found, Chosen.path)
@@ -245,10 +251,14 @@ def _value(
         if is_material(parameter, text, uses):
             beside = extinction_beside(uses, name)
             k = _value(path, beside, given, uses, faults) if beside in given else None
-            if k is not None:
-                path.parameters[beside].resolve(k)
             option = f"--{_flag(beside)}" if beside else ""
+            if isinstance(k, SweepAxis):
+                faults.append(f"{option} takes one value beside --{_flag(name)} {text}; give one")
+            elif k is not None:
+                path.parameters[beside].resolve(k)
             return None if faults else material_named(f"--{_flag(name)}", text, option, k)
+        if gives_axis(text):
+            return axis_given(parameter, text)
         value = axes_for(name, text, uses)
         if isinstance(value, str):
             # A bare number may be nanometres, micrometres or electronvolts.

@@ -8,6 +8,7 @@ import click
 
 from optipath.cli.plain_json import plain
 from optipath.errors import OptipathError, ParameterError, printable
+from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.database.named_pages import VACUUM
@@ -138,7 +139,8 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        WAVELENGTH.resolve(values.pop(name))
+        given = values.pop(name)
+        WAVELENGTH.resolve(given.given if isinstance(given, SweepAxis) else given)
         told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
         click.echo(printable(told), err=True)
 
