@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.errors import ParameterError, shown
-from optipath.sweeps.sweep_axis import SweepAxis
-from optipath.sweeps.sweep_grid import SweepGrid
-from optipath.values.axis_texts import is_axis_text, read_axis_text
+from optipath.composer.path_values import Values
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.read_axes import grid_of
+from optipath.values.axis_names import AXES
+from optipath.values.several_texts import several_texts
+from optipath.values.units import unit_of
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -24,19 +26,8 @@ RANGES = (
 """How an option takes more than one value, for help."""
 
 
-def gives_axis(text: str) -> bool:
-    """Tell whether the text of an option stands for several values.
-
-    Examples
-    --------
-    >>> [gives_axis(text) for text in ("0:90:91", "10,20", "@angles.csv", "45 deg")]
-    [True, True, True, False]
-    """
-    return is_axis_text(text)
-
-
-def axis_given(parameter: Parameter, text: str) -> SweepAxis:
-    """Return the axis that the text of an option stands for.
+def axis_texts(parameter: Parameter, text: str) -> list[str] | None:
+    """Return the texts of the values that the text of an option stands for, with their units.
 
     Parameters
     ----------
@@ -47,18 +38,63 @@ def axis_given(parameter: Parameter, text: str) -> SweepAxis:
 
     Returns
     -------
-    SweepAxis
+    list of str or None
+        None for a single value.
 
     Raises
     ------
-    OptipathError
+    ParameterError
         With all that is wrong.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> axis_texts(Parameter("delta", unit="deg"), "0:90:3")
+    ['0 deg', '45.0 deg', '90 deg']
     """
+    try:
+        texts = several_texts(parameter, text)
+    except OptipathError as error:
+        about = f"{error.about}: " if error.about else ""
+        raise ParameterError(*[f"{about}{fault}" for fault in error.faults]) from None
     # A bare number may be nanometres, micrometres or electronvolts.
-    unit = "" if isinstance(parameter, Wavelength) else parameter.unit
-    values = read_axis_text(text, parameter, unit)
-    name = parameter.name
-    return SweepAxis(name, name, values.shown, values.unit, values.given, parameter.help)
+    if texts is None or isinstance(parameter, Wavelength) or not parameter.unit:
+        return texts
+    return [f"{each} {parameter.unit}" if is_bare(each) else each for each in texts]
+
+
+def is_bare(text: str) -> bool:
+    """Tell whether a text is a number without a unit.
+
+    Examples
+    --------
+    >>> is_bare("45"), is_bare("45 deg"), is_bare("horizontal")
+    (True, False, False)
+    """
+    return not unit_of(text) and text not in AXES and not text[:1].isalpha()
+
+
+def axis_faults(path: PathGraph, axes: Mapping[str, Sequence[str]]) -> list[str]:
+    """Return what is wrong with the values of axes, a sentence each.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What they are given for, not bound yet.
+    axes : mapping of str to sequence of str
+        The texts of the values of each.
+
+    Returns
+    -------
+    list of str
+        Nothing of a parameter that comes with a material.
+    """
+    inputs = Values(path.graph).inputs()
+    try:
+        grid_of(inputs, {name: texts for name, texts in axes.items() if name in inputs.open})
+    except OptipathError as error:
+        return [*error.faults]
+    return []
 
 
 def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:
@@ -87,40 +123,26 @@ def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable
         raise ParameterError(*faults)
 
 
-def grid_of_axes(path: PathGraph, axes: Mapping[str, SweepAxis]) -> SweepGrid:
-    """Return the grid of what is given several values for.
+def refuse_arrays(path: PathGraph, axes: Iterable[str]) -> None:
+    """Raise where a path has arrays of its own, of which each value would go with one of an axis.
 
     Parameters
     ----------
     path : PathGraph
         Bound to what has one value.
-    axes : mapping of str to SweepAxis
-        By name.
-
-    Returns
-    -------
-    SweepGrid
+    axes : iterable of str
+        The parameters that are given several values.
 
     Raises
     ------
     ParameterError
-        If the path has arrays of its own, of which each value would go with one of an axis.
+        Naming each, and how one value is given.
     """
-    arrays = (
-        []
-        if not axes
-        else [
-            name
-            for name, parameter in path.parameters.items()
-            if name not in axes and isinstance(parameter.default, np.ndarray)
-        ]
-    )
-    if arrays:
-        raise ParameterError(
-            *[
-                f"parameter '{name}' has several values in the file; give one by "
-                f"--{name.replace('_', '-')}, or a range"
-                for name in arrays
-            ]
-        )
-    return SweepGrid(tuple(axes.values()))
+    faults = [
+        f"parameter '{name}' has several values in the file; give one by "
+        f"--{name.replace('_', '-')}, or a range"
+        for name, parameter in path.parameters.items()
+        if name not in axes and isinstance(parameter.default, np.ndarray)
+    ]
+    if axes and faults:
+        raise ParameterError(*faults)

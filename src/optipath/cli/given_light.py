@@ -8,7 +8,6 @@ import click
 
 from optipath.cli.plain_json import plain
 from optipath.errors import OptipathError, ParameterError, printable
-from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.database.named_pages import VACUUM
@@ -139,8 +138,7 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        given = values.pop(name)
-        WAVELENGTH.resolve(given.given if isinstance(given, SweepAxis) else given)
+        WAVELENGTH.resolve(values.pop(name))
         told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
         click.echo(printable(told), err=True)
 

@@ -10,15 +10,12 @@ import numpy as np
 
 from optipath.cli.given_light import WAVELENGTH, material_as_json, materials_among
 from optipath.cli.plain_json import plain
-from optipath.composer.composer import Composer
 from optipath.paths.format.writer import complex_parts_of
 from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.values.cases import Case
 from optipath.values.domains.quantities import AMPLITUDE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from optipath.cli.chosen import Chosen
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
@@ -119,10 +116,8 @@ class Outcome:
         return bool(self.chosen.values or self.grid.axes)
 
 
-def outcome_of(
-    chosen: Chosen, path: PathGraph, options: Mapping[str, Any], grid: SweepGrid
-) -> Outcome:
-    """Run a path for all that was chosen.
+def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> Outcome:
+    """Run a plan for all that was chosen.
 
     Parameters
     ----------
@@ -130,8 +125,8 @@ def outcome_of(
         The preset, and what is given for it.
     path : PathGraph
         Bound to single values.
-    options : mapping of str to Any
-        Those of the `Composer`.
+    plan : Plan
+        What is made of it.
     grid : SweepGrid
         What takes several values.
 
@@ -139,7 +134,6 @@ def outcome_of(
     -------
     Outcome
     """
-    plan = Composer(**options).compose(path)
     lights = plan.run_all(**grid.given())
     return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by), grid)
 

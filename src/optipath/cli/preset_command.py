@@ -70,6 +70,8 @@ class PresetGroup(WholeHelp):
         ``several([chosen, ...], **options)``, for several cases; a command without it takes one.
     ranges : bool, optional
         Whether an option of a parameter may give several values, such as ``0:90:91``.
+    faults : callable, optional
+        ``faults(**options)``: what is wrong with the options, a sentence each.
     **keywords : Any
         As `click.Group` takes them.
     """
@@ -82,6 +84,7 @@ class PresetGroup(WholeHelp):
         several: Callable[..., None] | None = None,
         *,
         ranges: bool = False,
+        faults: Callable[..., Sequence[str]] | None = None,
         **keywords: Any,
     ) -> None:
         usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
@@ -91,6 +94,7 @@ class PresetGroup(WholeHelp):
         self.options = tuple(options)
         self.several = several
         self.ranges = ranges
+        self.faults = faults or (lambda **_: ())
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the presets."""
@@ -127,7 +131,8 @@ class PresetGroup(WholeHelp):
             options = {name: given.pop(name) for name in names}
             if self.several is None:
                 one_case(self.name or "", path, cases)
-            chosen = chosen_by(cmd_name, path, cases_of(cmd_name, path, cases), given)
+            asked = cases_of(cmd_name, path, cases)
+            chosen = chosen_by(cmd_name, path, asked, given, self.faults(**options))
             if not self.ranges:
                 refuse_axes(self.name or "", given, chosen[0].axes)
             if self.several is not None and asks_for_several(cases):

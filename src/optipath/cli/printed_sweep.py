@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from optipath.cli.outcome import Outcome
+    from optipath.sweeps.sweep_grid import SweepGrid
 
 _MOST_COLUMNS = 12
 _WIDEST = 1000
@@ -50,6 +51,12 @@ def print_sweep(outcome: Outcome, digits: int) -> None:
         console.print(cell("for all numbers add --out FILE (csv, json, nc, zarr), or --json"))
 
 
+def sizes_text(grid: SweepGrid) -> str:
+    """Return how many points a grid has, and how many along each dimension."""
+    sizes = ", ".join(f"{name} {size:,}" for name, size in grid.sizes.items())
+    return f"{grid.points:,} points ({sizes})"
+
+
 def _line_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
     """Return a row for each value, with as many quantities of light as the terminal is wide."""
     given = f"light at {name}", outcome.lights[name], outcome.grid, numbers
@@ -64,10 +71,10 @@ def _line_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Num
 
 def _summary(outcome: Outcome, numbers: Numbers) -> Table:
     """Return how many points there are, and between which values S0 lies."""
-    sizes = " x ".join(f"{size:,} {name}" for name, size in outcome.grid.sizes.items())
-    title = f"{outcome.grid.points:,} points: {sizes}"
-    table = headed("", "least S0", "largest S0", title=cell(title), title_justify="left")
+    about = cell(sizes_text(outcome.grid))
+    table = headed("", "least S0", "largest S0", box=None, title=about, title_justify="left")
     for name, light in outcome.lights.items():
-        ends = [float(find(light.intensity)) for find in (np.nanmin, np.nanmax)]
-        table.add_row(*map(cell, (f"light at {name}", *map(numbers.text, ends))))
+        known = light.intensity[np.isfinite(light.intensity)]
+        ends = [float(find(known)) if known.size else np.nan for find in (np.min, np.max)]
+        table.add_row(*map(cell, (f"light at {name}", *map(numbers.state, ends))))
     return table

@@ -1,10 +1,8 @@
-"""Files that ``optipath sweep`` writes: what they may be called, and tables with a row a point."""
+"""Files that ``optipath sweep`` writes itself: JSON, and tables with a row for each point."""
 
 from __future__ import annotations
 
 import json
-import os
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +11,6 @@ from optipath.cli.outcome import outcome_as_json
 from optipath.cli.printed_grid import heading
 from optipath.cli.progress_bar import progress_bar
 from optipath.cli.text_files import told_of, write
-from optipath.errors import did_you_mean, shown
 from optipath.sweeps.light_quantities import QUANTITIES
 from optipath.sweeps.variable_names import detectors_of, variable_names
 from optipath.values.units import in_unit
@@ -21,44 +18,14 @@ from optipath.values.written_files import written_whole
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from pathlib import Path
 
     from optipath.cli.outcome import Outcome
-    from optipath.light.light import Light
     from optipath.plan.plan import Plan
     from optipath.sweeps.sweep_grid import SweepGrid
 
-TEXTS, BLOCKS = (".csv", ".json"), (".nc", ".zarr")
-"""Endings of what is written by the command itself, and of what is written block by block."""
-
 _ROWS = 1 << 16
 """How many rows are computed and written at once."""
-
-
-def out_faults(out: str) -> list[str]:
-    """Return what is wrong with a file that a sweep is to be written to, a sentence each.
-
-    Examples
-    --------
-    >>> out_faults("result.txt")
-    ["--out 'result.txt' has no ending of a sweep; write 'result.csv', .json, .nc or .zarr"]
-    """
-    file = Path(out)
-    if not out or "\0" in out:
-        return [f"--out {shown(out)} is no name of a file; write one such as 'result.csv'"]
-    suffix = file.suffix.lower()
-    if suffix not in (*TEXTS, *BLOCKS):
-        meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
-        return [
-            f"--out {shown(out)} has no ending of a sweep; write {meant}, .json, .nc or .zarr"
-        ]
-    folder = file.absolute().parent
-    if not folder.is_dir():
-        return [f"--out {shown(out)} cannot be written: there is no folder {shown(str(folder))}"]
-    if suffix != ".zarr" and (file.exists() or file.is_symlink()):
-        return [f"--out {shown(out)} is there already, and stays; name another file, or remove it"]
-    if not os.access(folder, os.W_OK):
-        return [f"--out {shown(out)} cannot be written: permission denied"]
-    return []
 
 
 def write_json(file: Path, outcome: Outcome) -> None:
