@@ -209,7 +209,7 @@ class Answers:
 
     def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
         plan = self.plan
-        alike = plan.inputs.is_spectral and plan.dtype in DIGITS
+        alike = plan.dtype in DIGITS
         own = plan.method, plan.composing, plan.dtype, plan.chosen, plan.threads
         options = RunOptions(*own, reproducible=alike)
         return runner_for(program, plan.inputs, options, plan.own_ways, unreduced=unreduced)

@@ -49,4 +49,4 @@ def sweep(
     plan = path.compose() if composer is None else composer.compose(path)
     check_named("sweep", unnamed, plan.inputs.open)
     grid = grid_of(plan.inputs, given, zip, coords)
-    return swept_in_memory(plan, grid)
+    return swept_in_memory(path, plan, grid, composer)
