@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from optipath.cli.given_axes import axis_faults, axis_texts
+from optipath.cli.given_axes import axis_faults, axis_given
 from optipath.cli.given_light import (
     WAVELENGTH,
     extinction_beside,
@@ -17,6 +17,7 @@ from optipath.cli.given_light import (
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
+from optipath.values.axis_texts import AxisValues
 from optipath.values.cases import ALL
 from optipath.values.domains.axis import axes_for
 from optipath.values.other_part import other_part
@@ -45,15 +46,15 @@ class Chosen:
         A named set of its values.
     values : mapping of str to Any
         Values that take precedence over the case.
-    axes : mapping of str to sequence of str, optional
-        The texts of what is given several values, in the order of the options.
+    axes : mapping of str to AxisValues, optional
+        What is given several values, in the order of the options.
     """
 
     preset: str
     opened: PathGraph
     case: str | None
     values: Mapping[str, Any]
-    axes: Mapping[str, Sequence[str]] = field(default_factory=dict)
+    axes: Mapping[str, AxisValues] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
@@ -126,7 +127,7 @@ def chosen_by(
         take_wavelength(preset, path, sound)
     elif WAVELENGTH.name not in path.parameters:
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
-    axes = {name: value for name, value in sound.items() if isinstance(value, list)}
+    axes = {name: value for name, value in sound.items() if isinstance(value, AxisValues)}
     single = {name: value for name, value in sound.items() if name not in axes}
     found = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
     if faults or axes or len(found) > 1:
@@ -134,7 +135,7 @@ def chosen_by(
             of_each(found, Chosen.path)
         except OptipathError as error:
             faults += error.faults
-        faults += axis_faults(path, axes) if axes else []
+        faults += axis_faults(path, axes) if faults else []
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
     return found
@@ -271,13 +272,13 @@ def _value(
             beside = extinction_beside(uses, name)
             k = _value(path, beside, given, uses, faults) if beside in given else None
             option = f"--{_flag(beside)}" if beside else ""
-            if isinstance(k, list):
+            if isinstance(k, AxisValues):
                 faults.append(f"{option} takes one value beside --{_flag(name)} {text}; give one")
             elif k is not None:
                 path.parameters[beside].resolve(k)
             return None if faults else material_named(f"--{_flag(name)}", text, option, k)
-        if texts := axis_texts(parameter, text):
-            return texts
+        if several := axis_given(parameter, text, uses):
+            return several
         value = axes_for(name, text, uses)
         if isinstance(value, str):
             # A bare number may be nanometres, micrometres or electronvolts.

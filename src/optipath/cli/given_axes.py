@@ -6,19 +6,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, shown
-from optipath.sweeps.read_axes import grid_of
-from optipath.values.axis_names import AXES
-from optipath.values.several_texts import several_texts
-from optipath.values.units import unit_of
+from optipath.sweeps.sweep_axis import SweepAxis
+from optipath.sweeps.sweep_grid import SweepGrid
+from optipath.values.axis_texts import read_axis_text
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
+    from optipath.values.axis_texts import AxisValues
     from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
 
 RANGES = (
     "Several values: 0:90:91 (start:stop:count), 10,20,30, or @FILE.csv for a column of a file."
@@ -26,19 +26,21 @@ RANGES = (
 """How an option takes more than one value, for help."""
 
 
-def axis_texts(parameter: Parameter, text: str) -> list[str] | None:
-    """Return the texts of the values that the text of an option stands for, with their units.
+def axis_given(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
+    """Return the values that the text of an option stands for.
 
     Parameters
     ----------
     parameter : Parameter
         For which it is given; numbers without a unit are in its own.
     text : str
-        A range, a list, or a file.
+        A range, a list, or a file, whose heading says the unit.
+    uses : sequence of Use
+        The numbers of the path.
 
     Returns
     -------
-    list of str or None
+    AxisValues or None
         None for a single value.
 
     Raises
@@ -49,52 +51,62 @@ def axis_texts(parameter: Parameter, text: str) -> list[str] | None:
     Examples
     --------
     >>> from optipath.values.parameters import Parameter
-    >>> axis_texts(Parameter("delta", unit="deg"), "0:90:3")
-    ['0 deg', '45.0 deg', '90 deg']
+    >>> axis_given(Parameter("delta", unit="deg"), "0:90:3", ()).shown.tolist()
+    [0.0, 45.0, 90.0]
     """
+    # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.
+    is_told = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
+    unit = "" if is_told else parameter.unit
     try:
-        texts = several_texts(parameter, text)
+        return read_axis_text(text, parameter, unit, uses)
     except OptipathError as error:
         about = f"{error.about}: " if error.about else ""
         raise ParameterError(*[f"{about}{fault}" for fault in error.faults]) from None
-    # A bare number may be nanometres, micrometres or electronvolts.
-    if texts is None or isinstance(parameter, Wavelength) or not parameter.unit:
-        return texts
-    return [f"{each} {parameter.unit}" if is_bare(each) else each for each in texts]
 
 
-def is_bare(text: str) -> bool:
-    """Tell whether a text is a number without a unit.
-
-    Examples
-    --------
-    >>> is_bare("45"), is_bare("45 deg"), is_bare("horizontal")
-    (True, False, False)
-    """
-    return not unit_of(text) and text not in AXES and not text[:1].isalpha()
-
-
-def axis_faults(path: PathGraph, axes: Mapping[str, Sequence[str]]) -> list[str]:
+def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
     """Return what is wrong with the values of axes, a sentence each.
 
     Parameters
     ----------
     path : PathGraph
         What they are given for, not bound yet.
-    axes : mapping of str to sequence of str
-        The texts of the values of each.
+    axes : mapping of str to AxisValues
+        By name.
 
     Returns
     -------
     list of str
         Nothing of a parameter that comes with a material.
     """
-    inputs = Values(path.graph).inputs()
-    try:
-        grid_of(inputs, {name: texts for name, texts in axes.items() if name in inputs.open})
-    except OptipathError as error:
-        return [*error.faults]
-    return []
+    faults: list[str] = []
+    for name, values in axes.items():
+        if name in path.parameters:
+            try:
+                path.bind(**{name: values.given})
+            except OptipathError as error:
+                faults += error.faults
+    return faults
+
+
+def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
+    """Return the grid of what is given several values.
+
+    Parameters
+    ----------
+    path : PathGraph
+        Bound to what has one value.
+    axes : mapping of str to AxisValues
+        By name, in order.
+
+    Returns
+    -------
+    SweepGrid
+    """
+    known = path.parameters
+    return SweepGrid(
+        tuple([SweepAxis(name, name, *values, known[name].help) for name, values in axes.items()])
+    )
 
 
 def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:

@@ -8,11 +8,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.cli.console import cell, headed
-from optipath.cli.outcome import TOLD
-from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from rich.table import Table
 
@@ -60,7 +58,11 @@ def point_texts(grid: SweepGrid, index: Sequence[int], digits: int) -> Iterator[
 
 
 def point_table(
-    title: str, light: Light, grid: SweepGrid, numbers: Numbers, told: Sequence[str] = ()
+    title: str,
+    light: Light,
+    grid: SweepGrid,
+    numbers: Numbers,
+    told: Mapping[str, tuple[str, str]] | None = None,
 ) -> Table:
     """Return a table with a row for each point of a grid.
 
@@ -74,23 +76,20 @@ def point_table(
         The values of its parameters.
     numbers : Numbers
         How these are written.
-    told : sequence of str, optional
-        What is told of light besides its Stokes vector, keys of `TOLD`.
+    told : mapping of str to tuple of str, optional
+        What is told of light besides its Stokes vector, as in `TOLD`.
 
     Returns
     -------
     rich.table.Table
     """
-    known = [TOLD[key] for key in told]
+    told = told or {}
     columns = [heading(axis.name, axis.unit) for axis in grid.axes] + [*_STOKES]
-    columns += [heading(word, unit) for word, unit in known]
+    columns += [heading(word, unit) for word, unit in told.values()]
     table = headed(*columns, box=None, title=cell(title), title_justify="left", title_style="")
     for column in table.columns:
         column.justify = "right"
-    more: list[Any] = [
-        in_unit(getattr(light, key.lower()), unit)
-        for key, (_, unit) in zip(told, known, strict=True)
-    ]
+    more = [_degrees(getattr(light, key.lower()), unit) for key, (_, unit) in told.items()]
     for index in islice(np.ndindex(grid.shape), MOST_ROWS):
         values = _values_at(grid, index, numbers.digits)
         behind = (numbers.state(float(each[index])) for each in more)
@@ -130,6 +129,10 @@ def plane_table(title: str, light: Light, grid: SweepGrid, numbers: Numbers) -> 
         texts = [numbers.stokes(light, (row, place))[0] for place in range(len(across))]
         table.add_row(*map(cell, (value_text(value, numbers.digits), *texts)))
     return table
+
+
+def _degrees(numbers: Any, unit: str) -> Any:
+    return np.degrees(numbers) if unit == "deg" else numbers
 
 
 def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:

@@ -1,7 +1,8 @@
-"""A sweep as it is printed: a table for one axis, a plane of S0 for two, a summary for more."""
+"""A sweep as it is printed: a row for each point, a plane of S0, or a summary."""
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,11 +38,11 @@ def print_sweep(outcome: Outcome, digits: int) -> None:
     grid = outcome.grid
     is_line = len(grid.shape) == 1
     is_plane = len(grid.axes) == len(grid.shape) == 2
-    if is_line:
-        tables = [_line_table(console, outcome, name, numbers) for name in outcome.lights]
-    elif is_plane and grid.shape[0] <= MOST_ROWS and grid.shape[1] <= _MOST_COLUMNS:
+    if is_plane and grid.shape[0] <= MOST_ROWS and grid.shape[1] <= _MOST_COLUMNS:
         titles = {f"S0 at {name}": light for name, light in outcome.lights.items()}
         tables = [plane_table(title, light, grid, numbers) for title, light in titles.items()]
+    elif is_line or grid.points <= MOST_ROWS:
+        tables = [_point_table(console, outcome, name, numbers) for name in outcome.lights]
     else:
         tables = [_summary(outcome, numbers)]
     for table in tables:
@@ -57,11 +58,11 @@ def sizes_text(grid: SweepGrid) -> str:
     return f"{grid.points:,} points ({sizes})"
 
 
-def _line_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
-    """Return a row for each value, with as many quantities of light as the terminal is wide."""
+def _point_table(console: PlainConsole, outcome: Outcome, name: str, numbers: Numbers) -> Table:
+    """Return a row for each point, with as many quantities of light as the terminal is wide."""
     given = f"light at {name}", outcome.lights[name], outcome.grid, numbers
     for count in range(len(TOLD), 0, -1):
-        table = point_table(*given, [*TOLD][:count])
+        table = point_table(*given, dict(islice(TOLD.items(), count)))
         if console.measure(table, options=console.options.update(width=_WIDEST)).maximum <= (
             console.width
         ):
@@ -73,6 +74,8 @@ def _summary(outcome: Outcome, numbers: Numbers) -> Table:
     """Return how many points there are, and between which values S0 lies."""
     about = cell(sizes_text(outcome.grid))
     table = headed("", "least S0", "largest S0", box=None, title=about, title_justify="left")
+    for column in table.columns[1:]:
+        column.justify = "right"
     for name, light in outcome.lights.items():
         known = light.intensity[np.isfinite(light.intensity)]
         ends = [float(find(known)) if known.size else np.nan for find in (np.min, np.max)]

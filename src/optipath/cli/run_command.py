@@ -6,12 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, say_json
-from optipath.cli.given_axes import refuse_arrays
+from optipath.cli.given_axes import grid_of_axes, refuse_arrays
 from optipath.cli.outcome import outcome_as_json, outcome_of
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.cli.printed_light import print_cases, print_outcome
 from optipath.composer.composer import Composer
-from optipath.sweeps.read_axes import grid_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -44,7 +43,7 @@ def _outcome(chosen: Chosen, reads: str | None, options: Mapping[str, Any]) -> O
     path = chosen.path(reads)
     refuse_arrays(path, chosen.axes)
     plan = Composer(**options).compose(path)
-    return outcome_of(chosen, path, plan, grid_of(plan.inputs, chosen.axes))
+    return outcome_of(chosen, path, plan, grid_of_axes(path, chosen.axes))
 
 
 run = PresetGroup("run", _run, (*COMPOSING, DIGITS), several=_run_several, ranges=True)

@@ -11,19 +11,22 @@ from optipath.cli.outcome import outcome_as_json, outcome_of
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.cli.printed_sweep import print_sweep, sizes_text
 from optipath.cli.sweep_files import write_csv, write_json
-from optipath.cli.sweep_options import SWEEPING, chunks_of, is_of_blocks, option_faults
+from optipath.cli.sweep_options import (
+    SWEEPING,
+    chunks_of,
+    coords_names,
+    is_of_blocks,
+    option_faults,
+    zip_groups,
+)
 from optipath.composer.composer import Composer
-from optipath.errors import ParameterError
+from optipath.errors import ParameterError, listed
 from optipath.sweeps.read_axes import grid_of
-from optipath.values.text_tables import columns_of
 
 if TYPE_CHECKING:
-    from optipath.cli.chosen import Chosen
+    from collections.abc import Iterable
 
-_NO_AXIS = (
-    "a sweep has no axis; give a parameter several values, such as --{name} {example}, or give "
-    "--coords FILE.csv"
-)
+    from optipath.cli.chosen import Chosen
 
 
 def _sweep(
@@ -40,19 +43,29 @@ def _sweep(
     **options: Any,
 ) -> None:
     """Trace the light of a preset, or of a TOML file, for every combination of some values."""
-    beside = [column.name for column in columns_of(coords)] if coords else []
+    beside = coords_names(coords)
+    if twice := [name for name in beside if name in chosen.values]:
+        flags = listed([f"--{name.replace('_', '-')}" for name in twice])
+        raise ParameterError(f"{flags} and --coords both give values; leave one of them out")
     path = chosen.path(reads, beside)
     refuse_arrays(path, [*chosen.axes, *beside])
     composer = Composer(**options)
     plan = composer.compose(path)
-    together = [tuple(name.strip() for name in names.split(",")) for names in zip]
+    together = [*zip_groups(zip).values()]
     grid = grid_of(plan.inputs, chosen.axes, together, coords)
     if not grid.axes:
-        raise ParameterError(_NO_AXIS)
+        raise ParameterError(_no_axis(plan.inputs.open))
     if is_of_blocks(out):
-        keywords = {"zip": together, "coords": coords, "composer": composer, "store": out}
-        keywords |= {"chunks": chunks_of(chunks), "scheduler": scheduler}
-        path.sweep(**chosen.axes, **keywords, progress=True)
+        path.sweep(
+            zip=together,
+            coords=coords,
+            chunks=chunks_of(chunks),
+            store=out,
+            scheduler=scheduler,
+            progress=True,
+            composer=composer,
+            **chosen.axes,
+        )
     elif out is not None and out.lower().endswith(".csv"):
         write_csv(Path(out), plan, grid)
     else:
@@ -65,6 +78,12 @@ def _sweep(
             print_sweep(outcome, digits)
     if out is not None:
         say(f"wrote {out}: {sizes_text(grid)}")
+
+
+def _no_axis(known: Iterable[str]) -> str:
+    flags = [f"--{name.replace('_', '-')} START:STOP:COUNT" for name in known][:1]
+    given = " or ".join([*flags, "--coords FILE.csv"])
+    return f"a sweep has an axis at least; give {given}, or write 'optipath run' for single values"
 
 
 sweep = PresetGroup(

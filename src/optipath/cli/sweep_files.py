@@ -13,7 +13,6 @@ from optipath.cli.progress_bar import progress_bar
 from optipath.cli.text_files import told_of, write
 from optipath.sweeps.light_quantities import QUANTITIES
 from optipath.sweeps.variable_names import detectors_of, variable_names
-from optipath.values.units import in_unit
 from optipath.values.written_files import written_whole
 
 if TYPE_CHECKING:
@@ -106,7 +105,8 @@ def _texts(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Seq
     lights = plan.run_all(**grid.given(region))
     for end in detectors_of(plan):
         for quantity in QUANTITIES:
-            numbers = in_unit(quantity.of(lights[end]), _unit(quantity.unit))
+            numbers = quantity.of(lights[end])
+            numbers = np.degrees(numbers) if quantity.unit == "rad" else numbers
             yield [repr(number) for number in np.ravel(numbers + 0.0).tolist()]
 
 

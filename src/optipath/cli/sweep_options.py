@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.errors import did_you_mean, listed, shown
+from optipath.errors import OptipathError, did_you_mean, listed, shown
+from optipath.values.text_tables import columns_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 ZIP = click.Option(
     ["--zip"],
@@ -54,10 +58,36 @@ def chunks_of(chunks: str | None) -> int | str | None:
     return int(chunks) if chunks and chunks.isdecimal() else chunks
 
 
+def zip_groups(
+    zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
+) -> dict[str, tuple[str, ...]]:
+    """Return the parameters of each group that varies together, by what was written."""
+    return {
+        names: tuple(name.strip() for name in names.split(",") if name.strip()) for names in zip
+    }
+
+
+def coords_names(coords: str | None) -> list[str]:
+    """Return the parameters that a file has columns of."""
+    return [column.name for column in columns_of(coords)] if coords is not None else []
+
+
+def coords_faults(coords: str | None) -> list[str]:
+    """Return what is wrong with a file of axes, a sentence each."""
+    try:
+        coords_names(coords)
+    except OptipathError as error:
+        about = f"{error.about}: " if error.about else ""
+        return [f"{about}{fault}" for fault in error.faults]
+    return []
+
+
 def option_faults(
     *,
     as_json: bool,
     out: str | None,
+    zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
+    coords: str | None,
     chunks: str | None,
     scheduler: str | None,
     **_others: Any,
@@ -66,7 +96,7 @@ def option_faults(
 
     Parameters
     ----------
-    as_json, out, chunks, scheduler
+    as_json, out, zip, coords, chunks, scheduler
         What stands behind the options.
     **_others : Any
         The other options.
@@ -78,6 +108,12 @@ def option_faults(
     faults = [] if out is None else out_faults(out)
     if as_json and out is not None:
         faults.append("--json prints what --out writes into a file; give one of them")
+    faults += [
+        f"--zip {shown(names)} names no two parameters; write --zip NAME,NAME"
+        for names, group in zip_groups(zip).items()
+        if len(group) < 2
+    ]
+    faults += coords_faults(coords)
     if chunks is not None and chunks != "auto" and not (chunks.isdecimal() and int(chunks)):
         faults.append(
             f"--chunks {shown(chunks)} is no size of a block; write 'auto', or how many values "
