@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
 import xarray as xr
 
 from optipath.sweeps.dataset_attributes import dataset_attributes
+from optipath.sweeps.dataset_labels import attributes_of, coordinates_of, dimensions_of
 from optipath.sweeps.derived_variable import derived
-from optipath.sweeps.labels import attributes_of, coordinates_of, dimensions_of
 from optipath.sweeps.light_quantities import COMPONENTS, DERIVED, FAINT
+from optipath.sweeps.stacked_views import stacked
 from optipath.sweeps.swept_light import SweptLight
 from optipath.sweeps.variable_names import detectors_of, variable_names
 
@@ -50,14 +50,13 @@ def swept_in_memory(
     coords = coordinates_of(grid, plan)
     found = plan.answers.lights(grid.given())
     lights = tuple([SweptLight(plan, grid, name, *found[name]) for name in detectors_of(plan)])
-    variables = {}
+    variables: dict[str, Any] = {}
     each = zip(*[light.components for light in lights], strict=True)
     for quantity, parts in zip(COMPONENTS, each, strict=True):
-        numbers = parts[0] if len(parts) == 1 else np.stack(parts)
-        variables[quantity.variable] = xr.Variable(dims, numbers, attributes_of(quantity))
+        numbers = parts[0] if len(parts) == 1 else stacked(parts)
+        variables[quantity.variable] = dims, numbers, attributes_of(quantity)
     faint = (FAINT,) if any(light.is_faint for light in lights) else ()
     for quantity in (*DERIVED, *faint):
-        numbers = derived(quantity, lights)
         name = names[quantity.variable]
-        variables[name] = xr.Variable(dims, numbers, attributes_of(quantity))
+        variables[name] = dims, derived(quantity, lights), attributes_of(quantity)
     return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from optipath.sweeps.variable_names import DETECTOR, detectors_of
 from optipath.values.units import BASE_UNITS
@@ -25,7 +24,7 @@ def dimensions_of(grid: SweepGrid, plan: Plan) -> tuple[str, ...]:
     return (*front, *grid.sizes)
 
 
-def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, xr.Variable]:
+def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dict[str, str]]]:
     """Return a coordinate for every axis and every value that is fixed.
 
     Parameters
@@ -37,24 +36,23 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, xr.Variable]:
 
     Returns
     -------
-    dict of str to xarray.Variable
-        By name: in the order of the axes, then that of the plan.
+    dict of str to (dimension, values, attributes)
+        By name, as a Dataset takes them: in the order of the axes, then that of the plan.
     """
     several = detectors_of(plan)
-    found = {}
+    found: dict[str, tuple[Any, Any, dict[str, str]]] = {}
     if len(several) > 1:
-        found[DETECTOR] = xr.Variable(
-            (DETECTOR,), np.array(several, object), {"long_name": "where the light is read"}
-        )
+        attrs = {"long_name": "where the light is read"}
+        found[DETECTOR] = DETECTOR, np.array(several, object), attrs
     for axis in grid.axes:
         attrs = _attrs(axis.help, axis.unit, axis.shown)
-        found[axis.name] = xr.Variable((axis.dimension,), _for_files(axis.shown), attrs)
+        found[axis.name] = axis.dimension, _for_files(axis.shown), attrs
     for name, parameter in plan.inputs.open.items():
         if name not in found:
             value = _single(parameter, grid.fixed.get(name, parameter.default))
             unit = BASE_UNITS.get(plan.inputs.dimensions.get(name, ""), "")
             attrs = _attrs(parameter.help, unit, value)
-            found[name] = xr.Variable((), value, attrs)
+            found[name] = (), value, attrs
     return found
 
 
