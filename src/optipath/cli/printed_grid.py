@@ -136,5 +136,5 @@ def _degrees(numbers: Any, unit: str) -> Any:
 
 
 def _values_at(grid: SweepGrid, index: Sequence[int], digits: int) -> list[str]:
-    places = dict(zip(grid.sizes, index, strict=True))
+    places = dict(zip(grid.sizes, index, strict=False))  # A batch without names has no sizes.
     return [value_text(axis.shown[places[axis.dimension]].item(), digits) for axis in grid.axes]

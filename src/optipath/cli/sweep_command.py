@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from optipath.cli.block_bar import block_bar
 from optipath.cli.console import DIGITS, say, say_json
 from optipath.cli.given_axes import refuse_arrays
 from optipath.cli.outcome import outcome_as_json, outcome_of
@@ -55,18 +56,19 @@ def _sweep(
     grid = grid_of(plan.inputs, chosen.axes, together, coords)
     if not grid.axes:
         raise ParameterError(_no_axis(plan.inputs.open))
-    if is_of_blocks(out):
-        path.sweep(
-            zip=together,
-            coords=coords,
-            chunks=chunks_of(chunks),
-            store=out,
-            scheduler=scheduler,
-            progress=True,
-            composer=composer,
-            **chosen.axes,
-        )
-    elif out is not None and out.lower().endswith(".csv"):
+    if out is not None and is_of_blocks(out):
+        with block_bar(out) as progress:
+            path.sweep(
+                zip=together,
+                coords=coords,
+                chunks=chunks_of(chunks),
+                store=out,
+                scheduler=scheduler,
+                progress=progress,
+                composer=composer,
+                **chosen.axes,
+            )
+    elif out is not None and out.endswith(".csv"):
         write_csv(Path(out), plan, grid)
     else:
         outcome = outcome_of(chosen, path, plan, grid)

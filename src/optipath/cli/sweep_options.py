@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.errors import OptipathError, did_you_mean, listed, shown
+from optipath.errors import OptipathError, listed, shown
 from optipath.values.text_tables import columns_of
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ _SCHEDULERS = ("threads", "processes", "synchronous")
 
 def is_of_blocks(out: str | None) -> bool:
     """Tell whether a file is written block by block, by its ending."""
-    return out is not None and Path(out).suffix.lower() in BLOCKS
+    return out is not None and Path(out).suffix in BLOCKS
 
 
 def chunks_of(chunks: str | None) -> int | str | None:
@@ -109,7 +109,7 @@ def option_faults(
     if as_json and out is not None:
         faults.append("--json prints what --out writes into a file; give one of them")
     faults += [
-        f"--zip {shown(names)} names no two parameters; write --zip NAME,NAME"
+        f"--zip {shown(names)} names fewer than two parameters; write --zip NAME,NAME"
         for names, group in zip_groups(zip).items()
         if len(group) < 2
     ]
@@ -121,8 +121,8 @@ def option_faults(
         )
     if scheduler is not None and scheduler not in _SCHEDULERS and "://" not in scheduler:
         faults.append(
-            f"--scheduler {shown(scheduler)} is unknown{did_you_mean(scheduler, _SCHEDULERS)}, or "
-            f"write the address of a cluster, such as tcp://127.0.0.1:8786"
+            f"--scheduler {shown(scheduler)} is unknown; write {', '.join(_SCHEDULERS)}, or the "
+            f"address of a cluster, such as tcp://127.0.0.1:8786"
         )
     idle = {"--chunks": chunks, "--scheduler": scheduler}
     if not is_of_blocks(out) and (given := [name for name, value in idle.items() if value]):
@@ -144,14 +144,14 @@ def out_faults(out: str) -> list[str]:
     file = Path(out)
     if not out or "\0" in out:
         return [f"--out {shown(out)} is no name of a file; write one such as 'result.csv'"]
-    suffix = file.suffix.lower()
+    suffix = file.suffix
     if suffix not in (*TEXTS, *BLOCKS):
         meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
         return [f"--out {shown(out)} has no ending of a sweep; write {meant}, .json, .nc or .zarr"]
     folder = file.absolute().parent
     if not folder.is_dir():
         return [f"--out {shown(out)} cannot be written: there is no folder {shown(str(folder))}"]
-    if suffix != ".zarr" and (file.exists() or file.is_symlink()):
+    if suffix in TEXTS and (file.exists() or file.is_symlink()):
         return [f"--out {shown(out)} is there already, and stays; name another file, or remove it"]
     if not os.access(folder, os.W_OK):
         return [f"--out {shown(out)} cannot be written: permission denied"]
