@@ -11,6 +11,7 @@ import numpy as np
 from optipath.cli.given_light import WAVELENGTH, material_as_json, materials_among
 from optipath.cli.plain_json import plain
 from optipath.paths.format.writer import complex_parts_of
+from optipath.sweeps.free_memory import refuse_more_than_free
 from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.values.cases import Case
 from optipath.values.domains.quantities import AMPLITUDE
@@ -134,6 +135,8 @@ def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> 
     -------
     Outcome
     """
+    if grid.axes:
+        refuse_more_than_free(plan, grid)
     lights = plan.run_all(**grid.given())
     return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by), grid)
 

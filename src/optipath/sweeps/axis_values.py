@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from optipath.errors import ParameterError
-from optipath.sweeps.labelled_values import read_labelled
+from optipath.sweeps.labelled_values import is_labelled, read_labelled
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, known
@@ -56,7 +55,7 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         )
     check_known(f"parameter '{name}' of a sweep", value)
     parameter = inputs.open[name]
-    if isinstance(value, xr.DataArray):
+    if is_labelled(value):
         return _of_one_dimension(name, read_labelled(parameter, value, inputs.uses))
     if isinstance(value, str) and (several := read_axis_text(value, parameter, "", inputs.uses)):
         return several

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.sweeps.variable_names import detectors_of
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -67,5 +68,6 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     BlockLight
     """
     plan, given = recipe.plan, block.given()
-    lights = plan.run_all(**given)
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        lights = plan.run_all(**given)
     return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))

@@ -43,18 +43,35 @@ def axis_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
     faults = broadcast_fault({"a sweep": grid.shape})
     given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes}}
     for name, value in given.items():
-        numbers = np.asarray(value)
+        uses = tuple([use for use in inputs.uses if use.value.name == name])
         try:
-            if numbers.dtype.kind in "fc" and not np.all(np.isfinite(numbers)):
-                inputs.open[name].resolve(value)
-            uses = tuple([use for use in inputs.uses if use.value.name == name])
+            if any(use.domain.takes_any for use in uses):
+                inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
             _alone(inputs, name, uses).resolve({name: value})
         except OptipathError as fault:
             faults += fault.faults
-    if faults:
-        return faults
+    return faults
+
+
+def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
+    """Return what is wrong with what follows from values of a grid, each of which is well.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given.
+    grid : SweepGrid
+        What is.
+
+    Returns
+    -------
+    list of str
+        Of the index of a metal, for instance, which follows from a wavelength.
+    """
+    if not inputs.computed:
+        return []
     try:
-        # What follows from several, such as from a wavelength, along their dimensions alone.
+        # Along the dimensions of what it follows from, and nothing is laid out.
         replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
     except OptipathError as fault:
         return [*fault.faults]

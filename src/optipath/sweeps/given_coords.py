@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import xarray as xr
-from xarray.core.coordinates import Coordinates
-
 from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.labelled_values import has_coordinates
 from optipath.values.axis_texts import read_entries
 from optipath.values.text_tables import columns_of
 from optipath.values.units import USUAL_UNITS, dimension_of
@@ -63,7 +61,7 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
     try:
         if isinstance(coords, (str, PathLike)):
             return _of_file(inputs, coords, faults)
-        if isinstance(coords, (xr.Dataset, xr.DataArray, Coordinates)):
+        if has_coordinates(coords):
             return _of_dataset(inputs, getattr(coords, "coords", coords), faults)
     except OptipathError as fault:
         about = f"{fault.about}: " if fault.about else ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +23,32 @@ if TYPE_CHECKING:
 
 _NO_UNIT = ("", "1", "dimensionless")
 """What stands for no unit, as the conventions for NetCDF (CF) write it."""
+
+
+def is_labelled(value: Any) -> bool:
+    """Tell whether a value is a `DataArray`, without importing xarray.
+
+    Examples
+    --------
+    >>> is_labelled([0.5])
+    False
+    """
+    xarray = sys.modules.get("xarray")
+    return xarray is not None and isinstance(value, xarray.DataArray)
+
+
+def has_coordinates(value: Any) -> bool:
+    """Tell whether a value is a `DataArray`, a `Dataset`, or the coordinates of one.
+
+    Examples
+    --------
+    >>> has_coordinates({"delta": [0.5]})
+    False
+    """
+    xarray = sys.modules.get("xarray")
+    return xarray is not None and isinstance(
+        value, (xarray.DataArray, xarray.Dataset, xarray.Coordinates)
+    )
 
 
 def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axis_values import read_values
-from optipath.sweeps.checked_axes import axis_faults, unnamed_arrays
+from optipath.sweeps.checked_axes import axis_faults, computed_faults, unnamed_arrays
 from optipath.sweeps.given_coords import GivenCoordinate, given_coords
+from optipath.sweeps.labelled_values import is_labelled
 from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.sweeps.zipped_axes import zipped_dimensions
@@ -77,7 +76,8 @@ def grid_of(
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
-    if faults := faults + axis_faults(inputs, grid):
+    faults += axis_faults(inputs, grid)
+    if faults := faults or computed_faults(inputs, grid):
         raise ParameterError(*dict.fromkeys(faults))
     LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
     return grid
@@ -116,4 +116,4 @@ def _named_as_others(
 
 def _is_plain(value: Any) -> bool:
     """Tell whether a value may have plain numbers, without a unit beside them."""
-    return not isinstance(value, (AxisValues, xr.DataArray))
+    return not (isinstance(value, AxisValues) or is_labelled(value))
