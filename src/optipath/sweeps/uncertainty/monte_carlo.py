@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.sweeps.uncertainty.first_order import Spread
 from optipath.sweeps.uncertainty.light_figures import STOKES, difference, figures_of, rounding_of
+from optipath.sweeps.uncertainty.notes import notes_of_lost_figures
 from optipath.sweeps.uncertainty.samples import Samples
 
 if TYPE_CHECKING:
@@ -67,6 +68,8 @@ def spread_of_samples(
         for each in light_at.uncertain
         if outside[each.name]
     ]
+    figures = figures_of(light)
+    notes += notes_of_lost_figures(~np.isnan(figures) & np.isnan(variance))
     spread = Spread(covariance, np.sqrt(variance), shares)
     return spread, np.asarray(light.stokes) + mean[..., :STOKES], notes
 

@@ -76,6 +76,28 @@ def _named(where: Any) -> str:
     return listed(names) + (f" (of {count} in {len(paths)} paths)" if len(paths) > 1 else "")
 
 
+def notes_of_lost_figures(lost: Any) -> list[str]:
+    """Return what is said of figures that some samples do not have, if there are any.
+
+    Parameters
+    ----------
+    lost : ndarray of bool, shape (..., 10)
+        Which they are.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> notes_of_lost_figures(np.zeros(10, bool))
+    []
+    """
+    if not np.any(lost):
+        return []
+    return [f"nan: {_named(lost)}: some samples do not have it, as circular light has no AoP"]
+
+
 def notes_of_lost_light(lost: Any) -> list[str]:
     """Return what is said of light that no float holds, if there is any.
 

@@ -54,10 +54,12 @@ def propagate(
     """
     plan = path.compose()
     check_named("propagate", unnamed, plan.inputs.open)
+    if clashes := options.clashes(plan.inputs):
+        raise ParameterError(*clashes)
     exact, uncertain, faults = read_uncertain(plan.inputs, given)
     names = [each.name for each in uncertain]
     correlation, wrong = read_correlation(options.correlation, names)
-    faults += options.faults(plan.inputs)
+    faults += options.faults()
     # Of a value that cannot be read, nobody knows whether it would be one of them.
     faults += [] if faults else wrong
     detector, no_detector = _detector(plan, options.detector)
@@ -104,7 +106,8 @@ def _to_first_order(
     changes = np.where(_is_lost(light)[..., np.newaxis, np.newaxis], np.nan, changes)
     spread = spread_of(changes, correlation)
     left = nonlinearity_of(light_at, center, changes, spread.uncertainties)
-    notes = notes_of_first_order(light, light_at.uncertain, spread.uncertainties, left)
+    there = np.where(_is_lost(light)[..., np.newaxis], 0.0, spread.uncertainties)
+    notes = notes_of_first_order(light, light_at.uncertain, there, left)
     mean = np.asarray(light.stokes, np.float64)
     return Propagation(
         light=light,

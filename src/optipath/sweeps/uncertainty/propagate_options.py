@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 from optipath.composer.composer import Composer
 from optipath.errors import shown, unknown
-from optipath.values.whole_numbers import whole_number
+from optipath.values.whole_numbers import is_whole, whole_number
 
 if TYPE_CHECKING:
     from optipath.values.inputs import Inputs
 
 METHODS = ("auto", "gradients", "differences", "monte-carlo")
 _SAMPLES, _SEED = 10_000, 0
-_FEWEST = 2
+_FEWEST, _MOST = 2, 10_000_000
 
 
 @dataclass(frozen=True)
@@ -49,35 +49,41 @@ class PropagateOptions:
         """What random numbers begin with."""
         return _SEED if self.seed is None else int(self.seed)
 
-    def faults(self, inputs: Inputs) -> list[str]:
-        """Return what is wrong with them for a path, a sentence each.
+    def clashes(self, inputs: Inputs) -> list[str]:
+        """Return what is said of parameters that are called as options, a sentence each.
 
         Parameters
         ----------
         inputs : Inputs
-            What may be given to it.
+            What may be given to a path.
 
         Returns
         -------
         list of str
         """
-        found = [
+        return [
             f"'{each.name}' is an option of propagate() and a parameter of this path; "
             f"path.bind({each.name}=...) gives the parameter its value"
             for each in fields(self)
             if each.name in inputs.open
         ]
-        found += unknown("method", self.method, METHODS)
+
+    def faults(self) -> list[str]:
+        """Return what is wrong with them, a sentence each."""
+        found = unknown("method", self.method, METHODS)
         if self.composer is not None and not isinstance(self.composer, Composer):
             found.append(f"composer must be an op.Composer(...), not {shown(self.composer)}")
-        if self.samples is not None:
-            found += whole_number("samples", self.samples, _FEWEST)
+        if self.samples is not None and not is_whole(self.samples, _FEWEST, _MOST):
+            found.append(
+                f"samples must be a whole number within {_FEWEST} .. {_MOST:,}, "
+                f"not {shown(self.samples)}"
+            )
         if self.seed is not None:
             found += whole_number("seed", self.seed, 0)
         drawn = [name for name in ("samples", "seed") if getattr(self, name) is not None]
-        if drawn and not self.draws and self.method in METHODS:
+        if drawn and not unknown("method", self.method, METHODS) and not self.draws:
             found.append(
-                f"{' and '.join(drawn)} given, but method='{self.method}' draws no samples; "
-                f"leave out, or write method='monte-carlo'"
+                f"method='{self.method}' draws no samples; leave {' and '.join(drawn)} out, or "
+                f"write method='monte-carlo'"
             )
         return found

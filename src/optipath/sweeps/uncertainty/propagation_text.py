@@ -36,7 +36,9 @@ def text_of_propagation(found: Propagation) -> str:
         spread = found.uncertainties[..., place] * factor
         value = _value(values[..., place] * factor, spread)
         shares = [_share(found.shares[..., place, each]) for each in range(len(names))]
-        rows.append([quantity.variable, value + unit, _span(spread, _digits) + unit, *shares])
+        units = [unit if np.any(np.isfinite(n)) else "" for n in (values[..., place], spread)]
+        of_unit = [value + units[0], _span(spread, _digits) + units[1]]
+        rows.append([quantity.variable, *of_unit, *shares])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = [
         "  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows
@@ -68,7 +70,7 @@ def _digits(number: float) -> str:
 
 
 def _share(shares: Any) -> str:
-    return _span(100.0 * shares, "{:.0f}".format) + " %"
+    return _span(100.0 * shares, "{:.0f}".format) + " %" * bool(np.any(np.isfinite(shares)))
 
 
 def _span(numbers: Any, text: Any) -> str:

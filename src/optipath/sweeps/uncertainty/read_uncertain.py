@@ -54,7 +54,7 @@ def read_uncertain(
                 uncertain.append(_read(inputs, name, value))
             except OptipathError as fault:
                 faults += fault.faults
-    if not uncertain and not faults:
+    if not any(isinstance(value, tuple) for value in given.values()):
         faults.append(
             "nothing that is given has an uncertainty; give a value and its standard uncertainty, "
             f"such as {_example(inputs)}"

@@ -26,6 +26,7 @@ _COLUMNS = 9
 _LEAST = 4
 _ENOUGH = 1e-12
 _ROUNDING = 1e-15
+_DOUBT = 16.0
 _NEAR = 0.01
 """Closer to an end of its range a value has differences to one side alone."""
 
@@ -79,7 +80,7 @@ def _slope(light_at: LightAt, along: UncertainValue, stokes: Any, noise: Any) ->
         if number >= _LEAST and np.all(done):
             break
     # What may be all error is none.
-    return np.where(np.abs(best) <= least, 0.0, best)
+    return np.where(np.abs(best) <= _DOUBT * least, 0.0, best)
 
 
 def _steps(along: UncertainValue) -> tuple[Any, Any, Any]:

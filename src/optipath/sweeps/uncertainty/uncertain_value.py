@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.values.displayed import format_range
-from optipath.values.units import dimension_of, format_quantity
+from optipath.values.displayed import displayed, format_range
+from optipath.values.units import dimension_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -69,5 +69,5 @@ class UncertainValue:
         value, sigma = self.value, self.sigma
         if value.size != 1:
             return f"{self.name}, shape {value.shape}"
-        number, spread = (format_quantity(float(n.item()), self.unit) for n in (value, sigma))
+        number, spread = (displayed(float(n.item()), self.unit) for n in (value, sigma))
         return f"{self.name} = {number} +- {spread}"
