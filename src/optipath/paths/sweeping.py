@@ -5,11 +5,17 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Never
 
+from optipath.errors import MissingExtraError
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
     from optipath.composer.composer import Composer
+    from optipath.sweeps.uncertainty.propagation import Propagation
+
+_BROUGHT = ("xarray", "pandas")
+"""What a sweep needs of the extra that brings it, and what that needs itself."""
 
 
 class Sweeping:
@@ -24,7 +30,7 @@ class Sweeping:
         chunks: int | str | Mapping[str, int] | None = None,
         store: str | PathLike[str] | None = None,
         scheduler: Any = None,
-        progress: bool = False,
+        progress: bool | Callable[[int, int], None] = False,
         composer: Composer | None = None,
         **axes: Any,
     ) -> Any:
@@ -49,8 +55,9 @@ class Sweeping:
         scheduler : str or distributed.Client, optional
             What computes the blocks for a store: ``"threads"``, ``"processes"``, ``"synchronous"``,
             a client, or the address of a cluster.
-        progress : bool, optional
-            Whether a bar shows how far it is.
+        progress : bool or callable, optional
+            Whether a bar shows how far it is; or what is told how many blocks are done, and of how
+            many.
         composer : Composer, optional
             How the path is composed.
         **axes : array_like
@@ -61,8 +68,91 @@ class Sweeping:
         -------
         xarray.Dataset
             The dimensions are called as the parameters, in the order given.
+
+        Raises
+        ------
+        MissingExtraError
+            If xarray is not installed.
+        ParameterError
+            With all that is wrong with the axes, or as `Plan.run`.
+        ShapeError
+            If the light takes more memory than is free.
         """
-        sweep = import_module("optipath.sweeps.sweep").sweep
+        try:
+            sweep = import_module("optipath.sweeps.sweep").sweep
+        except ModuleNotFoundError as missing:
+            if missing.name not in _BROUGHT:
+                raise
+            raise MissingExtraError("sweeps", missing.name, "sweep") from None
         own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more = {"scheduler": scheduler, "progress": progress, "composer": composer}
         return sweep(self, unnamed, axes, **own, **more)
+
+    def propagate(
+        self,
+        /,
+        *unnamed: Never,
+        method: str = "auto",
+        samples: int | None = None,
+        seed: int | None = None,
+        correlation: Mapping[tuple[str, str], float] | None = None,
+        detector: str | None = None,
+        composer: Composer | None = None,
+        **values: Any,
+    ) -> Propagation:
+        """Return the light with its uncertainty, which follows from those of values.
+
+        To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
+        Supplement 1, JCGM 101:2008). What is doubtful is told in `Propagation.notes`.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        method : {"auto", "gradients", "differences", "monte-carlo"}, optional
+            Slopes by JAX where it is installed and traces the path, else by differences; by JAX;
+            by differences; or samples of normal distributions, which are cut off at the ends of
+            ranges.
+        samples, seed : int, optional
+            Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
+        correlation : mapping of pairs of str to float, optional
+            Coefficients of correlation, ``{("n1", "k1"): 0.3}``; 0 for other pairs.
+        detector : str, optional
+            Its name; needed only where there are several.
+        composer : Composer, optional
+            How the path is composed; slopes are in float64, and exact.
+        **values : tuple of two, or array_like
+            A value and its standard uncertainty (one standard deviation), each in radians, metres
+            or texts with units, ``delta=("48 deg", "0.1 deg")``; they may be arrays that
+            broadcast. What is no tuple is exact.
+
+        Returns
+        -------
+        Propagation
+
+        Raises
+        ------
+        ParameterError
+            With everything that is wrong with values, uncertainties and options.
+        MissingExtraError
+            If slopes by JAX are asked for, and JAX is not installed.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> found = op.load_preset("malus").propagate(
+        ...     angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
+        ... )
+        >>> print(found.light.intensity.round(6), found.uncertainty_of("intensity").round(6))
+        0.375 0.001066
+        >>> {name: float(share.round(3)) for name, share in found.contributions_to("S0").items()}
+        {'angle': 0.503, 'intensity': 0.497}
+        """
+        room = "optipath.sweeps.uncertainty"
+        options = import_module(f"{room}.propagate_options").PropagateOptions(
+            method, samples, seed, correlation, detector, composer
+        )
+        found: Propagation = import_module(f"{room}.propagate").propagate(
+            self, unnamed, values, options
+        )
+        return found
