@@ -5,11 +5,16 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Never
 
+from optipath.errors import MissingExtraError
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
     from os import PathLike
 
     from optipath.composer.composer import Composer
+
+_BROUGHT = ("xarray", "pandas")
+"""What a sweep needs of the extra that brings it, and what that needs itself."""
 
 
 class Sweeping:
@@ -62,8 +67,22 @@ class Sweeping:
         -------
         xarray.Dataset
             The dimensions are called as the parameters, in the order given.
+
+        Raises
+        ------
+        MissingExtraError
+            If xarray is not installed.
+        ParameterError
+            With all that is wrong with the axes, or as `Plan.run`.
+        ShapeError
+            If the light takes more memory than is free.
         """
-        sweep = import_module("optipath.sweeps.sweep").sweep
+        try:
+            sweep = import_module("optipath.sweeps.sweep").sweep
+        except ModuleNotFoundError as missing:
+            if missing.name not in _BROUGHT:
+                raise
+            raise MissingExtraError("sweeps", missing.name, "sweep") from None
         own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more = {"scheduler": scheduler, "progress": progress, "composer": composer}
         return sweep(self, unnamed, axes, **own, **more)

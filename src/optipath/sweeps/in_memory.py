@@ -9,6 +9,7 @@ import xarray as xr
 from optipath.sweeps.dataset_attributes import dataset_attributes
 from optipath.sweeps.dataset_labels import attributes_of, coordinates_of, dimensions_of
 from optipath.sweeps.derived_variable import derived
+from optipath.sweeps.free_memory import refuse_more_than_free
 from optipath.sweeps.light_quantities import COMPONENTS, DERIVED, FAINT
 from optipath.sweeps.stacked_views import stacked
 from optipath.sweeps.swept_light import SweptLight
@@ -46,9 +47,12 @@ def swept_in_memory(
     ------
     ParameterError
         As `Plan.run`, or if a coordinate is called as a variable.
+    ShapeError
+        If it takes more memory than is free.
     """
     names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
     coords = coordinates_of(grid, plan)
+    refuse_more_than_free(plan, grid)
     with units_are_written():  # Who reads the axes has told of degrees among them.
         found = plan.answers.lights(grid.given())
     lights = tuple([SweptLight(plan, grid, name, *found[name]) for name in detectors_of(plan)])

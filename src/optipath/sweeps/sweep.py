@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import ParameterError
+from optipath.composer.composer import Composer
+from optipath.composer.wiring import KEPT
+from optipath.errors import ParameterError, shown
 from optipath.sweeps.in_memory import swept_in_memory
 from optipath.sweeps.read_axes import grid_of
 from optipath.values.by_name import check_named
@@ -14,8 +16,8 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from optipath.composer.composer import Composer
     from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
 
 
 def sweep(
@@ -49,7 +51,7 @@ def sweep(
     xarray.Dataset
     """
     place = _place(store, scheduler, progress)
-    plan = path.compose() if composer is None else composer.compose(path)
+    plan = _plan(path, composer)
     check_named("sweep", unnamed, plan.inputs.open)
     grid = grid_of(plan.inputs, given, zip, coords)
     if place is None and chunks is None:
@@ -63,6 +65,22 @@ def sweep(
     from optipath.sweeps.sweep_job import SweepJob  # noqa: PLC0415
 
     return kept_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
+
+
+def _plan(path: PathGraph, composer: Composer | None) -> Plan:
+    """Return the plan of a path, which gives the light at its detectors."""
+    if composer is None:
+        return path.compose()
+    if not isinstance(composer, Composer):
+        given = shown(composer)
+        example = "composer=op.Composer(engine='numpy')"
+        raise ParameterError(f"composer= takes a Composer, not {given}; write {example}")
+    if composer.keep != KEPT[0]:
+        raise ParameterError(
+            f"a sweep gives the light at detectors, and Composer(keep='{composer.keep}') that on "
+            f"every link as well; leave keep out, or put a Detector where light is to be read"
+        )
+    return composer.compose(path)
 
 
 def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
