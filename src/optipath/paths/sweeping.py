@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Never
 from optipath.errors import MissingExtraError
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
     from optipath.composer.composer import Composer
@@ -29,7 +29,7 @@ class Sweeping:
         chunks: int | str | Mapping[str, int] | None = None,
         store: str | PathLike[str] | None = None,
         scheduler: Any = None,
-        progress: bool = False,
+        progress: bool | Callable[[int, int], None] = False,
         composer: Composer | None = None,
         **axes: Any,
     ) -> Any:
@@ -54,8 +54,9 @@ class Sweeping:
         scheduler : str or distributed.Client, optional
             What computes the blocks for a store: ``"threads"``, ``"processes"``, ``"synchronous"``,
             a client, or the address of a cluster.
-        progress : bool, optional
-            Whether a bar shows how far it is.
+        progress : bool or callable, optional
+            Whether a bar shows how far it is; or what is told how many blocks are done, and of how
+            many.
         composer : Composer, optional
             How the path is composed.
         **axes : array_like

@@ -12,6 +12,7 @@ import numpy as np
 from optipath.errors import ShapeError
 from optipath.values.arrays.memory import memory
 from optipath.values.arrays.shapes import MOST_PATHS
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,7 +51,10 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     if needed <= _LITTLE or needed <= (free := free_memory()):
         return
     sizes = " x ".join(f"{size:,}" for size in grid.shape)
-    instead = "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or "
+    instead = cure(
+        "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or ",
+        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or ",
+    )
     raise ShapeError(
         f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free; "
         f"{instead if grid.points <= MOST_PATHS else 'give '}fewer values"

@@ -12,6 +12,7 @@ from optipath.sweeps.read_axes import grid_of
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     import xarray as xr
@@ -30,7 +31,7 @@ def sweep(
     chunks: Any = None,
     store: Any = None,
     scheduler: Any = None,
-    progress: bool = False,
+    progress: bool | Callable[[int, int], None] = False,
     composer: Composer | None = None,
 ) -> xr.Dataset:
     """Return the light of a path for every combination of values; see `PathGraph.sweep`.
