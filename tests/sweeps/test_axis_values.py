@@ -45,9 +45,18 @@ def test_plain_numbers_are_radians_as_they_are():
     numbers = np.array([0.1, 0.2, 0.7])
     axis = axis_of({"delta": numbers})
     assert (axis.name, axis.dimension, axis.unit) == ("delta", "delta", "rad")
-    assert axis.given is numbers
-    assert axis.shown is numbers
+    assert axis.given.tolist() == axis.shown.tolist() == numbers.tolist()
     assert axis.help == NPGR.inputs.open["delta"].help
+
+
+def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
+    numbers = np.array([0.1, 0.2])
+    for value in (numbers, labelled(numbers, "rad")):
+        axis = axis_of({"delta": value})
+        axis.shown[0] = 0.3
+        numbers[1] = 0.4
+        assert axis.given.tolist() == [0.1, 0.2]
+        numbers[1] = 0.2
 
 
 @pytest.mark.parametrize("several", [[0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)])

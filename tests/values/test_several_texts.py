@@ -110,6 +110,11 @@ def test_what_is_wrong_is_told(text, told):
     assert told in str(caught.value)
 
 
+def test_a_file_that_is_not_there_is_told_with_its_name():
+    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
+        several_texts(DELTA, "@nowhere.csv")
+
+
 def written(folder, text):
     file = folder / "angles.csv"
     file.write_text(text, "utf-8")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from optipath.errors import ParameterError, UnitError
+from optipath.errors import OptipathError, ParameterError, UnitError
 from optipath.values.commas import without_comma
 from optipath.values.counted_ranges import texts_of_range
 from optipath.values.text_tables import column_for
@@ -50,7 +50,11 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     """
     text = text.strip()
     if text.startswith(_FILE):
-        return column_for(parameter, text.removeprefix(_FILE).strip())
+        try:
+            return column_for(parameter, text.removeprefix(_FILE).strip())
+        except OptipathError as fault:
+            about = f"{fault.about}: " if fault.about else ""
+            raise ParameterError(*[f"{about}{sentence}" for sentence in fault.faults]) from None
     try:
         if _is_range(parameter, text):
             return texts_of_range(text)
