@@ -62,8 +62,16 @@ def test_a_single_value_is_no_list(text):
     assert several_texts(DELTA, text) is None
 
 
-def test_a_ratio_is_a_single_number():
-    assert several_texts(NUMBER, "1000:1") is None
+@pytest.mark.parametrize("text", ["1000:1", "1:50", "inf"])
+def test_a_ratio_to_one_is_a_single_number(text):
+    assert several_texts(NUMBER, text) is None
+
+
+def test_a_ratio_that_may_be_a_range_without_a_count_is_asked_about():
+    with pytest.raises(op.ParameterError, match=r"may be the ratio 0\.75, or a range") as caught:
+        several_texts(NUMBER, "1.2:1.6")
+    assert "write '0.75', or '1.2:1.6:11' for eleven" in str(caught.value)
+    assert len(several_texts(NUMBER, "1.2:1.6:11")) == 11
 
 
 @pytest.mark.parametrize(

@@ -107,9 +107,9 @@ def _unit_of(parameter: Parameter, unit: Any) -> str:
 def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -> npt.NDArray[Any]:
     if unit in ("", BASE_UNITS.get(dimension_of(parameter.unit))):
         return numbers.copy()
-    known = UNITS.get(unit)
-    doubles = numbers.astype(np.float64)
-    if known is not None and not known.power:
+    known, is_real = UNITS.get(unit), numbers.dtype.kind == "f"
+    doubles = numbers.astype(np.float64) if is_real else numbers
+    if is_real and known is not None and not known.power:
         return doubles * known.size
     # The decimal point is moved in the number as it is written, which rounds once.
     found = [
