@@ -80,7 +80,6 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     -------
     BlockLight
     """
-<<<<<<< HEAD
     plan = recipe.plan
     with units_are_written():  # Who reads the axes has told of degrees among them.
         found = [
@@ -95,13 +94,3 @@ def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slic
     """Return an index as a slice for each dimension."""
     told = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
     return told + [slice(None)] * (len(shape) - len(told))
-||||||| 5642864
-    plan, given = recipe.plan, block.given()
-    lights = plan.run_all(**given)
-    return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))
-=======
-    plan, given = recipe.plan, block.given()
-    with units_are_written():  # Who reads the axes has told of degrees among them.
-        lights = plan.run_all(**given)
-    return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))
->>>>>>> axes
