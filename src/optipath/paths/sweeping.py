@@ -42,9 +42,9 @@ class Sweeping:
         zip : sequence of str, or several, optional
             Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
             or a mapping of its name to them.
-        coords : str, PathLike or Dataset, optional
-            Axes besides: a CSV file with a column for each parameter, its unit in the heading, or
-            the coordinates of a Dataset.
+        coords : str, PathLike, Dataset, DataArray or mapping, optional
+            Axes besides: a CSV file with a column for each parameter, its unit in the heading; the
+            coordinates of a Dataset; or a mapping from names to values.
         chunks : int, str or mapping of str to int, optional
             The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
             blocks of about a million.
@@ -60,8 +60,9 @@ class Sweeping:
         composer : Composer, optional
             How the path is composed.
         **axes : array_like
-            The values of parameters, in radians and metres, or texts with units; a single value
-            is no axis.
+            The values of parameters, in radians and metres, texts with units, a range
+            ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value is no
+            axis.
 
         Returns
         -------
