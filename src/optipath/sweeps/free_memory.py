@@ -57,7 +57,7 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     )
     raise ShapeError(
         f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free; "
-        f"{instead}fewer values"
+        f"{instead if grid.points <= MOST_PATHS else 'give '}fewer values"
     )
 
 
