@@ -53,7 +53,7 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     sizes = " x ".join(f"{size:,}" for size in grid.shape)
     instead = cure(
         "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or ",
-        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or ",
+        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or give ",
     )
     raise ShapeError(
         f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free; "
