@@ -6,13 +6,14 @@ import sys
 import pytest
 
 import optipath as op
+from optipath.errors import MissingExtraError
 
 
 def test_without_xarray_one_sentence_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "xarray", None)
     for name in [each for each in sys.modules if each.startswith("optipath.sweeps.")]:
         monkeypatch.delitem(sys.modules, name)
-    with pytest.raises(op.MissingExtraError) as told:
+    with pytest.raises(MissingExtraError) as told:
         op.load_preset("malus").sweep(angle=[0.1, 0.2])
     assert str(told.value) == (
         "sweeps need xarray, which is not installed; pip install 'optipath[sweep]'"
