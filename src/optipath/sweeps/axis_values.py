@@ -5,10 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from optipath.errors import ParameterError
-from optipath.sweeps.labelled_values import read_labelled
+from optipath.sweeps.labelled_values import is_labelled, read_labelled
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, known
@@ -56,7 +55,7 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         )
     check_known(f"parameter '{name}' of a sweep", value)
     parameter = inputs.open[name]
-    if isinstance(value, xr.DataArray):
+    if is_labelled(value):
         return _of_one_dimension(name, read_labelled(parameter, value, inputs.uses))
     if isinstance(value, str) and (several := read_axis_text(value, parameter, "", inputs.uses)):
         return several
@@ -69,10 +68,9 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         )
     if array.dtype.kind not in "iufc":
         parameter.resolve(value)  # Which says what is wrong with it.
-    if array.dtype.kind in "iu":
-        array = array.astype(np.float64)
+    array = array.astype(np.float64) if array.dtype.kind in "iu" else array.copy()
     base = BASE_UNITS.get(dimension_of(parameter.unit), "")
-    return _of_one_dimension(name, AxisValues(array, base, array))
+    return _of_one_dimension(name, AxisValues(array.copy(), base, array))
 
 
 def _of_one_dimension(name: str, found: AxisValues) -> AxisValues:

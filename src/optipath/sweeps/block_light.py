@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.plan.running.pieces import pieces
 from optipath.sweeps.variable_names import detectors_of
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -17,6 +19,9 @@ if TYPE_CHECKING:
     from optipath.sweeps.plan_recipe import PlanRecipe
     from optipath.sweeps.sweep_grid import SweepGrid
 
+_AT_ONCE = 1 << 18
+"""How many points are run at a time: what is made on the way stays small, and in the cache."""
+
 
 @dataclass(frozen=True)
 class BlockLight:
@@ -24,32 +29,40 @@ class BlockLight:
 
     Attributes
     ----------
-    lights : tuple of Light
-        In the order of the detectors.
+    shape : tuple of int
+        Of the block.
+    lights : tuple of (tuple of Light)
+        For each detector, that of the pieces of the block, which follow each other in memory.
 
     Examples
     --------
     >>> import optipath as op
     >>> from optipath.sweeps.light_quantities import COMPONENTS
-    >>> block = BlockLight((op.Light([[1.0, 0.0, 0.0, 0.0]] * 2),))
-    >>> block.of(COMPONENTS[0]), block.__sizeof__()
-    (array([1., 1.]), 128)
+    >>> lights = op.Light([1.0, 0.0, 0.0, 0.0]), op.Light([2.0, 0.0, 0.0, 0.0])
+    >>> block = BlockLight((2, 1), (lights,))
+    >>> block.of(COMPONENTS[0])
+    array([[1.],
+           [2.]])
     """
 
-    lights: tuple[Light, ...]
+    shape: tuple[int, ...]
+    lights: tuple[tuple[Light, ...], ...]
 
     def of(self, quantity: LightQuantity) -> npt.NDArray[Any]:
         """Return the numbers of a quantity; of several detectors, along the first axis.
 
         They are a copy: a view would keep the light alive for as long as anybody has it.
         """
-        if len(self.lights) == 1:
-            return np.array(quantity.of(self.lights[0]))
-        return np.stack([quantity.of(light) for light in self.lights])
+        numbers = [
+            np.concatenate([np.ravel(quantity.of(light)) for light in several])
+            for several in self.lights
+        ]
+        front = (len(numbers),) if len(numbers) > 1 else ()
+        return np.concatenate(numbers).reshape(*front, *self.shape)
 
     def __sizeof__(self) -> int:
         # What Dask takes for its memory: Stokes vectors and, once it is asked for, their noise.
-        return sum(light.mantissa.nbytes for light in self.lights) * 2
+        return sum(light.mantissa.nbytes for several in self.lights for light in several) * 2
 
 
 def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
@@ -66,6 +79,17 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     -------
     BlockLight
     """
-    plan, given = recipe.plan, block.given()
-    lights = plan.run_all(**given)
-    return BlockLight(tuple([lights[name] for name in detectors_of(plan)]))
+    plan = recipe.plan
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        found = [
+            plan.run_all(**block.given(_region(piece.where, block.shape)))
+            for piece in pieces(block.shape, _AT_ONCE)
+        ]
+    lights = [tuple([light[name] for light in found]) for name in detectors_of(plan)]
+    return BlockLight(block.shape, tuple(lights))
+
+
+def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slice]:
+    """Return an index as a slice for each dimension."""
+    told = [each if isinstance(each, slice) else slice(each, each + 1) for each in where]
+    return told + [slice(None)] * (len(shape) - len(told))

@@ -23,10 +23,41 @@ KEYWORDS = frozenset(Sweeping.sweep.__kwdefaults__ or ())
 """What `PathGraph.sweep` takes by name beside parameters."""
 
 
-def axis_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
+def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list[str]:
     """Return what is wrong with values of a grid, each axis looked at by itself.
 
     What combinations of values do not fit together is found when they are run.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given.
+    grid : SweepGrid
+        What is.
+    ranges : bool, optional
+        Whether ranges are looked at, as a run does as well.
+
+    Returns
+    -------
+    list of str
+        A sentence each, with the place along the axis.
+    """
+    faults = broadcast_fault({"a sweep": grid.shape})
+    given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes}}
+    for name, value in given.items():
+        uses = tuple([use for use in inputs.uses if use.value.name == name])
+        try:
+            if any(use.domain.takes_any for use in uses):
+                inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
+            if ranges:
+                _alone(inputs, name, uses).resolve({name: value})
+        except OptipathError as fault:
+            faults += fault.faults
+    return faults
+
+
+def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
+    """Return what is wrong with what follows from values of a grid, each of which is well.
 
     Parameters
     ----------
@@ -38,23 +69,12 @@ def axis_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
     Returns
     -------
     list of str
-        A sentence each, with the place along the axis.
+        Of the index of a metal, for instance, which follows from a wavelength.
     """
-    faults = broadcast_fault({"a sweep": grid.shape})
-    given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes}}
-    for name, value in given.items():
-        numbers = np.asarray(value)
-        try:
-            if numbers.dtype.kind in "fc" and not np.all(np.isfinite(numbers)):
-                inputs.open[name].resolve(value)
-            uses = tuple([use for use in inputs.uses if use.value.name == name])
-            _alone(inputs, name, uses).resolve({name: value})
-        except OptipathError as fault:
-            faults += fault.faults
-    if faults:
-        return faults
+    if not inputs.computed:
+        return []
     try:
-        # What follows from several, such as from a wavelength, along their dimensions alone.
+        # Along the dimensions of what it follows from, and nothing is laid out.
         replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
     except OptipathError as fault:
         return [*fault.faults]

@@ -11,6 +11,7 @@ import numpy as np
 
 from optipath.errors import ShapeError
 from optipath.values.arrays.memory import memory
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -49,10 +50,13 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     if needed <= _LITTLE or needed <= (free := free_memory()):
         return
     sizes = " x ".join(f"{size:,}" for size in grid.shape)
+    instead = cure(
+        "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or ",
+        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or give ",
+    )
     raise ShapeError(
         f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free; "
-        f"give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or fewer "
-        f"values"
+        f"{instead}fewer values"
     )
 
 

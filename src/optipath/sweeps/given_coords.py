@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-import xarray as xr
-from xarray.core.coordinates import Coordinates
-
 from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.labelled_values import has_coordinates
 from optipath.values.axis_texts import read_entries
 from optipath.values.text_tables import columns_of
 from optipath.values.units import USUAL_UNITS, dimension_of
@@ -63,7 +61,7 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
     try:
         if isinstance(coords, (str, PathLike)):
             return _of_file(inputs, coords, faults)
-        if isinstance(coords, (xr.Dataset, xr.DataArray, Coordinates)):
+        if has_coordinates(coords):
             return _of_dataset(inputs, getattr(coords, "coords", coords), faults)
     except OptipathError as fault:
         about = f"{fault.about}: " if fault.about else ""
@@ -108,7 +106,7 @@ def _values(inputs: Inputs, column: TextColumn) -> Any:
 def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
     found = {}
     for name, array in coords.items():
-        if name == DETECTOR and name not in inputs.open:
+        if name not in inputs.open and (name == DETECTOR or _is_label(inputs, coords, name)):
             continue
         if name not in inputs.open:
             faults.append(f"{inputs.unknown(str(name))}, or leave it out, .drop_vars('{name}')")
@@ -120,3 +118,10 @@ def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Giv
         else:
             found[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
     return found
+
+
+def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:
+    """Tell whether a coordinate says what the points of a dimension are called, and no more."""
+    return coords[name].dims == (name,) and any(
+        other in inputs.open and array.dims == (name,) for other, array in coords.items()
+    )

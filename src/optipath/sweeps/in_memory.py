@@ -14,6 +14,7 @@ from optipath.sweeps.light_quantities import COMPONENTS, DERIVED, FAINT
 from optipath.sweeps.stacked_views import stacked
 from optipath.sweeps.swept_light import SweptLight
 from optipath.sweeps.variable_names import detectors_of, variable_names
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     from optipath.composer.composer import Composer
@@ -52,7 +53,8 @@ def swept_in_memory(
     names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
     coords = coordinates_of(grid, plan)
     refuse_more_than_free(plan, grid)
-    found = plan.answers.lights(grid.given())
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        found = plan.answers.lights(grid.given())
     lights = tuple([SweptLight(plan, grid, name, *found[name]) for name in detectors_of(plan)])
     variables: dict[str, Any] = {}
     each = zip(*[light.components for light in lights], strict=True)

@@ -74,13 +74,18 @@ def _write(file: Path, store: Path, identity: str, chunks: Mapping[str, tuple[in
             written = told.to_netcdf(draft, engine="h5netcdf", encoding=encoding, compute=False)
             # One block after another: each is read, written, and forgotten.
             written.compute(scheduler="synchronous")
-        if file.exists():
-            raise ParameterError(_TAKEN.format(file))
-        draft.replace(file)
+        _put(draft, file)
     except BaseException:
         with suppress(OSError):
             draft.unlink()
         raise
+
+
+def _put(draft: Path, file: Path) -> None:
+    # It may have come to be there since the sweep began.
+    if file.exists():
+        raise ParameterError(_TAKEN.format(file))
+    draft.replace(file)
 
 
 def _opened(file: Path, identity: str) -> xr.Dataset:

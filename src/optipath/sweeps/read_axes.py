@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axis_values import read_values
-from optipath.sweeps.checked_axes import axis_faults, unnamed_arrays
+from optipath.sweeps.checked_axes import axis_faults, computed_faults, unnamed_arrays
 from optipath.sweeps.given_coords import GivenCoordinate, given_coords
+from optipath.sweeps.labelled_values import is_labelled
 from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.sweeps.zipped_axes import zipped_dimensions
@@ -27,6 +26,8 @@ def grid_of(
     given: Mapping[str, Any],
     zip: Any = (),  # noqa: A002 - as `path.sweep` has it
     coords: Any = None,
+    *,
+    ranges: bool = True,
 ) -> SweepGrid:
     """Return the grid of a sweep.
 
@@ -38,6 +39,8 @@ def grid_of(
         What is, by name.
     zip, coords
         As `PathGraph.sweep` takes them.
+    ranges : bool, optional
+        Whether values are looked at that a run looks at as well; they are where others are wrong.
 
     Returns
     -------
@@ -77,7 +80,11 @@ def grid_of(
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
-    if faults := faults + axis_faults(inputs, grid):
+    ranges = ranges or bool(faults)
+    faults += axis_faults(inputs, grid, ranges=ranges)
+    if not faults and ranges:
+        faults = computed_faults(inputs, grid)
+    if faults:
         raise ParameterError(*dict.fromkeys(faults))
     LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
     return grid
@@ -116,4 +123,4 @@ def _named_as_others(
 
 def _is_plain(value: Any) -> bool:
     """Tell whether a value may have plain numbers, without a unit beside them."""
-    return not isinstance(value, (AxisValues, xr.DataArray))
+    return not (isinstance(value, AxisValues) or is_labelled(value))

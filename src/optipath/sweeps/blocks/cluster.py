@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
+import cloudpickle
 from dask.system import CPU_COUNT
 from distributed import Client, LocalCluster
 from distributed.comm import connect
@@ -15,10 +17,53 @@ from distributed.comm import connect
 from optipath.errors import JobError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
+    from concurrent.futures import Future
 
 _PATIENCE = 10.0
 """How many seconds a cluster has to answer."""
+
+
+class Travelling(Executor):
+    """An executor of a cluster that says what is wrong where a worker cannot load what it gets.
+
+    Of what distributed loads itself, nobody is told more than that the worker was lost.
+
+    Parameters
+    ----------
+    executor : Executor
+        Of a client.
+    """
+
+    def __init__(self, executor: Executor) -> None:
+        self._executor = executor
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Have it done by a worker, and return what will come of it.
+
+        Parameters
+        ----------
+        fn : callable
+            What is done.
+        *args, **kwargs : Any
+            What it is given.
+
+        Returns
+        -------
+        Future
+        """
+        return self._executor.submit(_unpacked, cloudpickle.dumps(partial(fn, *args, **kwargs)))
+
+
+def _unpacked(packed: bytes) -> Any:
+    try:
+        work = cloudpickle.loads(packed)
+    except (ImportError, AttributeError) as fault:
+        raise JobError(
+            f"a worker cannot load the job: {fault}; see that what defines it is a module that "
+            f"the workers can import, too"
+        ) from None
+    return work()
 
 
 @contextmanager
@@ -84,6 +129,8 @@ def _processes() -> LocalCluster:
             threads_per_worker=1,
             host="127.0.0.1",
             dashboard_address=None,
+            # It has an HTTP server all the same, by default at one port for all.
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
             silence_logs=logging.ERROR,
         )
     except RuntimeError as fault:

@@ -87,11 +87,11 @@ def workers_of(scheduler: Any) -> Iterator[Workers]:
     else:
         _check(given)
         # It takes a second to import.
-        from optipath.sweeps.blocks.cluster import client_of  # noqa: PLC0415
+        from optipath.sweeps.blocks.cluster import Travelling, client_of  # noqa: PLC0415
 
         with client_of(given) as client:
             yield Workers(
-                client.get_executor(pure=False),
+                Travelling(client.get_executor(pure=False)),
                 # One that grows when there is work has no workers at first.
                 lambda: _AHEAD * max(sum(client.nthreads().values()), 1),
             )
