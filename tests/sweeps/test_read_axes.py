@@ -225,6 +225,13 @@ def test_coordinates_that_are_no_axes_are_told_with_a_cure():
     assert grid(coords=several.drop_vars(["foo", "k1"])).points == 6
 
 
+def test_labels_of_points_are_no_axes():
+    named = dataset().assign_coords(point=["a", "b"])
+    assert grid(coords=named).sizes == {"point": 2, "phi": 3}
+    stacked = dataset()[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
+    assert grid(coords=stacked.drop_vars("delta", errors="ignore")).sizes == {"point": 6}
+
+
 def test_a_dimension_with_the_name_of_another_parameter_is_told():
     (fault,) = refused(coords=dataset().rename_dims(point="k1"))
     assert (
