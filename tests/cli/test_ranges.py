@@ -23,7 +23,9 @@ def found(capsys, *arguments):
     return json.loads(out)
 
 
-@pytest.mark.parametrize("text", ["0:60:3", "0, 30, 60", "0 deg:60 deg:3", "0,30,60", "@angles.csv"])
+@pytest.mark.parametrize(
+    "text", ["0:60:3", "0, 30, 60", "0 deg:60 deg:3", "0,30,60", "@angles.csv"]
+)
 def test_each_way_of_writing_several_values_gives_malus_law(text, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "angles.csv").write_text(ANGLES, "utf-8")
@@ -105,7 +107,7 @@ def test_all_that_is_wrong_is_told_at_once(capsys):
         (["--delta", "@none.csv"], "none.csv: there is no such file"),
         (["--n1", "gold,silver"], "--n1 takes one material"),
         (["--n1", "gold", "--k1", "0:1:3", "--wavelength", "500 nm"], "--k1 takes one value"),
-        (["--n1", "gold", "--wavelength", "400:700:3"], "'400' has no unit"),
+        (["--n1", "gold", "--wavelength", "400:700:3"], "'400:700:3' has no unit"),
         (["--delta", "0:9:5000", "--rho", "0:9:5000", "--phi", "0:9:5000"], "write it to a file"),
         (["--detla", "0:90:3"], "did you mean '--delta'?"),
     ],
