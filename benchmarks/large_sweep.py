@@ -109,7 +109,10 @@ def compare(points: float, store: Path) -> int:
 def main(points: float, folder: Path) -> None:
     """Run it all."""
     folder.mkdir()
-    store, blocks = folder / "large.zarr", int(np.prod(swept(points, chunks="auto").S0.data.numblocks))
+    store, blocks = (
+        folder / "large.zarr",
+        int(np.prod(swept(points, chunks="auto").S0.data.numblocks)),
+    )
     print(f"{points:.0e} points in {blocks} blocks")
     run = started("keep", points, store)
     wait_for(run, store, blocks / 3)
