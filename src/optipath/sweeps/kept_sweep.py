@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import xarray as xr
 
@@ -14,9 +14,12 @@ from optipath.sweeps.netcdf_file import kept_in_netcdf
 from optipath.sweeps.progress_line import progress_line
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from os import PathLike
 
     from optipath.sweeps.sweep_job import SweepJob
+
+    Tell: TypeAlias = Callable[[int, int], None]
 
 
 def place_of_store(store: str | PathLike[str]) -> Path:
@@ -54,7 +57,7 @@ give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     return place
 
 
-def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool) -> xr.Dataset:
+def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool | Tell) -> xr.Dataset:
     """Compute what is not kept yet of a sweep, and return what is kept.
 
     Parameters
@@ -76,7 +79,7 @@ def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool) ->
     JobError
         If something else is there already.
     """
-    tell = progress_line if progress else None
+    tell = progress if callable(progress) else progress_line if progress else None
     if place.suffix == ".nc":
         return kept_in_netcdf(job, place, scheduler, tell)
     found: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))

@@ -26,6 +26,8 @@ def grid_of(
     given: Mapping[str, Any],
     zip: Any = (),  # noqa: A002 - as `path.sweep` has it
     coords: Any = None,
+    *,
+    ranges: bool = True,
 ) -> SweepGrid:
     """Return the grid of a sweep.
 
@@ -37,6 +39,8 @@ def grid_of(
         What is, by name.
     zip, coords
         As `PathGraph.sweep` takes them.
+    ranges : bool, optional
+        Whether values are looked at that a run looks at as well; they are where others are wrong.
 
     Returns
     -------
@@ -76,8 +80,11 @@ def grid_of(
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
-    faults += axis_faults(inputs, grid)
-    if faults := faults or computed_faults(inputs, grid):
+    ranges = ranges or bool(faults)
+    faults += axis_faults(inputs, grid, ranges=ranges)
+    if not faults and ranges:
+        faults = computed_faults(inputs, grid)
+    if faults:
         raise ParameterError(*dict.fromkeys(faults))
     LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
     return grid

@@ -12,6 +12,7 @@ from optipath.sweeps.read_axes import grid_of
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
 
     import xarray as xr
@@ -30,7 +31,7 @@ def sweep(
     chunks: Any = None,
     store: Any = None,
     scheduler: Any = None,
-    progress: bool = False,
+    progress: bool | Callable[[int, int], None] = False,
     composer: Composer | None = None,
 ) -> xr.Dataset:
     """Return the light of a path for every combination of values; see `PathGraph.sweep`.
@@ -53,9 +54,15 @@ def sweep(
     place = _place(store, scheduler, progress)
     plan = _plan(path, composer)
     check_named("sweep", unnamed, plan.inputs.open)
-    grid = grid_of(plan.inputs, given, zip, coords)
-    if place is None and chunks is None:
-        return swept_in_memory(path, plan, grid, composer)
+    at_once = place is None and chunks is None
+    # A run looks at ranges itself, and what it finds is told by the axes.
+    grid = grid_of(plan.inputs, given, zip, coords, ranges=not at_once)
+    if at_once:
+        try:
+            return swept_in_memory(path, plan, grid, composer)
+        except ParameterError:
+            grid_of(plan.inputs, given, zip, coords)
+            raise
     from optipath.sweeps.in_chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
 
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)

@@ -165,6 +165,9 @@ def _read(entry: Any, parameter: Parameter, unit: str, uses: Sequence[Use]) -> _
 
 def _common_unit(entries: Sequence[_Entry], parameter: Parameter) -> str:
     """Return the unit of the first; that of the parameter for photon energies among lengths."""
-    units = {each.unit for each in entries}
     first = entries[0].unit
-    return first if len(units) == 1 or first in UNITS else parameter.unit
+    if all(each.unit == first for each in entries):
+        return first
+    known = UNITS.get(first)
+    of_dimension = known is not None and known.dimension == dimension_of(parameter.unit)
+    return first if of_dimension else parameter.unit
