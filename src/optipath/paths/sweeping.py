@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from optipath.composer.composer import Composer
 
-_BROUGHT = ("xarray", "pandas")
+_BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
 
 
@@ -78,12 +78,12 @@ class Sweeping:
         ShapeError
             If the light takes more memory than is free.
         """
-        try:
-            sweep = import_module("optipath.sweeps.sweep").sweep
-        except ModuleNotFoundError as missing:
-            if missing.name not in _BROUGHT:
-                raise
-            raise MissingExtraError("sweeps", missing.name, "sweep") from None
         own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more = {"scheduler": scheduler, "progress": progress, "composer": composer}
-        return sweep(self, unnamed, axes, **own, **more)
+        try:
+            sweep = import_module("optipath.sweeps.sweep").sweep
+            return sweep(self, unnamed, axes, **own, **more)
+        except ModuleNotFoundError as missing:
+            if missing.name is None or missing.name.partition(".")[0] not in _BROUGHT:
+                raise
+            raise MissingExtraError("sweeps", missing.name, "sweep") from None
