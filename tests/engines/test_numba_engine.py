@@ -19,9 +19,7 @@ def test_a_path_is_computed_many_at_a_time():
     plan = op.load_preset("npgr026").compose()
     forms = {operand.input_key: MANY for operand in plan.program.operands if not operand.known}
     forms = {key: "absent" if key.part == "present" else form for key, form in forms.items()}
-    formula = lights_formula(
-        plan.program, StokesCarrier, "float64", forms, plan.inputs.limits, polynomials=True
-    )
+    formula = lights_formula(plan.program, StokesCarrier, "float64", forms, plan.inputs.limits)
     text = assembly(source(formula))
     packed, single = text.count("mulpd"), text.count("mulsd")
     assert packed > 50

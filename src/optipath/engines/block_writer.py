@@ -61,7 +61,7 @@ class BlockWriter:
                 angle = f"a{formula.whole_of(left).index}"
                 lines.append(f"t{left.index} = left[{left.operation!r}]({angle}).astype(T)")
         for step in formula.body:
-            lines += self._lines(step)
+            lines += self._choice(step) if self._is_choice(step) else [self._line(step)]
         for row, result in enumerate(formula.computed):
             if self._read(result) != f"out[{row}]":
                 lines.append(f"out[{row}][...] = {self._read(result)}")
@@ -133,17 +133,6 @@ class BlockWriter:
 
     def _bits_of(self, name: str) -> str:
         return f"{name}_" if name in self.buffers else f"{name}.view(I)"
-
-    def _lines(self, step: Symbol) -> list[str]:
-        if self._is_choice(step):
-            return self._choice(step)
-        if step.operation != "multiply_add":
-            return [self._line(step)]
-        a, b, c = map(self._read, step.operands)
-        name = self._name(step)
-        self._names[step.index] = name
-        self._release(step)
-        return [f"multiply({a}, {b}, {name})", f"add({name}, {c}, {name})"]
 
     def _line(self, step: Symbol) -> str:
         operands = ", ".join(map(self._read, step.operands))

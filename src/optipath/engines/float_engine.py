@@ -28,7 +28,6 @@ _SPACE = {
     "exponent": FLOAT.scaling,
     "inf": math.inf,
     "ldexp": math.ldexp,
-    "multiply_add": FLOAT.multiply_add,
     "nan": math.nan,
     "product_rest": lambda a, b: FLOAT.two_product(a, b)[1],
     "sin": math.sin,

@@ -28,7 +28,7 @@ _HEAD = """\
 from math import atan2, cos, exp, inf, nan, sin, sqrt
 
 import numpy as np
-from optipath.engines.numba_helpers import {chosen}exponent, fused as multiply_add
+from optipath.engines.numba_helpers import {chosen}exponent
 from optipath.engines.numba_helpers import {ldexp} as ldexp, product_rest
 
 T = np.{dtype}

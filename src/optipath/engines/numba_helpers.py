@@ -27,21 +27,7 @@ def _number_of(typing: Any, bits: Any) -> Any:  # noqa: ARG001 - as numba calls 
 
 
 @intrinsic
-def fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numba calls it
-    """Return a b + c, rounded once.
-
-    Parameters
-    ----------
-    typing
-        What Numba gives.
-    a, b, c
-        Floats of one precision.
-
-    Returns
-    -------
-    float
-    """
-
+def _fused(typing: Any, a: Any, b: Any, c: Any) -> Any:  # noqa: ARG001 - as numba calls it
     def generate(context: Any, builder: Any, signature: Any, given: Any) -> Any:  # noqa: ARG001
         return builder.fma(*given)
 
@@ -85,7 +71,7 @@ def product_rest(a: Any, b: Any) -> Any:
     -------
     float
     """
-    return fused(a, b, -(a * b))
+    return _fused(a, b, -(a * b))
 
 
 @nb.njit(error_model="numpy")

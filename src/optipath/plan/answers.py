@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from optipath.kernels.numbers.trigonometry import DIGITS
 from optipath.light.frames import Frame
 from optipath.light.light import Light
 from optipath.plan.light_noise import noise_at
@@ -209,7 +208,5 @@ class Answers:
 
     def _run_by(self, program: Program, *, unreduced: bool = False) -> Runner:
         plan = self.plan
-        alike = plan.inputs.is_spectral and plan.dtype in DIGITS
-        own = plan.method, plan.composing, plan.dtype, plan.chosen, plan.threads
-        options = RunOptions(*own, reproducible=alike)
+        options = RunOptions(plan.method, plan.composing, plan.dtype, plan.chosen, plan.threads)
         return runner_for(program, plan.inputs, options, plan.own_ways, unreduced=unreduced)

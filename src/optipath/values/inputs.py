@@ -25,7 +25,6 @@ from optipath.values.other_part import of_complex
 from optipath.values.ranges import Ranges
 from optipath.values.resolved import THERE, Resolved
 from optipath.values.unknown_parameter import unknown_parameter
-from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -186,11 +185,6 @@ class Inputs:
             return parameter.resolve(value, limits)
         parameter.resolve(np.where(there, numbers, 0.0), limits)
         return Resolved(numbers, THERE)
-
-    @property
-    def is_spectral(self) -> bool:
-        """Whether a path depends on the wavelength that it is given."""
-        return bool(self.computed) or any(isinstance(p, Wavelength) for p in self.open.values())
 
     @cached_property
     def _taken(self) -> frozenset[str]:

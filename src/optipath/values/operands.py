@@ -29,8 +29,8 @@ _DOUBLE = np.dtype(np.float64)
 NOTHING: Mapping[str, Resolved] = MappingProxyType({})
 """What is given where all is known."""
 
-ZERO, ONE, MANY, WIDE, ABSENT = "zero", "one", "many", "wide", "absent"
-"""What is given: 0, one number, an array, one of more digits than the plan's, or nothing."""
+ONE, MANY, WIDE, ABSENT = "one", "many", "wide", "absent"
+"""What is given: one number, an array, one of more digits than the plan's, or nothing."""
 
 
 _COMPARED = 1 << 20

@@ -65,7 +65,6 @@ def test_the_last_stage_of_a_grid_has_nothing_of_the_interfaces_left_to_do():
         "float64",
         forms,
         plan.inputs.limits,
-        polynomials=True,
         axes=axes,
     )
     *_, last = parts = stages(whole, frozenset({0, 1}), 1)

@@ -6,9 +6,7 @@ both, the angle rounded and what is left of it.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,24 +15,10 @@ from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic import SYMBOLIC
 from optipath.kernels.numbers.trigonometry import DIGITS, from_axes, from_nearer_axis
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from optipath.kernels.numbers.primitives import Primitives
-    from optipath.kernels.numbers.trigonometry import Digits
-
 FROM_NEARER, FROM_ANY = "left from the nearer axis", "left from axes"
 """Operations on an angle that is given: within 0 .. pi/2, or any."""
 
-FROM_ANY_UNFUSED = "left from axes, unfused"
-"""The same of any angle, with the roundings that every engine has."""
-
-
-def _unfused(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
-    return from_axes(replace(xp, multiply_add=lambda a, b, c: a * b + c), digits)
-
-
-LEFT = {FROM_NEARER: from_nearer_axis, FROM_ANY: from_axes, FROM_ANY_UNFUSED: _unfused}
+LEFT = {FROM_NEARER: from_nearer_axis, FROM_ANY: from_axes}
 DOUBLE = DIGITS["float64"]
 
 

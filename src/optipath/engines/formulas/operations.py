@@ -56,7 +56,6 @@ OPERATIONS = {
     "maximum": About(np.maximum, "same", "{0} if {0} >= {1} else {1}", commutes=True),
     "minimum": About(np.minimum, "same", "{0} if {0} <= {1} else {1}", commutes=True),
     "multiply": About(np.multiply, "same", "{0} * {1}", commutes=True),
-    "multiply_add": About(lambda a, b, c: a * b + c, "float", "multiply_add({0}, {1}, {2})"),
     "negative": About(np.negative, "same", "-{0}"),
     "not_equal": About(np.not_equal, "bool", "{0} != {1}", commutes=True),
     "power": About(np.power, "float", "{0} ** {1}"),

@@ -11,10 +11,10 @@ import numpy as np
 from optipath.engines.formulas.formula import Formula
 from optipath.engines.formulas.recorder import Recorder
 from optipath.engines.formulas.symbolic_inputs import Limits, SymbolicInputs
+from optipath.engines.program.carrying import carrying
 from optipath.engines.program.execute import execute, itself, whole_matrices
 from optipath.kernels.carriers.bounds_carrier import BoundsCarrier, largest_error
 from optipath.kernels.carriers.coherency import is_physical
-from optipath.kernels.carriers.intensity_carrier import IntensityCarrier
 from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
 from optipath.light.underflow import UNDERFLOW
@@ -32,9 +32,6 @@ if TYPE_CHECKING:
 NO_AXES: Mapping[str, frozenset[int]] = MappingProxyType({})
 """Nothing is said of the axes of arrays: all differ from path to path."""
 
-_SPARE = 2.0**60
-"""How far the numbers of a quotient keep from where they lose digits."""
-
 
 def lights_formula(
     program: Program,
@@ -43,11 +40,11 @@ def lights_formula(
     forms: Mapping[InputKey, str],
     limits: Mapping[Hashable, Limits],
     *,
-    polynomials: bool,
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     unreduced: bool = False,
     masks: bool = False,
-    reproducible: bool = False,
+    single: bool = False,
+    counted: bool = False,
 ) -> Formula:
     """Return the formula of the light at every end.
 
@@ -68,16 +65,14 @@ def lights_formula(
         What is given for each number.
     limits : mapping of Hashable to tuple of float
         The range of each parameter.
-    polynomials : bool
-        Whether sines and cosines are polynomials.
     axes : mapping of str to frozenset of int, optional
         Along which axes of the batch each array differs.
     unreduced : bool, optional
         Whether nothing is left out.
     masks : bool, optional
         Whether light that is NaN is so on purpose, and the formula holds for it.
-    reproducible : bool, optional
-        Whether every engine that does the formula comes to the same bits.
+    single, counted : bool, optional
+        As `SymbolicInputs` takes them.
 
     Returns
     -------
@@ -86,18 +81,10 @@ def lights_formula(
     recorder = Recorder(np.dtype(dtype))
     known = recorder.opaque if unreduced else None
     operands = SymbolicInputs(
-        recorder,
-        forms,
-        limits,
-        polynomials=polynomials,
-        axes=axes,
-        known=known,
-        reproducible=reproducible,
+        recorder, forms, limits, axes=axes, known=known, single=single, counted=counted
     )
     xp, tiny = operands.primitives, recorder.dtype.type(np.finfo(recorder.dtype).tiny)
-    carried: Carrier = carrier(xp)
-    if carrier is StokesCarrier and program.for_powers is not None and not reproducible:
-        program, carried = program.for_powers, IntensityCarrier(xp, tiny * _SPARE)
+    program, carried = carrying(program, carrier, xp, dtype)
     solvers: list[LoopSolver] = []
     symbols = operands.of(program)
     with np.errstate(all="ignore"):
@@ -151,7 +138,7 @@ def bounds_formula(
     Formula
     """
     recorder = Recorder(np.dtype(dtype))
-    operands = SymbolicInputs(recorder, forms, limits, polynomials=True, axes=axes)
+    operands = SymbolicInputs(recorder, forms, limits, axes=axes)
     xp = operands.primitives
     symbols, carrier = operands.of(program), BoundsCarrier(xp, slack_of(program, dtype))
     matrices = whole_matrices(program, symbols, carrier)
@@ -200,7 +187,6 @@ def matrix_formula(
     axes: Mapping[str, frozenset[int]] = NO_AXES,
     *,
     masks: bool = False,
-    reproducible: bool = False,
 ) -> Formula:
     """Return the formula of the Mueller matrix from a source to a reading, row by row.
 
@@ -220,17 +206,15 @@ def matrix_formula(
         The range of each parameter.
     axes : mapping of str to frozenset of int, optional
         Along which axes of the batch each array differs.
-    masks, reproducible : bool, optional
-        As `lights_formula` takes them.
+    masks : bool, optional
+        As `lights_formula` takes it.
 
     Returns
     -------
     Formula
     """
     recorder = Recorder(np.dtype(dtype))
-    operands = SymbolicInputs(
-        recorder, forms, limits, polynomials=True, axes=axes, reproducible=reproducible
-    )
+    operands = SymbolicInputs(recorder, forms, limits, axes=axes)
     symbols, carrier = operands.of(program), MatrixCarrier(operands.primitives)
     none, one = recorder.dtype.type(0.0), recorder.dtype.type(1.0)
     columns = []

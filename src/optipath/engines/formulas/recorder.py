@@ -37,8 +37,6 @@ class Recorder:
         self.requirements: list[Any] = []
         self.wide: dict[str, tuple[float, float]] = {}
         self.constants: dict[str, Any] = {}
-        self.pairs: dict[int, tuple[Any, Any]] = {}
-        """The sines and cosines of angles that are given by them, by the index of the angle."""
         self._known: dict[Any, Symbol] = {}
 
     def opaque(self, number: Any) -> Any:

@@ -11,8 +11,6 @@ if TYPE_CHECKING:
 class Record(Protocol):
     """What symbols ask of whoever keeps what is done to them."""
 
-    pairs: dict[int, tuple[Any, Any]]
-
     def record(self, operation: str, *operands: Any) -> Any:
         """Return what an operation comes to: a symbol, or a number where that is known.
 

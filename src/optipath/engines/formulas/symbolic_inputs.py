@@ -6,13 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.formulas.left import FROM_ANY, FROM_ANY_UNFUSED, FROM_NEARER
+from optipath.engines.formulas.left import FROM_ANY, FROM_NEARER
 from optipath.engines.formulas.of_angles import is_in_first_quadrant, of_angle
 from optipath.engines.formulas.recorder import ONE_AXIS
-from optipath.engines.formulas.symbol import Symbol
-from optipath.engines.formulas.symbolic import SYMBOLIC, reproducible_symbolic, with_polynomials
+from optipath.engines.formulas.symbolic import SYMBOLIC, reproducible_symbolic
 from optipath.kernels.numbers.trigonometry import DIGITS
-from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO
+from optipath.values.operands import ABSENT, MANY, ONE, WIDE
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
@@ -41,15 +40,15 @@ class SymbolicInputs:
         What is given for each number.
     limits : mapping of Hashable to tuple of float
         The range of each parameter; a value outside it is against a requirement.
-    polynomials : bool
-        Whether sines and cosines are to be polynomials.
     axes : mapping of str to frozenset of int
         Along which axes of the batch each array differs, by its name as an input; along the
         only one where nothing is said.
     known : callable, optional
         What is done to each number that is known.
-    reproducible : bool, optional
-        Whether elementary functions are those that every engine does alike.
+    single : bool, optional
+        Whether single numbers are looked at by the formula, too, and not before.
+    counted : bool, optional
+        Whether elementary functions are one operation each.
     """
 
     def __init__(
@@ -58,25 +57,23 @@ class SymbolicInputs:
         forms: Mapping[InputKey, str],
         limits: Mapping[Hashable, Limits],
         *,
-        polynomials: bool,
         axes: Mapping[str, frozenset[int]],
         known: Callable[[Any], Any] | None = None,
-        reproducible: bool = False,
+        single: bool = False,
+        counted: bool = False,
     ) -> None:
         self.recorder = recorder
         self.forms = forms
         self.limits = limits
-        self.polynomials = polynomials
         self.axes = axes
         self.known = known
-        self.reproducible = reproducible
+        self.single = single
+        self.counted = counted
 
     @property
     def primitives(self) -> Primitives:
         """What kernels are to be made of."""
-        if self.reproducible:
-            return reproducible_symbolic(self.recorder.dtype.name)
-        return with_polynomials(self.recorder.dtype.name) if self.polynomials else SYMBOLIC
+        return SYMBOLIC if self.counted else reproducible_symbolic(self.recorder.dtype.name)
 
     def of(self, program: Program) -> list[Any]:
         """Return a symbol, or a number that is known, for each operand."""
@@ -102,12 +99,10 @@ class SymbolicInputs:
         form = self.forms[key]
         if key.part == "present":
             return form == ONE if form in (ONE, ABSENT) else self._input(str(key), form, "bool")
-        if form == ZERO:
-            return self.recorder.dtype.type(operand.part == "cos")
         if form == ABSENT:
             return self.recorder.dtype.type(0.0)
         given = self._given(key, form)
-        if operand.part in ("cos", "sin") and (self.polynomials or self.reproducible):
+        if operand.part in ("cos", "sin") and not self.counted:
             return self._circular(operand, form, given)
         return operand.evaluated(self.primitives, given)
 
@@ -122,7 +117,7 @@ class SymbolicInputs:
             # What is looked at is the number that is given, not what is left of it.
             most = float(np.finfo(np.float64).max)
             self.recorder.wide[str(key)] = float(max(low, -most)), float(min(high, most))
-        elif form != ONE or not self.polynomials:
+        elif form != ONE or self.single:
             most = float(np.finfo(self.recorder.dtype).max)
             kind = self.recorder.dtype.type
             self.recorder.require(kind(max(low, -most)) <= given)
@@ -139,19 +134,10 @@ class SymbolicInputs:
             self._part(operand.input_key._replace(part=part), least) for part in ("cos", "sin")
         )
         self.recorder.require(abs(cos * cos + sin * sin - 1.0) <= _APART)
-        if operand.part in ("cos", "sin"):
-            return operand.evaluated(SYMBOLIC, (cos, sin))
-        if self.reproducible:
-            return operand.evaluated(self.primitives, (cos, sin))
-        angle = SYMBOLIC.atan2(sin, cos)
-        if isinstance(angle, Symbol):
-            self.recorder.pairs[angle.index] = sin, cos
-        return operand.evaluated(SYMBOLIC, angle)
+        return operand.evaluated(self.primitives, (cos, sin))
 
     def _part(self, key: InputKey, least: float) -> Any:
         kind = self.recorder.dtype.type
-        if self.forms[key] == ZERO:
-            return kind(0.0)
         if self.forms[key] == WIDE:
             self.recorder.wide[str(key)] = least, 1.0
         given = self._input(str(key), self.forms[key])
@@ -169,11 +155,9 @@ class SymbolicInputs:
         left = None
         if form in (ONE, WIDE) and kind != wide(kind):
             # Next to a right angle it is all that there is, and has more digits than the angle.
-            from_any = FROM_ANY_UNFUSED if self.reproducible else FROM_ANY
             name = str(operand.input_key)
-            left = self._input(name, form, left=FROM_NEARER if first else from_any)
+            left = self._input(name, form, left=FROM_NEARER if first else FROM_ANY)
             left = -left if negative else left
         if not first:
             self.recorder.require(abs(angle) <= digits.most)
-        xp = self.primitives if self.reproducible else SYMBOLIC
-        return of_angle(xp, digits, operand, angle, left, first=first)
+        return of_angle(self.primitives, digits, operand, angle, left, first=first)

@@ -168,7 +168,7 @@ def guarded(what: str, xp: Primitives, factory: Factory) -> KernelFunction:
     """
     if xp is not FLOAT:
         function = called(what, factory, xp)
-        return lambda *values: called(what, function, *values)
+        return lambda *values: called(what, function, *_of_one_path(values))
     of_numbers = called(what, factory, NUMPY)
 
     def of_floats(*values: float) -> tuple[float, ...]:
@@ -179,6 +179,13 @@ def guarded(what: str, xp: Primitives, factory: Factory) -> KernelFunction:
             return called(what, of_floats, *values, left=(ArithmeticError, ValueError))
 
     return single
+
+
+def _of_one_path(values: tuple[Any, ...]) -> tuple[Any, ...]:
+    """Return arrays of one number each as numbers; where one has more, all as they are."""
+    if any(isinstance(value, np.ndarray) and value.shape != (1,) for value in values):
+        return values
+    return tuple(value[0] if isinstance(value, np.ndarray) else value for value in values)
 
 
 @dataclass(frozen=True)

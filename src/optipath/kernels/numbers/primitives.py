@@ -46,7 +46,7 @@ class Primitives:
     fixed : callable
         A value without its slope, where an engine takes gradients; elsewhere the value itself.
     multiply_add : callable
-        ``(a, b, c)`` to a b + c, rounded once where that costs no more than twice.
+        ``(a, b, c)`` to a b + c, rounded twice, as every engine does.
     integer : callable
         A whole number that is given as a float, as `ldexp` takes one.
     apart : callable

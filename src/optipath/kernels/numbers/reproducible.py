@@ -15,7 +15,7 @@ import numpy as np
 
 from optipath.kernels.numbers.arc_tangent import arc_tangent
 from optipath.kernels.numbers.exponential import exponential
-from optipath.kernels.numbers.primitives import NUMPY, Primitives
+from optipath.kernels.numbers.primitives import NUMPY, Primitives, is_below_rounding
 from optipath.kernels.numbers.trigonometry import DIGITS, any_quadrant
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def reproducible(
     """
     in_precision: dict[str, Any]
     in_precision = {name: _in_precision(getattr(xp, name), dtype) for name in _OF_PLAIN_NUMBERS}
-    xp = replace(xp, multiply_add=lambda a, b, c: a * b + c, **in_precision)
+    xp = replace(xp, below_rounding=is_below_rounding, **in_precision)
     digits, where = DIGITS[dtype], xp.where
     polynomials = any_quadrant(xp, digits)
 

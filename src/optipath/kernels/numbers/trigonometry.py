@@ -7,7 +7,6 @@ the time of a path. The coefficients are those of fdlibm (Sun Microsystems, 1993
 
 from __future__ import annotations
 
-from functools import reduce
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.kernels.numbers.circular import without_rounding
@@ -109,7 +108,7 @@ def from_axes(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
     >>> left(math.pi + 0.25), left(math.pi), left(math.nextafter(math.pi, 4.0))
     (0.2499999999999999, 0.0, 3.216245299353273e-16)
     """
-    return without_rounding(xp, lambda angle: _quarters(xp, digits)(angle)[1])
+    return without_rounding(xp, lambda angle: _quarters(digits)(angle)[1])
 
 
 def from_nearer_axis(xp: Primitives, digits: Digits) -> Callable[[Any], Any]:
@@ -170,8 +169,8 @@ def any_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     >>> any_quadrant(FLOAT, DIGITS["float64"])(2.5)
     (0.5984721441039564, -0.8011436155469337)
     """
-    where, absolute, near_zero = xp.where, xp.absolute, _near_zero(xp, digits)
-    quarters, rounded = _quarters(xp, digits), _rounded(digits)
+    where, absolute, near_zero = xp.where, xp.absolute, _near_zero(digits)
+    quarters, rounded = _quarters(digits), _rounded(digits)
 
     def sine_cosine(angle: Any, left: Any = None) -> SinCos:
         turns, reduced = quarters(angle) if left is None else (rounded(angle - left), left)
@@ -212,7 +211,7 @@ def first_quadrant(xp: Primitives, digits: Digits) -> Callable[..., SinCos]:
     >>> sine_cosine(1.2), sine_cosine(math.pi / 2)
     ((0.9320390859672263, 0.3623577544766736), (1.0, 0.0))
     """
-    where, near_zero, reduced = xp.where, _near_zero(xp, digits), from_nearer_axis(xp, digits)
+    where, near_zero, reduced = xp.where, _near_zero(digits), from_nearer_axis(xp, digits)
 
     def sine_cosine(angle: Any, left: Any = None) -> SinCos:
         left = reduced(angle) if left is None else left
@@ -228,30 +227,31 @@ def _rounded(digits: Digits) -> Callable[[Any], Any]:
     return lambda angle: angle * (1.0 / digits.right_high) + digits.rounding - digits.rounding
 
 
-def _quarters(xp: Primitives, digits: Digits) -> Callable[[Any], tuple[Any, Any]]:
-    rounded, multiply_add = _rounded(digits), xp.multiply_add
+def _quarters(digits: Digits) -> Callable[[Any], tuple[Any, Any]]:
+    rounded, parts = _rounded(digits), digits.right
 
     def quarters(angle: Any) -> tuple[Any, Any]:
         """Return the nearest number of right angles, and what is left without them."""
-        turns = rounded(angle)
+        turns, left = rounded(angle), angle
         # Each part is taken away without error but for the last.
-        parts = (-part for part in digits.right)
-        return turns, reduce(lambda left, part: multiply_add(turns, part, left), parts, angle)
+        for part in parts:
+            left = left - turns * part
+        return turns, left
 
     return quarters
 
 
-def _near_zero(xp: Primitives, digits: Digits) -> Callable[[Any], SinCos]:
-    multiply_add = xp.multiply_add
-
+def _near_zero(digits: Digits) -> Callable[[Any], SinCos]:
     def polynomial(x: Any, coefficients: Any) -> Any:
-        highest, *others = reversed(coefficients)
-        return reduce(lambda total, other: multiply_add(total, x, other), others, highest)
+        total = coefficients[-1]
+        for other in coefficients[-2::-1]:
+            total = total * x + other
+        return total
 
     def sine_cosine(x: Any) -> SinCos:
         """Return sine and cosine of x within -pi/4 .. pi/4."""
         square = x * x
-        sine = multiply_add(square * x, polynomial(square, digits.sine), x)
+        sine = square * x * polynomial(square, digits.sine) + x
         fourth = square * square
         cosine = 1.0 - (0.5 * square - fourth * polynomial(square, digits.cosine))
         return sine, cosine

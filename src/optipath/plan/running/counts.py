@@ -39,7 +39,7 @@ def operations(
     formulas = runner.formulas
     forms = formulas.all_given_as(MANY)
     made = formulas.attempt(
-        lambda: formulas.lights(forms, carrier=carrier, polynomials=False, unreduced=unreduced)
+        lambda: formulas.lights(forms, carrier=carrier, counted=True, unreduced=unreduced)
     )
     return None if made is None else made.operations
 

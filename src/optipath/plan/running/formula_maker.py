@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.engines.formulas.path_formula import lights_formula
-from optipath.values.operands import ONE, ZERO
+from optipath.values.operands import ABSENT, ONE
 from optipath.values.precision import wide
 
 if TYPE_CHECKING:
@@ -62,8 +62,7 @@ class FormulaMaker:
         self.carrier = carrier
         self.dtype = np.dtype(options.dtype)
         self.unreduced = unreduced
-        self.reproducible = options.reproducible
-        self.may_make = len(program.steps) <= LONGEST and options.dtype in ("float64", "float32")
+        self.may_make = len(program.steps) <= LONGEST and options.reproducible
 
     def attempt(self, make: Callable[[], Formula]) -> Formula | None:
         """Return what makes a formula gives; None where it cannot be made."""
@@ -77,7 +76,7 @@ class FormulaMaker:
 
     def of_floats(self, forms: Mapping[InputKey, str]) -> Formula | None:
         """Return the formula of light for plain floats; None where it cannot be made."""
-        return self.attempt(lambda: self.lights(forms, polynomials=False))
+        return self.attempt(lambda: self.lights(forms, single=True))
 
     def lights(
         self, forms: Mapping[InputKey, str], *, carrier: type[Carrier] | None = None, **options: Any
@@ -99,8 +98,8 @@ class FormulaMaker:
             Of four components at every end, and of the exponents behind them.
         """
         kind, carrier = self.dtype.name, carrier or self.carrier
-        options |= {"masks": self.masks, "reproducible": self.reproducible}
-        return lights_formula(self.program, carrier, kind, forms, self.limits, **options)
+        own = self.limits
+        return lights_formula(self.program, carrier, kind, forms, own, masks=self.masks, **options)
 
     def all_given_as(self, form: str) -> dict[InputKey, str]:
         """Return one form for every number that is not known."""
@@ -110,8 +109,8 @@ class FormulaMaker:
     def length(self) -> int | None:
         """How many operations light takes for real numbers; None where there is no formula."""
         forms, unreduced = self.all_given_as(ONE), self.unreduced
-        forms |= {key: ZERO for key in forms if key.part == "imag"}
-        made = self.attempt(lambda: self.lights(forms, polynomials=True, unreduced=unreduced))
+        forms |= {key: ABSENT for key in forms if key.part == "imag"}
+        made = self.attempt(lambda: self.lights(forms, unreduced=unreduced))
         return None if made is None else len(made.steps)
 
     @cached_property

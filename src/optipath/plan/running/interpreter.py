@@ -16,11 +16,12 @@ from optipath.kernels.carriers.jones_carrier import JonesCarrier
 from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
-from optipath.kernels.numbers.primitives import FLOAT, NUMPY
-from optipath.light.underflow import UNDERFLOW, folded, underflows
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.light.underflow import folded, underflows
 from optipath.plan.running.closer import CloserLook
 from optipath.plan.running.gains import check_gains
 from optipath.plan.running.physical import what_matrices_lack
+from optipath.plan.running.reading import ResolvedInputs
 from optipath.values.arrays.shapes import joint_shape
 from optipath.values.precision import wide
 
@@ -31,14 +32,12 @@ if TYPE_CHECKING:
     from optipath.engines.program.program import Program, Reading
     from optipath.kernels.carriers.carried import Components
     from optipath.kernels.carriers.carrier import Carrier
-    from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.input_key import InputKey
     from optipath.values.operands import Operand
 
 Shared: TypeAlias = Mapping[int, tuple[np.ndarray[Any, Any], ...]]
 
 _LONG = 16
-_TINY = np.finfo(np.float64).tiny * UNDERFLOW
 
 
 def carrier_of(program: Program, composing: str) -> type[Carrier]:
@@ -77,41 +76,18 @@ class Interpreter:
         self.program = program
         self.carrier = carrier
         self.dtype = dtype
-        self._float_carrier = carrier(FLOAT)
         self._carriers = {kind: kind(NUMPY) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
         self._known: list[Any] | None = None
-        self._known_floats: list[float] | None = None
 
     def single(self, numbers: Mapping[InputKey, Any]) -> list[tuple[Any, ...]] | None:
         """Return (S0, S1, S2, S3, exponent) at every end, all numbers being floats.
 
         None where that takes more care than floats allow.
         """
-        if self._known_floats is None:
-            self._known_floats = [
-                operand.numbers(kind=wide(self.dtype)).item() if operand.known else 0.0
-                for operand in self.program.operands
-            ]
-        operands = list(self._known_floats)
-        for place, operand in enumerate(self.program.operands):
-            if not operand.known:
-                operands[place] = operand.evaluated(FLOAT, numbers[operand.input_key])
-        solvers: list[LoopSolver] = []
-        try:
-            found = execute(self.program, operands, self._float_carrier, solvers=solvers)
-        except (ArithmeticError, ValueError):
+        found = self._found(ResolvedInputs(numbers, (1,)), {})
+        if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in found):
             return None
-        if not all(all(solver.conditions) for solver in solvers):
-            return None
-        lights = []
-        for reading in self.program.readings.values():
-            components, exponent = found[reading.light]
-            read = tuple(components[: reading.components])
-            finite = abs(sum(map(abs, read))) < np.inf
-            if not finite or (self.carrier is StokesCarrier and not components[0] >= _TINY):
-                return None
-            lights.append((*read, *[np.nan] * (4 - len(read)), exponent))
-        return lights
+        return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in found]
 
     def lights(
         self, given: ResolvedInputs, shared: Shared | None = None
@@ -132,10 +108,7 @@ class Interpreter:
         list of (ndarray, ndarray)
         """
         own = {index: tuple(map(given.cut, numbers)) for index, numbers in (shared or {}).items()}
-        found = self._stacked(given, self._carriers[self.carrier], own)
-        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in found):
-            found = self._stacked(given, self._carriers[ScaledCarrier], own)
-        return [folded(*light) for light in found]
+        return [folded(*light) for light in self._found(given, own)]
 
     def shared(self, given: ResolvedInputs) -> Shared:
         """Return the numbers of evaluations that differ along a few axes of a batch only.
@@ -213,8 +186,18 @@ class Interpreter:
             read.append(parts)
         return read
 
+    def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
+        """Return light and exponents; what is too faint for floats is carried with an exponent."""
+        found = self._stacked(given, self._carriers[self.carrier], shared)
+        if self.carrier is StokesCarrier and any(np.any(underflows(s[..., 0])) for s, _ in found):
+            found = self._stacked(given, self._carriers[ScaledCarrier], shared)
+        return found
+
     def _stacked(self, given: ResolvedInputs, carrier: Carrier, shared: Shared) -> list[Any]:
-        lights = self._execute(given, carrier, None, shared)
+        return self._read(given, self._execute(given, carrier, None, shared))
+
+    def _read(self, given: ResolvedInputs, lights: Mapping[int, Any]) -> list[Any]:
+        """Return the light at every end as Stokes vectors, with exponents."""
         return [
             (
                 _stack(lights[reading.light][0], given.batch, reading, self.dtype),
@@ -267,9 +250,9 @@ class Interpreter:
         ]
 
     def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
-        if operand.part == "imag" and type(number := given.numbers[operand.input_key]) is float:
+        if operand.part == "imag" and given.numbers[operand.input_key] is False:
             # Not an array, so that kernels see an index that does not absorb.
-            return self.dtype.type(number)  # type: ignore[no-any-return]
+            return self.dtype.type(0.0)  # type: ignore[no-any-return]
         kind = wide(self.dtype) if operand.part in ("cos", "sin") else None
         raw = operand.given_in(given.numbers, partial(np.asarray, dtype=kind))
         return self._cast(operand.evaluated(NUMPY, raw))

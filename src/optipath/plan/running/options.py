@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from optipath.kernels.numbers.trigonometry import DIGITS
+
 
 class RunOptions(NamedTuple):
     """How programs are run, as `Composer` takes it.
@@ -20,8 +22,6 @@ class RunOptions(NamedTuple):
         What is asked for, ``"auto"`` or the name of an engine.
     threads : int
         How many share a large batch.
-    reproducible : bool
-        Whether a path comes to the same bits alone and in any batch, by every engine but JAX.
     """
 
     method: str
@@ -29,4 +29,11 @@ class RunOptions(NamedTuple):
     dtype: str
     engine: str
     threads: int
-    reproducible: bool = False
+
+    @property
+    def reproducible(self) -> bool:
+        """Whether a path comes to the same bits alone and in any batch, by every engine but JAX.
+
+        Elementary functions are then those of `reproducible`, which there are of this precision.
+        """
+        return self.dtype in DIGITS

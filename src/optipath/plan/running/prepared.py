@@ -11,7 +11,7 @@ from optipath.engines.automatic import COMPILER, EngineChoice
 from optipath.engines.known_engines import REGISTRY
 from optipath.errors import ValueFault
 from optipath.plan.running.batch_runner import BatchRunner
-from optipath.values.operands import ABSENT, ZERO
+from optipath.values.operands import ABSENT
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -98,9 +98,8 @@ class BatchKind:
     @cached_property
     def function(self) -> FloatFunction | None:
         """What does one path after the other; None where it cannot be made."""
-        forms = self.forms.items()
-        nothing = [k for k, f in forms if f == ABSENT or (f == ZERO and k.part == "imag")]
-        return self.single.function(frozenset(nothing))
+        nothing = frozenset([key for key, form in self.forms.items() if form == ABSENT])
+        return self.single.function(nothing)
 
     @property
     def has_floats(self) -> bool:

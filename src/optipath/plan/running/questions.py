@@ -46,7 +46,7 @@ class LightQuestion(Question):
         return (10 if stepped else 4) * len(self.ends)
 
     def formula(self, maker: FormulaMaker, forms: Mapping[Any, str], axes: Any) -> Formula:
-        return maker.lights(forms, axes=axes, unreduced=maker.unreduced, polynomials=True)
+        return maker.lights(forms, axes=axes, unreduced=maker.unreduced)
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:
         found = runner.interpreter.lights(given, shared)
@@ -127,7 +127,6 @@ class MatrixQuestion(Question):
             limits,
             axes,
             masks=maker.masks,
-            reproducible=maker.reproducible,
         )
 
     def rows(self, runner: Asked, given: ResolvedInputs, shared: Shared) -> Array:

@@ -9,11 +9,11 @@ import numpy as np
 from optipath.plan.running.batch import sliced
 from optipath.values.angles import CosSin
 from optipath.values.input_key import InputKey
-from optipath.values.operands import ABSENT, MANY, ONE, WIDE, ZERO, part_of
+from optipath.values.operands import ABSENT, MANY, ONE, WIDE, part_of
 from optipath.values.roundings import as_doubles, is_beyond
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Hashable, Mapping
+    from collections.abc import Hashable, Mapping
 
     from optipath.engines.program.program import Program
     from optipath.values.inputs import Inputs
@@ -28,7 +28,8 @@ class ResolvedInputs(NamedTuple):
     Attributes
     ----------
     numbers : mapping of InputKey to float or ndarray
-        What is given; a bool or an array of them for whether an element is there.
+        What is given; a bool or an array of them for whether an element is there, and False for
+        the imaginary part of real numbers.
     batch : tuple of int
         The shape that all arrays broadcast to, those known beforehand included.
     before : ResolvedInputs, optional
@@ -73,14 +74,8 @@ class ResolvedInputs(NamedTuple):
 
     @property
     def nothing(self) -> frozenset[InputKey]:
-        """What is not there: optional elements by their presence, and imaginary parts of 0."""
-        return frozenset(
-            [
-                key
-                for key, n in self.numbers.items()
-                if n is False or (key.part == "imag" and n == 0.0)
-            ]
-        )
+        """What is not there: optional elements by their presence, and imaginary parts."""
+        return frozenset([key for key, number in self.numbers.items() if number is False])
 
     @property
     def is_of_floats(self) -> bool:
@@ -91,31 +86,9 @@ class ResolvedInputs(NamedTuple):
                 return False
         return True
 
-    def forms(
-        self, dtype: np.dtype[Any], alike: Collection[str] = ()
-    ) -> tuple[tuple[InputKey, str], ...]:
-        """Return in which form each number is given.
-
-        Parameters
-        ----------
-        dtype : dtype
-            The precision of the plan.
-        alike : collection of str, optional
-            Of what 0 is a number like others, but for what real numbers have no part of.
-
-        Returns
-        -------
-        tuple of (InputKey, str)
-        """
-        found = [(key, _form(key, number, dtype)) for key, number in self.numbers.items()]
-        if not alike:
-            return tuple(found)
-        return tuple(
-            [
-                (k, ONE if f == ZERO and k.name in alike and k.part != "imag" else f)
-                for k, f in found
-            ]
-        )
+    def forms(self, dtype: np.dtype[Any]) -> tuple[tuple[InputKey, str], ...]:
+        """Return in which form each number is given, for a precision."""
+        return tuple([(key, _form(number, dtype)) for key, number in self.numbers.items()])
 
 
 class InputReader:
@@ -142,7 +115,6 @@ class InputReader:
         self._known_kinds = "fd?" if dtype == np.float32 and not reproducible else "d?"
         found = dict.fromkeys([o.input_key for o in program.operands if not o.known])
         computed = [value.name for value in inputs.computed]
-        self.alike = frozenset(computed if reproducible else ())
         self.keys = {n: [r for r in found if r.name == n] for n in (*inputs.open, *computed)}
         affine = [key for key in found if key.is_affine]
         self._affine = {key.name: [a for a in affine if a.name == key.name] for key in affine}
@@ -164,7 +136,7 @@ class InputReader:
     def key(self, parameters: Mapping[str, Any]) -> tuple[Any, ...] | None:
         """Return what the names, shapes and types of what is given say of how it is run.
 
-        A word stands for itself, and 0 is a case of its own. None for what must be looked at.
+        A word stands for itself. None for what must be looked at.
         """
         if self.inputs.hidden:
             return None
@@ -176,9 +148,7 @@ class InputReader:
                     return None
                 found.append((name, value.shape))
             elif kind is float:
-                found.append((name, value == 0.0))
-                if self._affine:
-                    found += [self._placed(key, value) == 0.0 for key in self._affine.get(name, ())]
+                found.append((name, None))
             elif kind is str:
                 found.append((name, value))
             else:
@@ -263,7 +233,7 @@ class InputReader:
             return True if np.all(present) else present
         # Of real numbers it is known for all paths, and the kernels without absorption do.
         if key.part == "imag" and not np.iscomplexobj(value):
-            return 0.0
+            return False
         if type(value) is float:
             return self._placed(key, value)
         return part_of(self._placed(key, value), key.part, self.inputs.tails[key.name])
@@ -287,9 +257,7 @@ def _one_number(array: np.ndarray[Any, Any]) -> Any:
     return array if array.size != 1 or array.dtype.char == "g" else array.item()
 
 
-def _form(key: InputKey, number: Any, dtype: np.dtype[Any]) -> str:
+def _form(number: Any, dtype: np.dtype[Any]) -> str:
     if isinstance(number, np.ndarray):
         return WIDE if number.dtype.itemsize > dtype.itemsize else MANY
-    if key.part == "present":
-        return ONE if number else ABSENT
-    return ZERO if number == 0.0 else ONE
+    return ABSENT if number is False else ONE

@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.engines.formulas.left import DOUBLE, FROM_ANY_UNFUSED, FROM_NEARER, LEFT
+from optipath.engines.formulas.left import DOUBLE, FROM_ANY, FROM_NEARER, LEFT
 from optipath.engines.formulas.of_angles import is_in_first_quadrant, of_angle
+from optipath.engines.program.carrying import carrying
+from optipath.engines.program.execute import execute
 from optipath.kernels.carriers.matrix_carrier import MatrixCarrier
 from optipath.kernels.carriers.scaled_carrier import ScaledCarrier
 from optipath.kernels.carriers.stokes_carrier import StokesCarrier
@@ -16,16 +18,13 @@ from optipath.kernels.numbers.reproducible import reproducible_numpy
 from optipath.kernels.numbers.trigonometry import DIGITS
 from optipath.light.underflow import folded, underflows
 from optipath.plan.running.interpreter import Interpreter
-from optipath.plan.running.reading import ResolvedInputs
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from optipath.engines.program.program import Program, Reading
     from optipath.kernels.carriers.carrier import Carrier
     from optipath.plan.running.interpreter import Shared
     from optipath.plan.running.options import RunOptions
-    from optipath.values.input_key import InputKey
+    from optipath.plan.running.reading import ResolvedInputs
     from optipath.values.inputs import Inputs
     from optipath.values.operands import Operand
 
@@ -82,12 +81,7 @@ class ReproducibleInterpreter(Interpreter):
         self.limits = inputs.limits
         self.xp = reproducible_numpy(dtype.name)
         self._carriers = {kind: kind(self.xp) for kind in (carrier, ScaledCarrier, MatrixCarrier)}
-
-    def single(self, numbers: Mapping[InputKey, Any]) -> list[tuple[Any, ...]] | None:
-        found = self._found(ResolvedInputs(numbers, (1,)), {})
-        if not all(np.all(np.isfinite(stokes[..., 0])) for stokes, _ in found):
-            return None
-        return [(*stokes[0].tolist(), exponent.item()) for stokes, exponent in found]
+        self._carrying = carrying(program, carrier, self.xp, dtype.name)
 
     def lights(
         self, given: ResolvedInputs, shared: Shared | None = None
@@ -100,8 +94,13 @@ class ReproducibleInterpreter(Interpreter):
         ]
 
     def _found(self, given: ResolvedInputs, shared: Shared) -> list[tuple[Any, Any]]:
-        """Return light and exponents; what is too faint for floats is carried with an exponent."""
-        found = self._stacked(given, self._carriers[self.carrier], shared)
+        program, carrier = self._carrying
+        if program is self.program:
+            found = self._stacked(given, carrier, shared)
+        else:
+            with np.errstate(all="ignore"):
+                lights = execute(program, self.operands(given), carrier, number=self.number)
+            found = self._read(given, lights)
         if self.carrier is not StokesCarrier:
             return found
         faint = np.any([underflows(stokes[..., 0]) for stokes, _ in found], axis=0)
@@ -127,16 +126,16 @@ class ReproducibleInterpreter(Interpreter):
         ]
 
     def _given(self, operand: Operand, given: ResolvedInputs) -> np.ndarray[Any, Any]:
-        key = operand.input_key
-        if operand.part == "present":
+        key, numbers = operand.input_key, given.numbers
+        if operand.part == "present" or numbers.get(key) is False:
             return super()._given(operand, given)
-        if operand.part == "imag" and type(given.numbers[key]) is float:
-            number = self.dtype.type(given.numbers[key])
-            return number if number == 0.0 else np.atleast_1d(number)
-        if operand.part in ("cos", "sin") and key in given.numbers:
-            return self._circular(operand, np.atleast_1d(given.numbers[key]))
-        raw = operand.given_in(given.numbers, lambda number: self._cast(np.atleast_1d(number)))
-        return self._cast(operand.evaluated(self.xp, raw))
+        if key not in numbers:
+            raw = operand.given_in(numbers, lambda number: self._cast(np.atleast_1d(number)))
+            return self._cast(operand.evaluated(self.xp, raw))
+        number = np.atleast_1d(numbers[key])
+        if operand.part in ("cos", "sin"):
+            return self._circular(operand, number)
+        return self._cast(operand.evaluated(self.xp, number))
 
     def _circular(self, operand: Operand, angle: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
         """Return the cosines or sines of angles, as formulas have them."""
@@ -144,7 +143,7 @@ class ReproducibleInterpreter(Interpreter):
         first = is_in_first_quadrant(operand, self.limits[operand.input_key.quantity])
         left: Any = None
         if self.dtype != np.float64:
-            left = LEFT[FROM_NEARER if first else FROM_ANY_UNFUSED](NUMPY, DOUBLE)(angle)
+            left = LEFT[FROM_NEARER if first else FROM_ANY](NUMPY, DOUBLE)(angle)
             left = self._cast(-left if negative else left)
         signed = self._cast(-angle if negative else angle)
         small = np.abs(signed) <= digits.most

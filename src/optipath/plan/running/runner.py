@@ -183,7 +183,7 @@ class Runner(Answering):
         self, question: Question, given: ResolvedInputs, layout: Layout, *, floats: bool
     ) -> BatchKind:
         """Return what this batch has in common with others."""
-        forms = given.forms(self.dtype, self.reader.alike)
+        forms = given.forms(self.dtype)
         key = question.key, forms, layout.key, floats
         found = self._kinds.get(key)
         if found is None:

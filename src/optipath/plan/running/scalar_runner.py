@@ -11,7 +11,7 @@ import numpy as np
 
 from optipath.engines.float_engine import FLOAT_ENGINE
 from optipath.values.curves.following_floats import FollowingFloats
-from optipath.values.operands import ABSENT, ONE, ZERO
+from optipath.values.operands import ABSENT, ONE
 from optipath.values.parameters import ABSENT as WORD
 
 if TYPE_CHECKING:
@@ -173,8 +173,7 @@ class ScalarRunner:
     def _made(self, nothing: frozenset[InputKey]) -> FloatFunction | None:
         keys = dict.fromkeys(o.input_key for o in self.program.operands if not o.known)
         absent = {key.name for key in nothing if key.part == "present"}
-        of_real = dict.fromkeys(nothing, ZERO)
-        forms = {key: ABSENT if key.name in absent else of_real.get(key, ONE) for key in keys}
+        forms = {k: ABSENT if k in nothing or k.name in absent else ONE for k in keys}
         formula = self.formulas.of_floats(forms)
         if formula is None:
             return None
