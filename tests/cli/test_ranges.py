@@ -136,8 +136,10 @@ def test_a_path_with_several_values_of_its_own_takes_no_axis_besides(capsys, tmp
     status, _, err = run(capsys, "run", str(file), "--intensity", "1:2:2")
     assert (status, err) == (
         2,
-        "optipath: parameter 'angle' has several values in the file; give one by --angle, or a "
-        "range\n",
+        (
+            "optipath: parameter 'angle' has several values in the file; give one by --angle, or "
+            "a range\n"
+        ),
     )
     assert run(capsys, "run", str(file), "--intensity", "1:2:2", "--angle", "0")[0] == 0
 
