@@ -24,6 +24,7 @@ class Powers:
     fails_at: int = -1
     kills_at: int = -1
     title: str = "powers"
+    axis: bytes = b""
 
     @property
     def identity(self):

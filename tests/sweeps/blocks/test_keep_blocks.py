@@ -14,8 +14,9 @@ import optipath as op
 from large_jobs import Powers, computed, marked, powers
 from optipath.errors import JobError
 from optipath.sweeps.blocks.block_store import BlockStore
+from optipath.sweeps.blocks.executors import AtOnce
 from optipath.sweeps.blocks.keep_blocks import _handed_out, keep_blocks
-from optipath.sweeps.blocks.workers import AtOnce, Workers
+from optipath.sweeps.blocks.workers import Workers
 
 
 @pytest.fixture

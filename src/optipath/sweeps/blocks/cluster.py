@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import logging
-from concurrent.futures import Executor, ThreadPoolExecutor
+import signal
+import sys
+import signal
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import cloudpickle
 from dask.system import CPU_COUNT
 from distributed import Client, LocalCluster
 from distributed.comm import connect
@@ -17,63 +18,40 @@ from distributed.comm import connect
 from optipath.errors import JobError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from concurrent.futures import Future
+    from collections.abc import Iterator
 
 _PATIENCE = 10.0
 """How many seconds a cluster has to answer."""
 
 
-class Travelling(Executor):
-    """An executor of a cluster that says what is wrong where a worker cannot load what it gets.
+def threads_of(client: Client) -> int:
+    """Return how many threads a cluster has now; one if it waits for work to have any.
 
-    Of what distributed loads itself, nobody is told more than that the worker was lost.
-
-    Parameters
-    ----------
-    executor : Executor
-        Of a client.
+    Raises
+    ------
+    JobError
+        If it is lost.
     """
-
-    def __init__(self, executor: Executor) -> None:
-        self._executor = executor
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Have it done by a worker, and return what will come of it.
-
-        Parameters
-        ----------
-        fn : callable
-            What is done.
-        *args, **kwargs : Any
-            What it is given.
-
-        Returns
-        -------
-        Future
-        """
-        return self._executor.submit(_unpacked, cloudpickle.dumps(partial(fn, *args, **kwargs)))
-
-
-def _unpacked(packed: bytes) -> Any:
     try:
-        work = cloudpickle.loads(packed)
-    except (ImportError, AttributeError) as fault:
+        threads: int = sum(client.nthreads().values())
+    except (OSError, AttributeError):  # a client that is closed meanwhile has no scheduler
         raise JobError(
-            f"a worker cannot load the job: {fault}; see that what defines it is a module that "
-            f"the workers can import, too"
+            "the cluster was lost; start again when it is back, and what is done is not computed "
+            "again"
         ) from None
-    return work()
+    return max(threads, 1)
 
 
 @contextmanager
-def client_of(given: str | Client) -> Iterator[Client]:
+def client_of(given: str | Client, blocks: int) -> Iterator[Client]:
     """Have a client; what is made for it is closed afterwards.
 
     Parameters
     ----------
     given : str or distributed.Client
         One, the address of a cluster, or ``"processes"``.
+    blocks : int
+        How many there are to do; there are no more processes than that.
 
     Yields
     ------
@@ -85,7 +63,11 @@ def client_of(given: str | Client) -> Iterator[Client]:
         If it is closed, or nothing answers.
     """
     if given == "processes":
-        with _processes() as cluster, Client(cluster, set_as_default=False) as client:
+        with (
+            _processes(min(CPU_COUNT, blocks)) as cluster,
+            Client(cluster, set_as_default=False) as client,
+        ):
+            client.run(_ignore_interrupts)
             yield client
     elif isinstance(given, str):
         with _reached(given) as client:
@@ -117,23 +99,42 @@ def _reached(address: str) -> Client:
         ) from None
 
 
+def _ignore_interrupts() -> None:
+    # Ctrl-C comes to all processes of a terminal, and who made these ends them.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
 async def _knock(address: str) -> None:
     comm = await connect(address, timeout=_PATIENCE)
     await comm.close()
 
 
-def _processes() -> LocalCluster:
+@contextmanager
+def _interrupts_put_off() -> Iterator[None]:
+    """Let Ctrl-C wait while processes start, which never hear it: it is for who started them."""
+    if sys.platform == "win32":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
-        return LocalCluster(
-            n_workers=CPU_COUNT,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address=None,
-            # It has an HTTP server all the same, by default at one port for all.
-            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-            silence_logs=logging.ERROR,
-        )
-    except RuntimeError as fault:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def _processes(count: int) -> LocalCluster:
+    try:
+        with _interrupts_put_off():
+            return LocalCluster(
+                n_workers=count,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address=None,
+                # It has an HTTP server all the same, by default at one port for all.
+                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+                silence_logs=logging.ERROR,
+            )
+    except (RuntimeError, OSError) as fault:
         raise JobError(
             f"no processes can be started ({fault}); in a script, put what is run under if "
             f"__name__ == '__main__':, since each process imports it, or give scheduler='threads'"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from concurrent.futures import FIRST_COMPLETED, CancelledError, wait
+from contextlib import closing
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ from optipath.sweeps.blocks.workers import workers_of
 from optipath.values.given_files import given_file
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator
     from concurrent.futures import Future
     from os import PathLike
     from pathlib import Path
@@ -52,16 +53,47 @@ def keep_blocks(
     ------
     JobError
         If the store holds something else, cannot be written, or there is nobody to compute.
+
+    Notes
+    -----
+    Every block that is done stays, whatever ends the rest: an error of a block, which comes out as
+    it is, Ctrl-C, or a process that is killed. Results go from the workers to the store, and do
+    not come back here. Sums over blocks are made of what the store holds, in the order of blocks,
+    and so do not depend on who was first. Two runs may share a store.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from optipath.sweeps.blocks.block_job import KeptArray
+    >>> job = SimpleNamespace(
+    ...     identity="squares of 0 to 5, in blocks of 2",
+    ...     blocks=3,
+    ...     arrays={"square": KeptArray(("number",), (6,), (2,))},
+    ...     coords={},
+    ...     attrs={"title": "squares"},
+    ... )
+    >>> def compute(block):
+    ...     region = slice(2 * block, 2 * block + 2)
+    ...     return {"square": ((region,), np.arange(6.0)[region] ** 2)}
+    >>> job.compute = compute
+    >>> with TemporaryDirectory() as folder:
+    ...     with xr.open_zarr(keep_blocks(job, f"{folder}/squares.zarr")) as found:
+    ...         print(found.square.values)
+    [ 0.  1.  4.  9. 16. 25.]
     """
     kept = BlockStore.of(job, given_file(store, JobError))
     done = kept.done(job.blocks)
     missing = [number for number in range(job.blocks) if number not in done]
-    finished = len(done)
-    _tell(progress, finished, job)
+    _tell(progress, len(done), job)
     if missing:
-        with workers_of(scheduler) as workers:
-            for _ in _handed_out(job, kept, missing, workers):
-                finished += 1
+        with (
+            workers_of(scheduler, len(missing)) as workers,
+            closing(_handed_out(job, kept, missing, workers)) as found,
+        ):
+            for finished, _ in enumerate(found, len(done) + 1):
                 _tell(progress, finished, job)
     return kept.folder
 
@@ -73,7 +105,7 @@ def _tell(progress: Callable[[int, int], None] | None, done: int, job: BlockJob)
 
 def _handed_out(
     job: BlockJob, kept: BlockStore, numbers: list[int], workers: Workers
-) -> Iterator[int]:
+) -> Generator[int]:
     """Yield the numbers of blocks as they are done, of which a few at a time are handed out."""
     ahead = iter(numbers)
     pending: dict[Future[None], int] = {}

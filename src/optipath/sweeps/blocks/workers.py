@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import sys
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import dask
 from dask.system import CPU_COUNT
 
 from optipath.errors import JobError, shown, unknown
+from optipath.sweeps.blocks.executors import AtOnce, Travelling
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 SCHEDULERS = ("synchronous", "threads", "processes")
+
+# A job with long axes is what is sent; there is nothing that a user could do about it.
+_LARGE_JOBS = {"distributed.admin.large-graph-warning-threshold": "1 PiB"}
 
 _AHEAD = 2
 """How many blocks a worker is given at a time, so that it need not wait for the next."""
@@ -35,39 +40,16 @@ class Workers(NamedTuple):
     handed_out: Callable[[], int]
 
 
-class AtOnce(Executor):
-    """An executor that does what it is given there and then."""
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Do it, and return what came of it.
-
-        Parameters
-        ----------
-        fn : callable
-            What is done.
-        *args, **kwargs : Any
-            What it is given.
-
-        Returns
-        -------
-        Future
-        """
-        done: Future[Any] = Future()
-        try:
-            done.set_result(fn(*args, **kwargs))
-        except Exception as error:  # noqa: BLE001 - whoever asks for the result gets it
-            done.set_exception(error)
-        return done
-
-
 @contextmanager
-def workers_of(scheduler: Any) -> Iterator[Workers]:
+def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     """Have those at work whom a scheduler stands for; those who are made for it go afterwards.
 
     Parameters
     ----------
     scheduler : str, distributed.Client or None
         As `keep_blocks` takes it.
+    blocks : int
+        How many there are to do.
 
     Yields
     ------
@@ -87,13 +69,12 @@ def workers_of(scheduler: Any) -> Iterator[Workers]:
     else:
         _check(given)
         # It takes a second to import.
-        from optipath.sweeps.blocks.cluster import Travelling, client_of  # noqa: PLC0415
+        from optipath.sweeps.blocks.cluster import client_of, threads_of  # noqa: PLC0415
 
-        with client_of(given) as client:
+        with client_of(given, blocks) as client, dask.config.set(_LARGE_JOBS):
             yield Workers(
                 Travelling(client.get_executor(pure=False)),
-                # One that grows when there is work has no workers at first.
-                lambda: _AHEAD * max(sum(client.nthreads().values()), 1),
+                lambda: _AHEAD * threads_of(client),
             )
 
 
