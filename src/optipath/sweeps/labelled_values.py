@@ -25,8 +25,19 @@ _NO_UNIT = ("", "1", "dimensionless")
 """What stands for no unit, as the conventions for NetCDF (CF) write it."""
 
 
-def is_labelled(value: Any) -> bool:
+def is_labelled(value: Any, axes: int | None = None) -> bool:
     """Tell whether a value is a `DataArray`, without importing xarray.
+
+    Parameters
+    ----------
+    value : Any
+        What is given.
+    axes : int, optional
+        How many dimensions it has to have.
+
+    Returns
+    -------
+    bool
 
     Examples
     --------
@@ -34,7 +45,8 @@ def is_labelled(value: Any) -> bool:
     False
     """
     xarray = sys.modules.get("xarray")
-    return xarray is not None and isinstance(value, xarray.DataArray)
+    found = xarray is not None and isinstance(value, xarray.DataArray)
+    return found and (axes is None or value.ndim == axes)
 
 
 def has_coordinates(value: Any) -> bool:

@@ -11,7 +11,7 @@ from optipath.sweeps.given_coords import GivenCoordinate, given_coords
 from optipath.sweeps.labelled_values import is_labelled
 from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.sweeps.sweep_grid import SweepGrid
-from optipath.sweeps.zipped_axes import zipped_dimensions
+from optipath.sweeps.zipped_axes import shared_dimensions, zipped_dimensions
 from optipath.values.axis_texts import AxisValues
 from optipath.values.large_angles import LargeAngles
 
@@ -69,6 +69,8 @@ def grid_of(
     dimensions = {name: several[name].dimension or name for name in values}
     own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
     dimensions |= zipped_dimensions(zip, own, inputs.open, faults)
+    along = {name: value.dims[0] for name, value in given.items() if is_labelled(value, axes=1)}
+    faults += shared_dimensions(along, dimensions)
     faults += _named_as_others(dimensions, values, inputs)
     faults += unnamed_arrays(inputs, several)
     axes: list[SweepAxis] = []
