@@ -6,7 +6,6 @@ import asyncio
 import logging
 import signal
 import sys
-import signal
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
