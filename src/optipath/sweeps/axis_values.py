@@ -57,8 +57,10 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
     parameter = inputs.open[name]
     if is_labelled(value):
         return _of_one_dimension(name, read_labelled(parameter, value, inputs.uses))
-    if isinstance(value, str) and (several := read_axis_text(value, parameter, "", inputs.uses)):
-        return several
+    if isinstance(value, str):
+        several = read_axis_text(value, parameter, "", inputs.uses)
+        if several is not None:
+            return several
     inputs.ask_in_doubt(name, value)
     array = as_given(f"parameter '{name}'", known(value), ParameterError)
     if array.dtype.kind in "UO":

@@ -8,7 +8,7 @@ from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axis_values import read_values
 from optipath.sweeps.checked_axes import axis_faults, computed_faults, unnamed_arrays
 from optipath.sweeps.given_coords import GivenCoordinate, given_coords
-from optipath.sweeps.labelled_values import is_labelled
+from optipath.sweeps.labelled_values import has_coordinates, is_labelled
 from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.sweeps.zipped_axes import shared_dimensions, zipped_dimensions
@@ -59,10 +59,11 @@ def grid_of(
     """
     faults: list[str] = []
     besides = given_coords(inputs, coords, faults)
+    twice = [name for name in given if name in besides]
+    drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
     faults += [
-        f"'{name}' is given by its name, and in coords as well; leave one of them out"
-        for name in given
-        if name in besides
+        f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
+        for name in twice
     ]
     several = {name: GivenCoordinate(value) for name, value in given.items()} | besides
     values = _read(inputs, several, faults)
