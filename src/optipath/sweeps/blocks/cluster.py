@@ -118,7 +118,7 @@ def _processes(count: int) -> LocalCluster:
             scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
             silence_logs=logging.ERROR,
         )
-    except RuntimeError as fault:
+    except (RuntimeError, OSError) as fault:
         raise JobError(
             f"no processes can be started ({fault}); in a script, put what is run under if "
             f"__name__ == '__main__':, since each process imports it, or give scheduler='threads'"
