@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from optipath.composer.composer import Composer
-    from optipath.sweeps.uncertainty.propagation import Propagation
 
 _BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
@@ -100,7 +99,7 @@ class Sweeping:
         detector: str | None = None,
         composer: Composer | None = None,
         **values: Any,
-    ) -> Propagation:
+    ) -> Any:
         """Return the light with its uncertainty, which follows from those of values.
 
         To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
@@ -145,15 +144,12 @@ class Sweeping:
         ...     angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
         ... )
         >>> print(found.light.intensity.round(6), found.uncertainty_of("intensity").round(6))
-        0.375 0.001066
+        0.375 0.001065
         >>> {name: float(share.round(3)) for name, share in found.contributions_to("S0").items()}
-        {'angle': 0.503, 'intensity': 0.497}
+        {'angle': 0.504, 'intensity': 0.496}
         """
         room = "optipath.sweeps.uncertainty"
         options = import_module(f"{room}.propagate_options").PropagateOptions(
             method, samples, seed, correlation, detector, composer
         )
-        found: Propagation = import_module(f"{room}.propagate").propagate(
-            self, unnamed, values, options
-        )
-        return found
+        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)

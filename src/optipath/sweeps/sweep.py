@@ -60,9 +60,10 @@ def sweep(
     if at_once:
         try:
             return swept_in_memory(path, plan, grid, composer)
-        except ParameterError:
-            grid_of(plan.inputs, given, zip, coords)
-            raise
+        except ParameterError as fault:
+            told = fault
+        grid_of(plan.inputs, given, zip, coords)
+        raise told
     from optipath.sweeps.in_chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
 
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)
