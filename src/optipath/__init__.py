@@ -75,6 +75,7 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
+    from optipath.sweeps.uncertainty.propagation import Propagation
     from optipath.values.angles import CosSin
     from optipath.values.cases import Case
     from optipath.values.crystals import Crystal
@@ -166,6 +167,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Polarizer",
     "PolarizingBeamSplitter",
     "PresetError",
+    "Propagation",
     "Real",
     "RefractingVertex",
     "Retarder",
@@ -246,6 +248,7 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
+    "sweeps.uncertainty.propagation": ["Propagation"],
     "values.angles": ["CosSin"],
     "values.cases": ["Case"],
     "values.crystals": ["Crystal"],

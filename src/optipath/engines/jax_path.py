@@ -270,7 +270,7 @@ class JaxPath:
                 "float64; begin with jax.config.update('jax_enable_x64', True), or compose "
                 "with dtype='float32'"
             )
-        return _double()(True)  # noqa: FBT003 - as JAX has it
+        return double_precision()(True)  # noqa: FBT003 - as JAX has it
 
 
 def _are_sound(solvers: Sequence[LoopSolver]) -> Any:
@@ -280,7 +280,8 @@ def _are_sound(solvers: Sequence[LoopSolver]) -> Any:
 
 
 @cache
-def _double() -> Any:
+def double_precision() -> Any:
+    """Return what makes a context in which JAX computes in float64, or does not."""
     if hasattr(jax, "enable_x64"):
         return jax.enable_x64
     from jax.experimental import enable_x64  # noqa: PLC0415 - where older versions have it

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from optipath.composer.composer import Composer
+    from optipath.sweeps.uncertainty.propagation import Propagation
 
 _BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
@@ -87,3 +88,72 @@ class Sweeping:
             if missing.name is None or missing.name.partition(".")[0] not in _BROUGHT:
                 raise
             raise MissingExtraError("sweeps", missing.name, "sweep") from None
+
+    def propagate(
+        self,
+        /,
+        *unnamed: Never,
+        method: str = "auto",
+        samples: int | None = None,
+        seed: int | None = None,
+        correlation: Mapping[tuple[str, str], float] | None = None,
+        detector: str | None = None,
+        composer: Composer | None = None,
+        **values: Any,
+    ) -> Propagation:
+        """Return the light with its uncertainty, which follows from those of values.
+
+        To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
+        Supplement 1, JCGM 101:2008). What is doubtful is told in `Propagation.notes`.
+
+        Parameters
+        ----------
+        *unnamed
+            None: values are given by name.
+        method : {"auto", "gradients", "differences", "monte-carlo"}, optional
+            Slopes by JAX where it is installed and traces the path, else by differences; by JAX;
+            by differences; or samples of normal distributions, which are cut off at the ends of
+            ranges.
+        samples, seed : int, optional
+            Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
+        correlation : mapping of pairs of str to float, optional
+            Coefficients of correlation, ``{("n1", "k1"): 0.3}``; 0 for other pairs.
+        detector : str, optional
+            Its name; needed only where there are several.
+        composer : Composer, optional
+            How the path is composed; slopes are in float64, and exact.
+        **values : tuple of two, or array_like
+            A value and its standard uncertainty (one standard deviation), each in radians, metres
+            or texts with units, ``delta=("48 deg", "0.1 deg")``; they may be arrays that
+            broadcast. What is no tuple is exact.
+
+        Returns
+        -------
+        Propagation
+
+        Raises
+        ------
+        ParameterError
+            With everything that is wrong with values, uncertainties and options.
+        MissingExtraError
+            If slopes by JAX are asked for, and JAX is not installed.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> found = op.load_preset("malus").propagate(
+        ...     angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
+        ... )
+        >>> print(found.light.intensity.round(6), found.uncertainty_of("intensity").round(6))
+        0.375 0.001066
+        >>> {name: float(share.round(3)) for name, share in found.contributions_to("S0").items()}
+        {'angle': 0.503, 'intensity': 0.497}
+        """
+        room = "optipath.sweeps.uncertainty"
+        options = import_module(f"{room}.propagate_options").PropagateOptions(
+            method, samples, seed, correlation, detector, composer
+        )
+        found: Propagation = import_module(f"{room}.propagate").propagate(
+            self, unnamed, values, options
+        )
+        return found

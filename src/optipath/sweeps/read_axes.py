@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 
     from optipath.values.inputs import Inputs
 
+_SHORT = 16
+"""How many times the values of all axes a grid has at least beside which they are few."""
+
 
 def grid_of(
     inputs: Inputs,
@@ -40,7 +43,8 @@ def grid_of(
     zip, coords
         As `PathGraph.sweep` takes them.
     ranges : bool, optional
-        Whether values are looked at that a run looks at as well; they are where others are wrong.
+        Whether values are looked at that a run looks at as well; they are where others are wrong,
+        and where the axes are short beside the grid.
 
     Returns
     -------
@@ -83,7 +87,7 @@ def grid_of(
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
-    ranges = ranges or bool(faults)
+    ranges = ranges or bool(faults) or _SHORT * sum(map(len, axes)) < grid.points
     faults += axis_faults(inputs, grid, ranges=ranges)
     if not faults and ranges:
         faults = computed_faults(inputs, grid)

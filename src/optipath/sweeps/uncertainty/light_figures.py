@@ -1,0 +1,124 @@
+"""The figures of light that have an uncertainty, and how they follow from the Stokes vector."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import ParameterError, unknown
+from optipath.light.polarization_state import length
+from optipath.sweeps.light_quantities import QUANTITIES
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.light.light import Light
+
+STOKES = 4
+"""How many of the figures are the Stokes vector itself; they come first."""
+
+_ROUNDINGS = 64.0
+_NAMES = {each.variable: place for place, each in enumerate(QUANTITIES)} | {
+    each.attribute: place for place, each in enumerate(QUANTITIES) if not each.attribute.isdigit()
+}
+_NAMES["intensity"] = 0
+_PERIODS = {_NAMES["aop"]: np.pi, _NAMES["delta"]: 2.0 * np.pi}
+
+
+def figures_of(light: Light) -> npt.NDArray[np.float64]:
+    """Return all figures, of shape (..., 10), in the order of `QUANTITIES`; NaN for what is not."""
+    return np.stack([np.asarray(each.of(light), np.float64) for each in QUANTITIES], axis=-1)
+
+
+def difference(figures: Any, others: Any) -> npt.NDArray[np.float64]:
+    """Return figures less others, of angles the shorter way round.
+
+    Parameters
+    ----------
+    figures, others : ndarray, shape (..., 10)
+        They broadcast together.
+
+    Returns
+    -------
+    ndarray
+    """
+    found = np.asarray(figures - others)
+    for place, period in _PERIODS.items():
+        found[..., place] -= period * np.round(found[..., place] / period)
+    return found
+
+
+def rounding_of(light: Light) -> npt.NDArray[np.float64]:
+    """Return which changes of the figures are no more than rounding, shape (..., 10)."""
+    with np.errstate(all="ignore"):
+        slopes = np.sum(np.abs(np.nan_to_num(gradients_of(light))), axis=-1)
+        noise = np.asarray(light.noise, np.float64)[..., np.newaxis]
+        found = noise * slopes
+        found[..., STOKES:] = np.fmax(found[..., STOKES:], noise / light.stokes[..., :1])
+    return np.asarray(_ROUNDINGS * found)
+
+
+def place_of(quantity: object) -> int:
+    """Return the place of a quantity among the figures.
+
+    Raises
+    ------
+    ParameterError
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> place_of("intensity"), place_of("S3"), place_of("dop"), place_of("DoP")
+    (0, 3, 4, 4)
+    """
+    if faults := unknown("quantity", quantity, _NAMES):
+        raise ParameterError(*faults)
+    return _NAMES[quantity]  # type: ignore[index]
+
+
+def gradients_of(light: Light) -> npt.NDArray[np.float64]:
+    """Return the slopes of all figures along the four components.
+
+    At a corner, as that of the degree of polarisation of unpolarised light, they are NaN: there
+    is no slope to the first order.
+
+    Parameters
+    ----------
+    light : Light
+        Of shape (...).
+
+    Returns
+    -------
+    ndarray, shape (..., 10, 4)
+        NaN where the light does not have a figure.
+    """
+    stokes = np.asarray(light.stokes, np.float64)
+    s0 = stokes[..., 0]
+    with np.errstate(all="ignore"):
+        noise = np.asarray(light.noise, np.float64) / s0
+        s1, s2, s3 = (stokes[..., place] / s0 for place in (1, 2, 3))
+        p, q, t = (_at_least(noise, *of) for of in ((s1, s2, s3), (s1, s2), (s2, s3)))
+        none, wide = np.zeros_like(s0), 0.5 * (1.0 + (s3 / (p + q)) ** 2) / p**2
+        rows = (
+            (-length(s1, s2, s3), s1 / p, s2 / p, s3 / p),
+            (-length(s1, s2), s1 / q, s2 / q, none),
+            (none, -0.5 * s2 / q**2, 0.5 * s1 / q**2, none),
+            (none, -wide * s3 * s1 / q, -wide * s3 * s2 / q, wide * length(s1, s2)),
+            (none, -0.5 * length(s2, s3) / p**2, _over(s1 * s2, t, p), _over(s1 * s3, t, p)),
+            (none, none, s3 / t**2, -s2 / t**2),
+        )
+        derived = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+        derived = derived / s0[..., np.newaxis, np.newaxis]
+    own = np.broadcast_to(np.eye(STOKES), (*s0.shape, STOKES, STOKES))
+    return np.concatenate([own, derived], axis=-2)
+
+
+def _at_least(noise: Any, *components: Any) -> Any:
+    """Return the length of a vector, NaN where it is no more than noise."""
+    long = length(*components)
+    return np.where(long > noise, long, np.nan)
+
+
+def _over(product: Any, across: Any, p: Any) -> Any:
+    return 0.5 * product / (across * p**2)
