@@ -21,6 +21,7 @@ import distributed
 import numpy as np
 import psutil
 import xarray as xr
+from click import echo as say
 
 import optipath as op
 
@@ -56,7 +57,7 @@ def keep(points: float, store: str) -> None:
     with distributed.LocalCluster(**WORKERS, **LOCAL) as cluster, cluster.get_client() as client:
         swept(points, store=store)
         most = max(client.run(peak).values())
-    print(f"  {time.perf_counter() - began:.0f} s, {most:.2f} GiB a worker", flush=True)
+    say(f"  {time.perf_counter() - began:.0f} s, {most:.2f} GiB a worker")
 
 
 def only_s0(points: float, store: str) -> None:
@@ -66,7 +67,7 @@ def only_s0(points: float, store: str) -> None:
         found = swept(points, chunks="auto")[["S0"]]
         found.to_zarr(store, zarr_format=2)
         most = max(client.run(peak).values())
-    print(f"  {time.perf_counter() - began:.0f} s, {most:.2f} GiB a worker", flush=True)
+    say(f"  {time.perf_counter() - began:.0f} s, {most:.2f} GiB a worker")
 
 
 def started(function: str, points: float, store: Path) -> subprocess.Popen[bytes]:
@@ -109,31 +110,34 @@ def compare(points: float, store: Path) -> int:
 def main(points: float, folder: Path) -> None:
     """Run it all."""
     folder.mkdir()
-    store, blocks = folder / "large.zarr", int(np.prod(swept(points, chunks="auto").S0.data.numblocks))
-    print(f"{points:.0e} points in {blocks} blocks")
+    store, blocks = (
+        folder / "large.zarr",
+        int(np.prod(swept(points, chunks="auto").S0.data.numblocks)),
+    )
+    say(f"{points:.0e} points in {blocks} blocks")
     run = started("keep", points, store)
     wait_for(run, store, blocks / 3)
     workers_of(run)[0].kill()
-    print(f"a worker was killed when {len(marks(store))} were kept")
+    say(f"a worker was killed when {len(marks(store))} were kept")
     wait_for(run, store, 2 * blocks / 3)
     run.send_signal(signal.SIGKILL)
     run.wait()
     time.sleep(5)  # Its workers see that it is gone.
     before = marks(store)
-    print(f"the run was killed when {len(before)} were kept")
+    say(f"the run was killed when {len(before)} were kept")
     began = time.perf_counter()
     assert started("keep", points, store).wait() == 0
     after = marks(store)
     again = sum(after[name] != moment for name, moment in before.items())
-    print(
+    say(
         f"the next one computed {len(after) - len(before)} and {again} of those once more, in "
         f"{time.perf_counter() - began:.0f} s"
     )
-    print(f"numbers that one process has differently: {compare(points, store)}", flush=True)
-    print("S0 alone, by Dask:", flush=True)
+    say(f"numbers that one process has differently: {compare(points, store)}")
+    say("S0 alone, by Dask:")
     assert started("only_s0", points, folder / "s0.zarr").wait() == 0
     with xr.open_zarr(folder / "s0.zarr") as alone, xr.open_zarr(store) as kept:
-        print(f"  differing: {int((alone.S0 != kept.S0).sum())}")
+        say(f"  differing: {int((alone.S0 != kept.S0).sum())}")
     shutil.rmtree(folder)
 
 

@@ -92,7 +92,8 @@ def _made():
     methods += [spectral.integrate, spectral.at_wavelengths, spectral.to_xyz, spectral.to_srgb]
     found |= {f"the {method.__qualname__}": method for method in methods}
     plate = op.Retarder(1.0, op.Parameter("angle"))
-    return found | {"plate.port_back": plate.port_back, "there_and_back": _there_and_back}
+    found |= {"plate.port_back": plate.port_back, "there_and_back": _there_and_back}
+    return found | {"path.propagate of values": _propagated}
 
 
 def _spectral_light():
@@ -101,6 +102,12 @@ def _spectral_light():
     path.add("eye", op.Detector())
     path.connect("lamp", "eye")
     return path.trace(wavelength=np.linspace(4e-7, 7e-7, 5))
+
+
+def _propagated(delta, sigma, method="differences", samples=None, seed=None, correlation=None):
+    pair = delta, sigma
+    options = {"samples": samples, "seed": seed, "correlation": correlation}
+    return op.load_preset("npgr026").propagate(delta=pair, n1=(1.5, 0.1), method=method, **options)
 
 
 def _there_and_back(first, last):

@@ -45,9 +45,18 @@ def test_plain_numbers_are_radians_as_they_are():
     numbers = np.array([0.1, 0.2, 0.7])
     axis = axis_of({"delta": numbers})
     assert (axis.name, axis.dimension, axis.unit) == ("delta", "delta", "rad")
-    assert axis.given is numbers
-    assert axis.shown is numbers
+    assert axis.given.tolist() == axis.shown.tolist() == numbers.tolist()
     assert axis.help == NPGR.inputs.open["delta"].help
+
+
+def test_an_axis_stays_as_it_is_when_what_was_given_or_is_shown_changes():
+    numbers = np.array([0.1, 0.2])
+    for value in (numbers, labelled(numbers, "rad")):
+        axis = axis_of({"delta": value})
+        axis.shown[0] = 0.3
+        numbers[1] = 0.4
+        assert axis.given.tolist() == [0.1, 0.2]
+        numbers[1] = 0.2
 
 
 @pytest.mark.parametrize("several", [[0, 1], (0, 1), range(2), np.arange(2), np.arange(2.0)])
@@ -118,6 +127,12 @@ def test_photon_energies_among_lengths_are_shown_as_lengths():
     assert axis.shown == pytest.approx([619.921, 500.0], rel=1e-6)
 
 
+def test_wave_numbers_that_are_written_in_two_ways_are_shown_as_lengths():
+    axis = axis_of({"wavelength": ["20000 1/cm", "19000 cm^-1"]}, COLOURED.compose())
+    assert axis.unit == "nm"
+    assert axis.shown == pytest.approx([500.0, 1e7 / 19000], rel=1e-14)
+
+
 def test_complex_indices_are_an_axis_where_the_path_takes_them():
     path = op.Source(1) >> op.Interface(op.Parameter("n"), 0.5) >> op.Detector()
     axis = axis_of({"n": np.array([1.5, 0.2 + 3j])}, path.compose())
@@ -135,6 +150,17 @@ def test_jax_arrays_are_arrays():
     axis = axis_of({"delta": jnp.array([0.25, 0.5])})
     assert isinstance(axis.given, np.ndarray)
     assert axis.given.tolist() == [0.25, 0.5]
+
+
+@given(st.lists(st.sampled_from(["nm", "um", "m", "eV", "1/cm", "THz", "cm^-1"]), min_size=1))
+def test_what_is_shown_is_what_is_given_in_its_unit(units):
+    size = {"nm": 500.0, "um": 0.5, "m": 5e-7, "eV": 2.5, "1/cm": 2e4, "cm^-1": 2e4, "THz": 600.0}
+    plan = COLOURED.compose()
+    axis = axis_of({"wavelength": [f"{size[unit]!r} {unit}" for unit in units]}, plan)
+    again = axis_of(
+        {"wavelength": [f"{number!r} {axis.unit}" for number in axis.shown.tolist()]}, plan
+    )
+    assert again.given == pytest.approx(axis.given, rel=4e-16)
 
 
 @given(st.data())
@@ -181,6 +207,10 @@ def test_a_unit_that_is_missing_or_wrong_is_told(unit, told):
     assert told in refused({"delta": labelled([10.0, 48.0], unit)})
 
 
+def test_complex_numbers_with_a_unit_are_told():
+    assert "'(10+1j) deg' is not a quantity" in refused({"delta": labelled([10 + 1j], "deg")})
+
+
 @pytest.mark.parametrize(
     ("value", "told"),
     [
@@ -197,7 +227,8 @@ def test_a_unit_that_is_missing_or_wrong_is_told(unit, told):
         (op.CosSin(0.6, 0.8), "is a cosine and a sine, which no axis shows; give the angle"),
         (op.Material(1.5), "a Material stands for an index of refraction"),
         ([0.1, 1 + 1j], "is complex"),
-        ("0:90:91", "'0' has no unit, but an angle is asked for"),
+        ("0:90:91", "'0:90:91' has no unit; write '0 deg:90 deg:91' if it is in deg"),
+        ("0 nm:90 nm:91", "'0 nm' is no angle"),
         ("0 deg:90 deg", "does not say how many values there are"),
         (["10 degs", "horizontal"], "did you mean 'deg'?"),
     ],

@@ -149,6 +149,21 @@ def test_arrays_that_the_path_has_are_told():
     assert "parameter 'a' has an array of shape (2,) by default" in faults[1]
 
 
+def test_arrays_along_one_dimension_are_asked_about():
+    xarray = pytest.importorskip("xarray")
+    given = {
+        name: xarray.DataArray(values, dims="point", attrs={"units": "rad"})
+        for name, values in TWO.items()
+    }
+    (fault,) = refused(given)
+    assert "write zip={'point': ('delta', 'rho')} if they vary together" in fault
+    assert ", or .rename(point='rho') for all combinations" in fault
+    assert grid(given, zip={"point": ("delta", "rho")}).sizes == {"point": 2}
+    apart = given | {"rho": given["rho"].rename(point="rho")}
+    assert grid(apart).sizes == {"delta": 2, "rho": 2}
+    assert grid(TWO | {"delta": given["delta"]}).sizes == {"delta": 2, "rho": 2}
+
+
 def test_columns_of_a_file_vary_together(tmp_path):
     file = written(tmp_path, "delta (deg),rho_mrad,filter\n10,5,none\n20,6,horizontal\n")
     found = grid(THREE, coords=file)
@@ -223,6 +238,13 @@ def test_coordinates_that_are_no_axes_are_told_with_a_cure():
     assert "leave it out, .drop_vars('foo')" in faults[0]
     assert "coordinate 'k1' is along point, phi, and an axis has one dimension" in faults[1]
     assert grid(coords=several.drop_vars(["foo", "k1"])).points == 6
+
+
+def test_labels_of_points_are_no_axes():
+    named = dataset().assign_coords(point=["a", "b"])
+    assert grid(coords=named).sizes == {"point": 2, "phi": 3}
+    stacked = dataset()[["phi"]].assign_coords(k1=("k1", [0.0, 0.1])).stack(point=("phi", "k1"))
+    assert grid(coords=stacked.drop_vars("delta", errors="ignore")).sizes == {"point": 6}
 
 
 def test_a_dimension_with_the_name_of_another_parameter_is_told():

@@ -62,8 +62,16 @@ def test_a_single_value_is_no_list(text):
     assert several_texts(DELTA, text) is None
 
 
-def test_a_ratio_is_a_single_number():
-    assert several_texts(NUMBER, "1000:1") is None
+@pytest.mark.parametrize("text", ["1000:1", "1:50", "inf"])
+def test_a_ratio_to_one_is_a_single_number(text):
+    assert several_texts(NUMBER, text) is None
+
+
+def test_a_ratio_that_may_be_a_range_without_a_count_is_asked_about():
+    with pytest.raises(op.ParameterError, match=r"may be the ratio 0\.75, or a range") as caught:
+        several_texts(NUMBER, "1.2:1.6")
+    assert "write '0.75', or '1.2:1.6:11' for eleven" in str(caught.value)
+    assert len(several_texts(NUMBER, "1.2:1.6:11")) == 11
 
 
 @pytest.mark.parametrize(
@@ -108,6 +116,11 @@ def test_what_is_wrong_is_told(text, told):
     with pytest.raises(op.ParameterError, match=r"^parameter 'delta': ") as caught:
         several_texts(DELTA, text)
     assert told in str(caught.value)
+
+
+def test_a_file_that_is_not_there_is_told_with_its_name():
+    with pytest.raises(op.ParameterError, match=r"^nowhere\.csv: there is no such file"):
+        several_texts(DELTA, "@nowhere.csv")
 
 
 def written(folder, text):

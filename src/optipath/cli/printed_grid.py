@@ -27,12 +27,41 @@ _STOKES = ("S0", "S1", "S2", "S3")
 
 
 def value_text(value: Any, digits: int) -> str:
-    """Return a value of an axis as it is printed: a number, or a word."""
+    """Return a value of an axis as it is printed.
+
+    Parameters
+    ----------
+    value : float or str
+        A number, or a word.
+    digits : int
+        How many digits numbers have.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> value_text(400.0, 6), value_text("horizontal", 6)
+    ('400', 'horizontal')
+    """
     return value if isinstance(value, str) else f"{value + 0.0:.{digits}g}"
 
 
 def span_text(axis: SweepAxis, digits: int) -> str:
-    """Return which values an axis has, in a few words."""
+    """Return which values an axis has, in a few words.
+
+    Parameters
+    ----------
+    axis : SweepAxis
+        With the values as they were given.
+    digits : int
+        How many digits numbers have.
+
+    Returns
+    -------
+    str
+    """
     if len(axis) <= _FEW:
         texts = [value_text(value, digits) for value in axis.shown.tolist()]
         return f"{', '.join(texts)} {axis.unit}".rstrip()
@@ -43,6 +72,15 @@ def span_text(axis: SweepAxis, digits: int) -> str:
 def heading(name: str, unit: str) -> str:
     """Return the heading of a column, with the unit of its numbers.
 
+    Parameters
+    ----------
+    name, unit : str
+        Of the quantity; ``""`` for no unit.
+
+    Returns
+    -------
+    str
+
     Examples
     --------
     >>> heading("delta", "deg"), heading("n1", "")
@@ -52,7 +90,21 @@ def heading(name: str, unit: str) -> str:
 
 
 def point_texts(grid: SweepGrid, index: Sequence[int], digits: int) -> Iterator[str]:
-    """Yield the value of each axis at a point of a grid, with its name and unit."""
+    """Yield the value of each axis at a point of a grid, with its name and unit.
+
+    Parameters
+    ----------
+    grid : SweepGrid
+        The axes; without any, there is nothing to say.
+    index : sequence of int
+        The place along each dimension.
+    digits : int
+        How many digits numbers have.
+
+    Yields
+    ------
+    str
+    """
     for axis, text in zip(grid.axes, _values_at(grid, index, digits), strict=True):
         yield f"{axis.name} {text} {axis.unit}".rstrip()
 

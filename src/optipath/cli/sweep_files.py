@@ -28,7 +28,20 @@ _ROWS = 1 << 16
 
 
 def write_json(file: Path, outcome: Outcome) -> None:
-    """Write all that a run has found as one JSON object."""
+    """Write all that a run has found as one JSON object.
+
+    Parameters
+    ----------
+    file : Path
+        Where it is to be, whole or not at all.
+    outcome : Outcome
+        The run.
+
+    Raises
+    ------
+    click.ClickException
+        If it cannot be written.
+    """
     write(file, json.dumps(outcome_as_json(outcome), allow_nan=False).encode())
 
 
@@ -59,7 +72,19 @@ def write_csv(file: Path, plan: Plan, grid: SweepGrid) -> None:
 
 
 def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ...]]:
-    """Yield parts of a grid in the order of its points, of so many points each at most.
+    """Yield parts of a grid in the order of its points.
+
+    Parameters
+    ----------
+    shape : sequence of int
+        Of the grid.
+    most : int, optional
+        How many points a part has at most.
+
+    Yields
+    ------
+    tuple of slice
+        One for each dimension.
 
     Examples
     --------

@@ -12,9 +12,8 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from optipath.composer.composer import Composer
-    from optipath.sweeps.uncertainty.propagation import Propagation
 
-_BROUGHT = ("xarray", "pandas")
+_BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
 
 
@@ -43,9 +42,9 @@ class Sweeping:
         zip : sequence of str, or several, optional
             Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
             or a mapping of its name to them.
-        coords : str, PathLike or Dataset, optional
-            Axes besides: a CSV file with a column for each parameter, its unit in the heading, or
-            the coordinates of a Dataset.
+        coords : str, PathLike, Dataset, DataArray or mapping, optional
+            Axes besides: a CSV file with a column for each parameter, its unit in the heading; the
+            coordinates of a Dataset; or a mapping from names to values.
         chunks : int, str or mapping of str to int, optional
             The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
             blocks of about a million.
@@ -61,8 +60,9 @@ class Sweeping:
         composer : Composer, optional
             How the path is composed.
         **axes : array_like
-            The values of parameters, in radians and metres, or texts with units; a single value
-            is no axis.
+            The values of parameters, in radians and metres, texts with units, a range
+            ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value is no
+            axis.
 
         Returns
         -------
@@ -78,15 +78,15 @@ class Sweeping:
         ShapeError
             If the light takes more memory than is free.
         """
-        try:
-            sweep = import_module("optipath.sweeps.sweep").sweep
-        except ModuleNotFoundError as missing:
-            if missing.name not in _BROUGHT:
-                raise
-            raise MissingExtraError("sweeps", missing.name, "sweep") from None
         own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more = {"scheduler": scheduler, "progress": progress, "composer": composer}
-        return sweep(self, unnamed, axes, **own, **more)
+        try:
+            sweep = import_module("optipath.sweeps.sweep").sweep
+            return sweep(self, unnamed, axes, **own, **more)
+        except ModuleNotFoundError as missing:
+            if missing.name is None or missing.name.partition(".")[0] not in _BROUGHT:
+                raise
+            raise MissingExtraError("sweeps", missing.name, "sweep") from None
 
     def propagate(
         self,
@@ -99,7 +99,7 @@ class Sweeping:
         detector: str | None = None,
         composer: Composer | None = None,
         **values: Any,
-    ) -> Propagation:
+    ) -> Any:
         """Return the light with its uncertainty, which follows from those of values.
 
         To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
@@ -144,15 +144,12 @@ class Sweeping:
         ...     angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
         ... )
         >>> print(found.light.intensity.round(6), found.uncertainty_of("intensity").round(6))
-        0.375 0.001066
+        0.375 0.001065
         >>> {name: float(share.round(3)) for name, share in found.contributions_to("S0").items()}
-        {'angle': 0.503, 'intensity': 0.497}
+        {'angle': 0.504, 'intensity': 0.496}
         """
         room = "optipath.sweeps.uncertainty"
         options = import_module(f"{room}.propagate_options").PropagateOptions(
             method, samples, seed, correlation, detector, composer
         )
-        found: Propagation = import_module(f"{room}.propagate").propagate(
-            self, unnamed, values, options
-        )
-        return found
+        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)

@@ -68,10 +68,9 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         )
     if array.dtype.kind not in "iufc":
         parameter.resolve(value)  # Which says what is wrong with it.
-    if array.dtype.kind in "iu":
-        array = array.astype(np.float64)
+    array = array.astype(np.float64) if array.dtype.kind in "iu" else array.copy()
     base = BASE_UNITS.get(dimension_of(parameter.unit), "")
-    return _of_one_dimension(name, AxisValues(array, base, array))
+    return _of_one_dimension(name, AxisValues(array.copy(), base, array))
 
 
 def _of_one_dimension(name: str, found: AxisValues) -> AxisValues:

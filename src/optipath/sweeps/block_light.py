@@ -10,7 +10,6 @@ import numpy as np
 from optipath.plan.running.pieces import pieces
 from optipath.sweeps.variable_names import detectors_of
 from optipath.values.written_units import units_are_written
-from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -23,7 +23,7 @@ KEYWORDS = frozenset(Sweeping.sweep.__kwdefaults__ or ())
 """What `PathGraph.sweep` takes by name beside parameters."""
 
 
-def axis_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
+def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list[str]:
     """Return what is wrong with values of a grid, each axis looked at by itself.
 
     What combinations of values do not fit together is found when they are run.
@@ -34,6 +34,8 @@ def axis_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
         What may be given.
     grid : SweepGrid
         What is.
+    ranges : bool, optional
+        Whether ranges are looked at, as a run does as well.
 
     Returns
     -------
@@ -47,7 +49,8 @@ def axis_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
         try:
             if any(use.domain.takes_any for use in uses):
                 inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
-            _alone(inputs, name, uses).resolve({name: value})
+            if ranges:
+                _alone(inputs, name, uses).resolve({name: value})
         except OptipathError as fault:
             faults += fault.faults
     return faults

@@ -44,7 +44,8 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
     """
     if not sizes:
         raise ParameterError(
-            "chunks= cuts axes, and there is none: give a parameter several values"
+            "chunks= and store= cut axes into blocks, and there is no axis; give several values "
+            "for a parameter, or leave them out"
         )
     told = _told(chunks, sizes)
     found = {name: min(sizes[name], size) for name, size in told.items()}

@@ -19,7 +19,19 @@ if TYPE_CHECKING:
 
 
 def dimensions_of(grid: SweepGrid, plan: Plan) -> tuple[str, ...]:
-    """Return the dimensions of the variables: detectors, if there are several, and the axes."""
+    """Return the dimensions of the variables: detectors, if there are several, and the axes.
+
+    Parameters
+    ----------
+    grid : SweepGrid
+        The axes.
+    plan : Plan
+        What is swept.
+
+    Returns
+    -------
+    tuple of str
+    """
     front = (DETECTOR,) if len(detectors_of(plan)) > 1 else ()
     return (*front, *grid.sizes)
 

@@ -11,7 +11,6 @@ import numpy as np
 
 from optipath.errors import ShapeError
 from optipath.values.arrays.memory import memory
-from optipath.values.arrays.shapes import MOST_PATHS
 from optipath.values.cures import cure
 
 if TYPE_CHECKING:
@@ -53,11 +52,11 @@ def refuse_more_than_free(plan: Plan, grid: SweepGrid) -> None:
     sizes = " x ".join(f"{size:,}" for size in grid.shape)
     instead = cure(
         "give chunks='auto' for Dask arrays, store='sweep.zarr' to keep it on disk, or ",
-        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or ",
+        "write it to a file by 'optipath sweep ... --out FILE.zarr' (or .nc, .csv), or give ",
     )
     raise ShapeError(
         f"a sweep of {sizes} points needs {_text(needed)}, and {_text(free)} is free; "
-        f"{instead if grid.points <= MOST_PATHS else 'give '}fewer values"
+        f"{instead}fewer values"
     )
 
 
@@ -81,7 +80,8 @@ def bytes_of_a_point(plan: Plan, points: int) -> int:
     >>> bytes_of_a_point(op.load_preset("malus").compose(), 1_000_000)
     32
     """
-    stepped = "step by step" in plan.engine_for(points)
+    # Jones columns keep exponents, as what is run step by step does.
+    stepped = plan.composing == "jones" or "step by step" in plan.engine_for(points)
     return plan.answers.question.numbers(stepped=stepped) * np.dtype(plan.dtype).itemsize
 
 
@@ -94,11 +94,11 @@ def free_memory() -> int:
     True
     """
     try:
-        psutil = import_module("psutil")
+        psutil: Any = import_module("psutil")  # Dask's cluster brings it.
     except ImportError:
         return memory()
     own = psutil.Process().memory_info()
-    free = [psutil.virtual_memory().available]
+    free: list[int] = [psutil.virtual_memory().available]
     free += [limit - own.rss for limit in _group_limits()]
     with suppress(ImportError):  # Windows has none.
         resource: Any = import_module("resource")
@@ -114,4 +114,4 @@ def _group_limits() -> Iterator[int]:
 
 
 def _text(size: int) -> str:
-    return f"{size / 1e9:,.1f} GB" if size < 1e18 else f"{size / 1e9:.1g} GB"
+    return f"{size / 1e9:,.1f} GB"

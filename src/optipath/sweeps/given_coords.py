@@ -106,7 +106,7 @@ def _values(inputs: Inputs, column: TextColumn) -> Any:
 def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
     found = {}
     for name, array in coords.items():
-        if name == DETECTOR and name not in inputs.open:
+        if name not in inputs.open and (name == DETECTOR or _is_label(inputs, coords, name)):
             continue
         if name not in inputs.open:
             faults.append(f"{inputs.unknown(str(name))}, or leave it out, .drop_vars('{name}')")
@@ -118,3 +118,10 @@ def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Giv
         else:
             found[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
     return found
+
+
+def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:
+    """Tell whether a coordinate says what the points of a dimension are called, and no more."""
+    return coords[name].dims == (name,) and any(
+        other in inputs.open and array.dims == (name,) for other, array in coords.items()
+    )

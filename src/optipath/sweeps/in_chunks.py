@@ -18,7 +18,7 @@ from optipath.sweeps.dataset_labels import attributes_of, coordinates_of, dimens
 from optipath.sweeps.light_quantities import QUANTITIES
 from optipath.sweeps.plan_recipe import PlanRecipe
 from optipath.sweeps.sweep_grid import SweepGrid
-from optipath.sweeps.variable_names import DETECTOR, detectors_of, variable_names
+from optipath.sweeps.variable_names import detectors_of, variable_names
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -131,17 +131,17 @@ class ChunkedLight:
 
     def of(self, quantity: LightQuantity) -> da.Array:
         """Return a quantity of it, lazily; of several detectors, along the first axis."""
-        several = self.detectors > 1
+        front = {len(self.places): self.detectors} if self.detectors > 1 else {}
         found: da.Array = da.blockwise(  # type: ignore[no-untyped-call]
             BlockLight.of,
-            (*([DETECTOR] if several else []), *self.places),
+            (*front, *self.places),
             self._light,
             self.places,
             quantity,
             None,
             name=f"{quantity.variable}-{self.token}",
-            new_axes={DETECTOR: self.detectors} if several else {},
-            meta=np.empty((0,) * (len(self.places) + several), self.dtype),
+            new_axes=front,
+            meta=np.empty((0,) * (len(self.places) + len(front)), self.dtype),
         )
         return found
 

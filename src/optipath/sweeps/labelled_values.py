@@ -25,8 +25,19 @@ _NO_UNIT = ("", "1", "dimensionless")
 """What stands for no unit, as the conventions for NetCDF (CF) write it."""
 
 
-def is_labelled(value: Any) -> bool:
+def is_labelled(value: Any, axes: int | None = None) -> bool:
     """Tell whether a value is a `DataArray`, without importing xarray.
+
+    Parameters
+    ----------
+    value : Any
+        What is given.
+    axes : int, optional
+        How many dimensions it has to have.
+
+    Returns
+    -------
+    bool
 
     Examples
     --------
@@ -34,7 +45,8 @@ def is_labelled(value: Any) -> bool:
     False
     """
     xarray = sys.modules.get("xarray")
-    return xarray is not None and isinstance(value, xarray.DataArray)
+    found = xarray is not None and isinstance(value, xarray.DataArray)
+    return found and (axes is None or value.ndim == axes)
 
 
 def has_coordinates(value: Any) -> bool:
@@ -79,8 +91,7 @@ def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]
         return read_entries(numbers.ravel().tolist(), parameter, "", uses).reshaped(numbers.shape)
     if numbers.dtype.kind not in "iufc":
         parameter.resolve(numbers)  # Which says what is wrong with it.
-    if numbers.dtype.kind in "iu":
-        numbers = numbers.astype(np.float64)
+    numbers = numbers.astype(np.float64) if numbers.dtype.kind in "iu" else numbers.copy()
     unit = _unit_of(parameter, array.attrs.get("units", ""))
     return AxisValues(numbers, unit, _in_base_units(parameter, numbers, unit))
 
@@ -107,10 +118,10 @@ def _unit_of(parameter: Parameter, unit: Any) -> str:
 
 def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -> npt.NDArray[Any]:
     if unit in ("", BASE_UNITS.get(dimension_of(parameter.unit))):
-        return numbers
-    known = UNITS.get(unit)
-    doubles = numbers.astype(np.float64)
-    if known is not None and not known.power:
+        return numbers.copy()
+    known, is_real = UNITS.get(unit), numbers.dtype.kind == "f"
+    doubles = numbers.astype(np.float64) if is_real else numbers
+    if is_real and known is not None and not known.power:
         return doubles * known.size
     # The decimal point is moved in the number as it is written, which rounds once.
     found = [

@@ -11,7 +11,7 @@ from optipath.sweeps.given_coords import GivenCoordinate, given_coords
 from optipath.sweeps.labelled_values import is_labelled
 from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.sweeps.sweep_grid import SweepGrid
-from optipath.sweeps.zipped_axes import zipped_dimensions
+from optipath.sweeps.zipped_axes import shared_dimensions, zipped_dimensions
 from optipath.values.axis_texts import AxisValues
 from optipath.values.large_angles import LargeAngles
 
@@ -26,6 +26,8 @@ def grid_of(
     given: Mapping[str, Any],
     zip: Any = (),  # noqa: A002 - as `path.sweep` has it
     coords: Any = None,
+    *,
+    ranges: bool = True,
 ) -> SweepGrid:
     """Return the grid of a sweep.
 
@@ -37,6 +39,8 @@ def grid_of(
         What is, by name.
     zip, coords
         As `PathGraph.sweep` takes them.
+    ranges : bool, optional
+        Whether values are looked at that a run looks at as well; they are where others are wrong.
 
     Returns
     -------
@@ -65,6 +69,8 @@ def grid_of(
     dimensions = {name: several[name].dimension or name for name in values}
     own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
     dimensions |= zipped_dimensions(zip, own, inputs.open, faults)
+    along = {name: value.dims[0] for name, value in given.items() if is_labelled(value, axes=1)}
+    faults += shared_dimensions(along, dimensions)
     faults += _named_as_others(dimensions, values, inputs)
     faults += unnamed_arrays(inputs, several)
     axes: list[SweepAxis] = []
@@ -76,8 +82,11 @@ def grid_of(
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
-    faults += axis_faults(inputs, grid)
-    if faults := faults or computed_faults(inputs, grid):
+    ranges = ranges or bool(faults)
+    faults += axis_faults(inputs, grid, ranges=ranges)
+    if not faults and ranges:
+        faults = computed_faults(inputs, grid)
+    if faults:
         raise ParameterError(*dict.fromkeys(faults))
     LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
     return grid

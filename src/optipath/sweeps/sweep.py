@@ -54,9 +54,16 @@ def sweep(
     place = _place(store, scheduler, progress)
     plan = _plan(path, composer)
     check_named("sweep", unnamed, plan.inputs.open)
-    grid = grid_of(plan.inputs, given, zip, coords)
-    if place is None and chunks is None:
-        return swept_in_memory(path, plan, grid, composer)
+    at_once = place is None and chunks is None
+    # A run looks at ranges itself, and what it finds is told by the axes.
+    grid = grid_of(plan.inputs, given, zip, coords, ranges=not at_once)
+    if at_once:
+        try:
+            return swept_in_memory(path, plan, grid, composer)
+        except ParameterError as fault:
+            told = fault
+        grid_of(plan.inputs, given, zip, coords)
+        raise told
     from optipath.sweeps.in_chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
 
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)

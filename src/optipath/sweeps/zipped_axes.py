@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 _AS = "zip=('a', 'b'), zip=[('a', 'b'), ('c', 'd')] or zip={'point': ('a', 'b')}"
 
+_UNNAMED = "dim_0"
+"""What xarray calls a dimension that nobody has named."""
+
 
 def zipped_dimensions(
     zipped: Any, lengths: Mapping[str, int], parameters: Collection[str], faults: list[str]
@@ -66,6 +69,37 @@ def zipped_dimensions(
         if not told:
             found |= dict.fromkeys(names, dimension)
     return found
+
+
+def shared_dimensions(along: Mapping[str, Any], dimensions: Mapping[str, str]) -> list[str]:
+    """Return what is wrong with arrays along one dimension that may or may not vary together.
+
+    Parameters
+    ----------
+    along : mapping of str to Any
+        The dimension of each array that is given with one, by parameter.
+    dimensions : mapping of str to str
+        That along which each parameter varies.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> shared_dimensions({"a": "x", "b": "x"}, {"a": "a_b", "b": "a_b"})
+    []
+    """
+    faults = []
+    for shared in dict.fromkeys(along.values()):
+        names = [name for name in along if along[name] == shared]
+        if len({dimensions.get(name, name) for name in names}) > 1 and shared != _UNNAMED:
+            quoted = listed([f"'{name}'" for name in names])
+            faults.append(
+                f"{quoted} are all along '{shared}'; write zip={{'{shared}': {(*names,)}}} if they "
+                f"vary together, or .rename({shared}='{names[-1]}') for all combinations"
+            )
+    return faults
 
 
 def _groups(zipped: Any, faults: list[str]) -> list[tuple[str, list[str]]]:

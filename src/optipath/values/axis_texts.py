@@ -95,11 +95,22 @@ def read_axis_text(
     texts = several_texts(parameter, text)
     if texts is None:
         return None
-    is_range = ":" in text and "," not in text
-    # Of a range, all is wrong that is wrong with its beginning.
-    for end in texts[:1] if is_range else []:
-        read_entries([end], parameter, unit, uses)
+    parts = [part.strip() for part in text.split(":")]
+    if len(parts) == 3 and [parts[0], parts[1]] == [texts[0], texts[-1]]:
+        _check_ends(parts, parameter, unit)
     return read_entries(texts, parameter, unit, uses)
+
+
+def _check_ends(parts: Sequence[str], parameter: Parameter, unit: str) -> None:
+    """Raise at the beginning of a range, where all is wrong with it that is wrong with a value."""
+    if dimension_of(parameter.unit) and not unit and not unit_of(parts[0]):
+        first, last, count = parts
+        raise ParameterError(
+            f"parameter '{parameter.name}': '{':'.join(parts)}' has no unit; write "
+            f"'{first} {parameter.unit}:{last} {parameter.unit}:{count}' if it is in "
+            f"{parameter.unit}"
+        )
+    parameter.parse(parts[0], unit)
 
 
 def read_entries(
@@ -165,6 +176,9 @@ def _read(entry: Any, parameter: Parameter, unit: str, uses: Sequence[Use]) -> _
 
 def _common_unit(entries: Sequence[_Entry], parameter: Parameter) -> str:
     """Return the unit of the first; that of the parameter for photon energies among lengths."""
-    units = {each.unit for each in entries}
     first = entries[0].unit
-    return first if len(units) == 1 or first in UNITS else parameter.unit
+    if all(each.unit == first for each in entries):
+        return first
+    known = UNITS.get(first)
+    of_dimension = known is not None and known.dimension == dimension_of(parameter.unit)
+    return first if of_dimension else parameter.unit

@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from optipath.errors import ParameterError, UnitError
+from optipath.errors import OptipathError, ParameterError, UnitError
 from optipath.values.commas import without_comma
 from optipath.values.counted_ranges import texts_of_range
+from optipath.values.ratios import ratio_of
 from optipath.values.text_tables import column_for
 from optipath.values.units import dimension_of
 
@@ -50,7 +51,11 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     """
     text = text.strip()
     if text.startswith(_FILE):
-        return column_for(parameter, text.removeprefix(_FILE).strip())
+        try:
+            return column_for(parameter, text.removeprefix(_FILE).strip())
+        except OptipathError as fault:
+            about = f"{fault.about}: " if fault.about else ""
+            raise ParameterError(*[f"{about}{sentence}" for sentence in fault.faults]) from None
     try:
         if _is_range(parameter, text):
             return texts_of_range(text)
@@ -63,8 +68,23 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
 def _is_range(parameter: Parameter, text: str) -> bool:
     """Tell whether a text has the colons of a range, and is neither a ratio nor a list of these."""
     listed = "," in text and not without_comma(text.partition(":")[0].strip())
-    is_ratio = text.count(":") == 1 and not dimension_of(parameter.unit)
-    return ":" in text and not listed and not is_ratio
+    if ":" not in text or listed:
+        return False
+    return text.count(":") > 1 or bool(dimension_of(parameter.unit)) or not _is_ratio(text)
+
+
+def _is_ratio(text: str) -> bool:
+    """Tell whether a text with one colon is a ratio to 1; ask where it may lack a count."""
+    try:
+        ratio = ratio_of(text)
+    except UnitError:
+        return False
+    if any(float(part) == 1.0 for part in text.split(":")):
+        return True
+    raise UnitError(
+        f"'{text}' may be the ratio {ratio:.12g}, or a range that does not say how many values "
+        f"there are; write '{ratio:.12g}', or '{text}:11' for eleven"
+    )
 
 
 def _listed(text: str) -> list[str]:

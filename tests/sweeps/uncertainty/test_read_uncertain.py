@@ -98,7 +98,9 @@ def test_nothing_uncertain_is_refused():
 @pytest.mark.parametrize("value", [1.5 + 0.1j, op.Material(1.5, 0.1)])
 def test_complex_values_have_parts_with_an_uncertainty_each(value):
     (fault,) = refused(glass(), m=(value, 0.1))
-    assert "op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k" in fault
+    assert (
+        "op.Material(op.Parameter('n'), op.Parameter('k')) in the path, and give n and k" in fault
+    )
 
 
 def test_the_cure_for_complex_values_works():

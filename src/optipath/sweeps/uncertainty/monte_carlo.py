@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.sweeps.uncertainty.drawn_samples import DrawnSamples
 from optipath.sweeps.uncertainty.first_order import Spread
 from optipath.sweeps.uncertainty.light_figures import STOKES, difference, figures_of, rounding_of
 from optipath.sweeps.uncertainty.notes import notes_of_lost_figures
-from optipath.sweeps.uncertainty.samples import Samples
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,7 +52,7 @@ def spread_of_samples(
     notes : list of str
         What was outside of its range.
     """
-    samples = Samples(light_at.uncertain, correlation, count, seed, len(light.shape))
+    samples = DrawnSamples(light_at.uncertain, correlation, count, seed, len(light.shape))
     names = [each.name for each in light_at.uncertain]
     mean, variance, covariance = _moments(light_at, light, samples, names)
     outside = dict(samples.outside)
@@ -75,7 +75,7 @@ def spread_of_samples(
 
 
 def _moments(
-    light_at: LightAt, light: Light, samples: Samples, names: Sequence[str]
+    light_at: LightAt, light: Light, samples: DrawnSamples, names: Sequence[str]
 ) -> tuple[Any, Any, Any]:
     """Return the mean change of the figures, their variance, and the covariance of four of them.
 

@@ -127,7 +127,8 @@ class Propagation:
 
     def __str__(self) -> str:
         """Return a table: quantities, uncertainties, shares; of a batch, from where to where."""
-        return text_of_propagation(self)
+        shown = self.light, self.uncertain, self.uncertainties, self.shares
+        return "\n".join([text_of_propagation(self.method, *shown), *self.notes])
 
     def __repr__(self) -> str:
         names = ", ".join(each.name for each in self.uncertain)

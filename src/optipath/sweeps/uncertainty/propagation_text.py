@@ -11,41 +11,58 @@ from optipath.sweeps.light_quantities import QUANTITIES
 from optipath.sweeps.uncertainty.light_figures import figures_of
 
 if TYPE_CHECKING:
-    from optipath.sweeps.uncertainty.propagation import Propagation
+    from collections.abc import Sequence
+
+    from optipath.light.light import Light
+    from optipath.sweeps.uncertainty.uncertain_value import UncertainValue
 
 _DEGREES = 180.0 / math.pi
 
 
-def text_of_propagation(found: Propagation) -> str:
-    """Return a table of the quantities, and the notes behind it.
+def text_of_propagation(
+    method: str,
+    light: Light,
+    uncertain: Sequence[UncertainValue],
+    uncertainties: Any,
+    shares: Any,
+) -> str:
+    """Return a table of the quantities of light.
 
     Parameters
     ----------
-    found : Propagation
-        What is shown.
+    method : str
+        How it was found.
+    light : Light
+        At the best estimates, of shape (...).
+    uncertain : sequence of UncertainValue
+        The k values that vary.
+    uncertainties : ndarray, shape (..., 10)
+        Of the quantities.
+    shares : ndarray, shape (..., 10, k)
+        Of each value in their variances.
 
     Returns
     -------
     str
     """
-    values, names = figures_of(found.light), [each.name for each in found.uncertain]
+    values, names = figures_of(light), [each.name for each in uncertain]
     head = ["", "value", "uncertainty", *names]
     rows = [head]
     for place, quantity in enumerate(QUANTITIES):
         unit, factor = (" deg", _DEGREES) if quantity.unit == "rad" else ("", 1.0)
-        spread = found.uncertainties[..., place] * factor
+        spread = uncertainties[..., place] * factor
         value = _value(values[..., place] * factor, spread)
-        shares = [_share(found.shares[..., place, each]) for each in range(len(names))]
+        of_each = [_share(shares[..., place, each]) for each in range(len(names))]
         units = [unit if np.any(np.isfinite(n)) else "" for n in (values[..., place], spread)]
         of_unit = [value + units[0], _span(spread, _digits) + units[1]]
-        rows.append([quantity.variable, *of_unit, *shares])
+        rows.append([quantity.variable, *of_unit, *of_each])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = [
         "  ".join([row[0].ljust(widths[0]), *map(str.rjust, row[1:], widths[1:])]) for row in rows
     ]
-    shape = f", shape {found.light.shape}" if found.light.shape else ""
-    given = "; ".join(map(str, found.uncertain))
-    return "\n".join([f"{found.method}{shape}: {given}", *lines, *found.notes])
+    shape = f", shape {light.shape}" if light.shape else ""
+    given = "; ".join(map(str, uncertain))
+    return "\n".join([f"{method}{shape}: {given}", *lines])
 
 
 def _value(values: Any, spread: Any) -> str:

@@ -18,7 +18,7 @@ _ROUNDS = 64
 """How often samples outside are drawn again."""
 
 
-class Samples:
+class DrawnSamples:
     """Samples of some values, one set of random numbers for every path of a batch.
 
     Where a value would leave its range, all values of that sample are drawn again, path by path:
