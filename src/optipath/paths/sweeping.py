@@ -111,9 +111,9 @@ class Sweeping:
         *unnamed
             None: values are given by name.
         method : {"auto", "gradients", "differences", "monte-carlo"}, optional
-            Slopes by JAX where it is installed and traces the path, else by differences; by JAX;
-            by differences; or samples of normal distributions, which are cut off at the ends of
-            ranges.
+            Slopes by JAX where it is installed, traces the path and does not take long, else by
+            differences; by JAX; by differences; or samples of normal distributions, which are cut
+            off at the ends of ranges.
         samples, seed : int, optional
             Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
         correlation : mapping of pairs of str to float, optional
