@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from optipath.composer.composer import Composer
+    from optipath.sweeps.uncertainty.propagation import Propagation
 
 _BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
@@ -99,7 +100,7 @@ class Sweeping:
         detector: str | None = None,
         composer: Composer | None = None,
         **values: Any,
-    ) -> Any:
+    ) -> Propagation:
         """Return the light with its uncertainty, which follows from those of values.
 
         To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
@@ -110,9 +111,9 @@ class Sweeping:
         *unnamed
             None: values are given by name.
         method : {"auto", "gradients", "differences", "monte-carlo"}, optional
-            Slopes by JAX where it is installed and traces the path, else by differences; by JAX;
-            by differences; or samples of normal distributions, which are cut off at the ends of
-            ranges.
+            Slopes by JAX where it is installed, traces the path and does not take long, else by
+            differences; by JAX; by differences; or samples of normal distributions, which are cut
+            off at the ends of ranges.
         samples, seed : int, optional
             Of ``"monte-carlo"``: 10,000, and what random numbers begin with, 0, by default.
         correlation : mapping of pairs of str to float, optional
@@ -144,12 +145,13 @@ class Sweeping:
         ...     angle=("30 deg", "0.1 deg"), intensity=(1.0, 0.002), method="differences"
         ... )
         >>> print(found.light.intensity.round(6), found.uncertainty_of("intensity").round(6))
-        0.375 0.001065
+        0.375 0.001066
         >>> {name: float(share.round(3)) for name, share in found.contributions_to("S0").items()}
-        {'angle': 0.504, 'intensity': 0.496}
+        {'angle': 0.503, 'intensity': 0.497}
         """
         room = "optipath.sweeps.uncertainty"
         options = import_module(f"{room}.propagate_options").PropagateOptions(
             method, samples, seed, correlation, detector, composer
         )
+        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)
         return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)

@@ -57,6 +57,13 @@ def test_a_path_that_jax_does_not_trace_has_differences_and_it_says_so():
         path.propagate(a=(0.5, 0.01), method="gradients")
 
 
+def test_a_long_path_has_differences_where_jax_would_take_long_and_it_says_so():
+    pytest.importorskip("jax")
+    pile = op.load_preset("pile-of-plates")
+    found = pile.propagate(n=(1.5, 0.01))
+    assert found.method.startswith("differences, since JAX takes long for 1,0")
+
+
 def test_importing_what_propagates_brings_neither_jax_nor_xarray():
     code = "import optipath as op; op.load_preset('malus').propagate(angle=(0.5, 0.01), "
     code += "method='differences'); import sys; print({'jax', 'xarray', 'dask'} & {*sys.modules})"
