@@ -53,6 +53,7 @@ FOUND = {
     "Plan": PATH.compose(),
     "PlaneOfIncidence": op.plane_of_incidence((1.0, 0.0, -1.0), (0.0, 0.0, 1.0)),
     "Polarization": op.polarization(PATH),
+    "Propagation": PATH.propagate(delta=(0.8, 0.001), method="differences"),
     "Spectrum": op.Spectrum.constant(2.0) + op.Spectrum.line("633 nm"),
     "Vertex": op.Vertex(1.5, CORNER, 1, events=[0]),
 }

@@ -102,6 +102,10 @@ class CacheError(OptipathError):
     """A cache of compiled code that cannot be used, or whose folder is not to be trusted."""
 
 
+class JobError(OptipathError):
+    """A large job that cannot begin or go on: for its store, its disk or its workers."""
+
+
 class LoopWarning(UserWarning):
     """Nearly all of the light that goes round in a loop comes back each time."""
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from optipath.cli.given_axes import axis_faults, axis_given
 from optipath.cli.given_light import (
     WAVELENGTH,
     extinction_beside,
@@ -16,13 +17,14 @@ from optipath.cli.given_light import (
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, there_are
 from optipath.paths.presets.loader import bound_preset
+from optipath.values.axis_texts import AxisValues
 from optipath.values.cases import ALL
 from optipath.values.domains.axis import axes_for
 from optipath.values.other_part import other_part
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Collection, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
     from optipath.values.use import Use
@@ -44,12 +46,15 @@ class Chosen:
         A named set of its values.
     values : mapping of str to Any
         Values that take precedence over the case.
+    axes : mapping of str to AxisValues, optional
+        What is given several values, in the order of the options.
     """
 
     preset: str
     opened: PathGraph
     case: str | None
     values: Mapping[str, Any]
+    axes: Mapping[str, AxisValues] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
@@ -61,14 +66,31 @@ class Chosen:
         """The words that were given for choices of places, by name."""
         return {name: self.values[name] for name in self.opened.choices if name in self.values}
 
-    def path(self, reads: str | None = None) -> PathGraph:
-        """Return the path, bound to what is given, and with other readings if they are."""
-        bound = bound_preset(self.opened, self.preset, self.case, self.values)
+    def path(self, reads: str | None = None, beside: Collection[str] = ()) -> PathGraph:
+        """Return the path, bound to single values, and with other readings if they are given.
+
+        Parameters
+        ----------
+        reads : str, optional
+            What all detectors read.
+        beside : collection of str, optional
+            What stays open besides the axes, whatever the case says of it.
+
+        Returns
+        -------
+        PathGraph
+        """
+        varied = {*self.axes, *beside}
+        bound = bound_preset(self.opened, self.preset, self.case, self.values, varied)
         return bound if reads is None else bound.reading(reads)
 
 
 def chosen_by(
-    preset: str, path: PathGraph, cases: Sequence[str], texts: Mapping[str, Sequence[str]]
+    preset: str,
+    path: PathGraph,
+    cases: Sequence[str],
+    texts: Mapping[str, Sequence[str]],
+    of_options: Sequence[str] = (),
 ) -> list[Chosen]:
     """Return what the options give, for each case that is asked for.
 
@@ -82,6 +104,8 @@ def chosen_by(
         Named sets of its values; none for its defaults.
     texts : mapping of str to sequence of str
         What stands behind the option of each parameter, as often as it is given.
+    of_options : sequence of str, optional
+        What is wrong with other options, a sentence each, to be told with all else.
 
     Returns
     -------
@@ -93,7 +117,7 @@ def chosen_by(
     ParameterError
         With all that is wrong at once.
     """
-    faults: list[str] = []
+    faults = [*of_options]
     given = {name: _once(name, several, faults) for name, several in texts.items() if several}
     uses = Values(path.graph).uses if given else ()
     values = {name: _value(path, name, given, uses, faults) for name in given}
@@ -103,13 +127,15 @@ def chosen_by(
         take_wavelength(preset, path, sound)
     elif WAVELENGTH.name not in path.parameters:
         sound.pop(WAVELENGTH.name, None)  # What it is for may be what is faulty.
-    found = [Chosen(preset, path, case, sound) for case in dict.fromkeys(cases)]
-    found = found or [Chosen(preset, path, None, sound)]
-    if faults or len(found) > 1:
+    axes = {name: value for name, value in sound.items() if isinstance(value, AxisValues)}
+    single = {name: value for name, value in sound.items() if name not in axes}
+    found = [Chosen(preset, path, case, single, axes) for case in dict.fromkeys(cases) or [None]]
+    if faults or axes or len(found) > 1:
         try:
             of_each(found, Chosen.path)
         except OptipathError as error:
             faults += error.faults
+        faults += axis_faults(path, axes) if faults else []
     if faults:
         raise ParameterError(*dict.fromkeys(faults))
     return found
@@ -245,10 +271,14 @@ def _value(
         if is_material(parameter, text, uses):
             beside = extinction_beside(uses, name)
             k = _value(path, beside, given, uses, faults) if beside in given else None
-            if k is not None:
-                path.parameters[beside].resolve(k)
             option = f"--{_flag(beside)}" if beside else ""
+            if isinstance(k, AxisValues):
+                faults.append(f"{option} takes one value beside --{_flag(name)} {text}; give one")
+            elif k is not None:
+                path.parameters[beside].resolve(k)
             return None if faults else material_named(f"--{_flag(name)}", text, option, k)
+        if several := axis_given(parameter, text, uses):
+            return several
         value = axes_for(name, text, uses)
         if isinstance(value, str):
             # A bare number may be nanometres, micrometres or electronvolts.

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from optipath.cli.plain_json import plain
-from optipath.errors import OptipathError, ParameterError, printable
+from optipath.errors import OptipathError, ParameterError, printable, shown
+from optipath.values.axis_texts import AxisValues
 from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.database.named_pages import VACUUM
@@ -42,7 +43,8 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
     -------
     bool
     """
-    if not text[:1].isalpha() or text in parameter.all_words or text in ("inf", "nan"):
+    is_range = ":" in text  # Of which an end may be no number.
+    if not text[:1].isalpha() or is_range or text in (*parameter.all_words, "inf", "nan"):
         return False
     places = places_of(uses, parameter.name)
     return bool(places) and all(use.domain.takes_materials for use in places)
@@ -89,6 +91,11 @@ def material_named(option: str, text: str, beside: str = "", k: Any = None) -> M
     ParameterError
         Naming the option: if there is no such material, or no database.
     """
+    if "," in text:
+        raise ParameterError(
+            f"{option} takes one material, and {shown(text)} names several; give one, and write a "
+            f"command for each"
+        )
     options = {"page": f"{option} '{text}/PAGE'"} | ({"k": beside} if beside else {})
     try:
         with of_options(options):
@@ -138,7 +145,8 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        WAVELENGTH.resolve(values.pop(name))
+        given = values.pop(name)
+        WAVELENGTH.resolve(given.given if isinstance(given, AxisValues) else given)
         told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
         click.echo(printable(told), err=True)
 

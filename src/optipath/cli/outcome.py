@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +11,8 @@ import numpy as np
 from optipath.cli.given_light import WAVELENGTH, material_as_json, materials_among
 from optipath.cli.plain_json import plain
 from optipath.paths.format.writer import complex_parts_of
+from optipath.sweeps.free_memory import refuse_more_than_free
+from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.values.cases import Case
 from optipath.values.domains.quantities import AMPLITUDE
 
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
+    from optipath.values.parameters import Parameter
 
 # What is told of light besides its Stokes vector, and in which unit.
 TOLD = {
@@ -48,6 +51,8 @@ class Outcome:
         The light at every end.
     engine : str
         What has run it.
+    grid : SweepGrid, optional
+        What takes several values, and for which combinations of them there is light.
     """
 
     chosen: Chosen
@@ -55,6 +60,14 @@ class Outcome:
     plan: Plan
     lights: dict[str, Light]
     engine: str
+    grid: SweepGrid = field(default_factory=lambda: SweepGrid(()))
+
+    @property
+    def single(self) -> dict[str, Parameter]:
+        """The parameters that have one value, by name."""
+        varied = {axis.name for axis in self.grid.axes}
+        known = self.path.parameters
+        return {name: parameter for name, parameter in known.items() if name not in varied}
 
     @cached_property
     def case(self) -> Case:
@@ -78,7 +91,7 @@ class Outcome:
         """The largest errors that the certificates leave, where some are allowed."""
         approximation = self.plan.answers.approximation
         assert approximation is not None  # noqa: S101 - asked for by who knows
-        return approximation.errors_for({})
+        return approximation.errors_for(self.grid.given())
 
     @property
     def materials(self) -> dict[str, Any]:
@@ -93,16 +106,44 @@ class Outcome:
     @property
     def note(self) -> str:
         """The note of the case, if these are the values it belongs to."""
-        return "" if self.chosen.values else self.case.note
+        return "" if self._is_changed else self.case.note
 
     def published(self, detector: str) -> tuple[float, ...] | None:
         """Return the published Stokes vector, if these are the values it belongs to."""
-        return None if self.chosen.values else self.case.published.get(detector)
+        return None if self._is_changed else self.case.published.get(detector)
+
+    @property
+    def _is_changed(self) -> bool:
+        return bool(self.chosen.values or self.grid.axes)
+
+
+def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> Outcome:
+    """Run a plan for all that was chosen.
+
+    Parameters
+    ----------
+    chosen : Chosen
+        The preset, and what is given for it.
+    path : PathGraph
+        Bound to single values.
+    plan : Plan
+        What is made of it.
+    grid : SweepGrid
+        What takes several values.
+
+    Returns
+    -------
+    Outcome
+    """
+    if grid.axes:
+        refuse_more_than_free(plan, grid)
+    lights = plan.run_all(**grid.given())
+    return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by), grid)
 
 
 def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
     """Return what a run has found as JSON can hold it, with all digits."""
-    plan, parameters = outcome.plan, outcome.path.parameters
+    plan, parameters = outcome.plan, outcome.single
     parts = complex_parts_of(outcome.path.graph)
     found: dict[str, Any] = {
         "preset": outcome.chosen.preset,
@@ -112,6 +153,7 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
         },
         **outcome.materials,
         **({"choices": outcome.chosen.places} if outcome.chosen.places else {}),
+        **_axes_as_json(outcome.grid),
         "units": {name: p.unit for name, p in parameters.items() if p.unit},
         "model": outcome.model,
         "method": plan.method,
@@ -127,6 +169,19 @@ def outcome_as_json(outcome: Outcome) -> dict[str, Any]:
     found["detectors"] = {name: _reading(outcome, name) for name in plan.program.detectors}
     dumps = {name: _reading(outcome, name) for name in plan.program.dumps}
     return found | ({"dumps": dumps} if dumps else {})
+
+
+def _axes_as_json(grid: SweepGrid) -> dict[str, Any]:
+    """Return the axes as they were given; those along one dimension vary together."""
+    axes = {
+        axis.name: {
+            **({"dimension": axis.dimension} if axis.dimension != axis.name else {}),
+            "unit": axis.unit,
+            "values": axis.shown.tolist(),
+        }
+        for axis in grid.axes
+    }
+    return {"axes": axes} if axes else {}
 
 
 def _reading(outcome: Outcome, name: str) -> dict[str, Any]:

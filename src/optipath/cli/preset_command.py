@@ -8,6 +8,7 @@ import click
 
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
+from optipath.cli.given_axes import RANGES, refuse_axes
 from optipath.cli.given_light import WAVELENGTH
 from optipath.cli.misplaced import StrictCommand
 from optipath.cli.unknown_options import refuse_outer_options
@@ -67,6 +68,10 @@ class PresetGroup(WholeHelp):
         What can be given besides the parameters and the case.
     several : callable, optional
         ``several([chosen, ...], **options)``, for several cases; a command without it takes one.
+    ranges : bool, optional
+        Whether an option of a parameter may give several values, such as ``0:90:91``.
+    faults : callable, optional
+        ``faults(**options)``: what is wrong with the options, a sentence each.
     **keywords : Any
         As `click.Group` takes them.
     """
@@ -77,6 +82,9 @@ class PresetGroup(WholeHelp):
         action: Callable[..., None],
         options: Sequence[click.Option] = COMPOSING,
         several: Callable[..., None] | None = None,
+        *,
+        ranges: bool = False,
+        faults: Callable[..., Sequence[str]] | None = None,
         **keywords: Any,
     ) -> None:
         usual = {"callback": _refuse_none, "subcommand_metavar": "PRESET [OPTIONS]"}
@@ -85,6 +93,8 @@ class PresetGroup(WholeHelp):
         self.action = action
         self.options = tuple(options)
         self.several = several
+        self.ranges = ranges
+        self.faults = faults or (lambda **_: ())
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names of the presets."""
@@ -121,7 +131,10 @@ class PresetGroup(WholeHelp):
             options = {name: given.pop(name) for name in names}
             if self.several is None:
                 one_case(self.name or "", path, cases)
-            chosen = chosen_by(cmd_name, path, cases_of(cmd_name, path, cases), given)
+            asked = cases_of(cmd_name, path, cases)
+            chosen = chosen_by(cmd_name, path, asked, given, self.faults(**options))
+            if not self.ranges:
+                refuse_axes(self.name or "", given, chosen[0].axes)
             if self.several is not None and asks_for_several(cases):
                 self.several(chosen, **options)
             else:
@@ -137,6 +150,7 @@ class PresetGroup(WholeHelp):
             callback=callback,
             params=[*options, case, *self.options],
             help=printable(path.description),
+            epilog=RANGES if self.ranges else None,
         )
 
     def resolve_command(

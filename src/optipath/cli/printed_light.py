@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import islice
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rich.table import Table
@@ -12,74 +12,21 @@ from optipath.cli.console import PlainConsole, cell, headed, title
 from optipath.cli.given_light import materials_among
 from optipath.cli.outcome import TOLD
 from optipath.cli.plain_json import plain
+from optipath.cli.printed_grid import point_table, point_texts, span_text
+from optipath.cli.printed_numbers import Numbers
 from optipath.errors import listed
-from optipath.values.units import in_unit
+from optipath.sweeps.sweep_grid import SweepGrid
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from optipath.cli.outcome import Outcome
     from optipath.light.light import Light
-    from optipath.values.parameters import Parameter
 
 _ROWS = 20
 _UNDEFINED = "-"
 _SMALL = 1e-9
 """How far from 1 a degree of polarisation may be by rounding alone."""
-
-
-class Numbers(NamedTuple):
-    """How numbers are written.
-
-    Attributes
-    ----------
-    digits : int
-        How many of them, leading zeros aside.
-    """
-
-    digits: int
-
-    def text(self, number: float, noise: float = 0.0) -> str:
-        """Return a number as it is printed.
-
-        Parameters
-        ----------
-        number : float
-            NaN where a detector does not read it.
-        noise : float, optional
-            What is smaller is rounding, and is printed as 0.
-
-        Returns
-        -------
-        str
-        """
-        if math.isnan(number):
-            return "not read"
-        return f"{0.0 if abs(number) < noise else number + 0.0:.{self.digits}g}"
-
-    def value_of(self, parameter: Parameter) -> str:
-        """Return the value of a parameter, in its unit."""
-        value = parameter.default
-        if not isinstance(value, float):
-            return parameter.text(value)
-        return f"{in_unit(value, parameter.unit):.{self.digits}g} {parameter.unit}".strip()
-
-    def stokes(self, light: Light, index: tuple[int, ...] = ()) -> list[str]:
-        """Return the four components of a light.
-
-        Parameters
-        ----------
-        light : Light
-            One, or a batch.
-        index : tuple of int, optional
-            Which of a batch.
-
-        Returns
-        -------
-        list of str
-        """
-        noise = float(light.noise[index])
-        return [self.text(component, noise) for component in light.stokes[index].tolist()]
 
 
 def print_outcome(outcome: Outcome, digits: int) -> None:
@@ -93,10 +40,30 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
         How many digits numbers have.
     """
     console, numbers = PlainConsole(), Numbers(digits)
+    print_given(console, outcome, numbers)
+    for name in outcome.lights:
+        console.print(_light_table(outcome, name, numbers))
+    if outcome.note:
+        console.print(cell(f"note: {outcome.note}"))
+    console.print(cell(ran([outcome])))
+
+
+def print_given(console: PlainConsole, outcome: Outcome, numbers: Numbers) -> None:
+    """Print what a run was given.
+
+    Parameters
+    ----------
+    console : PlainConsole
+        Where.
+    outcome : Outcome
+        The run.
+    numbers : Numbers
+        How these are written.
+    """
     console.print(title(outcome.chosen.title, outcome.path.description))
     table = Table(box=None, show_header=False)
     given = {name: label for name, label, _ in materials_among(outcome.chosen.values)}
-    for name, parameter in outcome.path.parameters.items():
+    for name, parameter in outcome.single.items():
         if name in given:
             continue
         table.add_row(*map(cell, (name, numbers.value_of(parameter), parameter.help)))
@@ -104,12 +71,9 @@ def print_outcome(outcome: Outcome, digits: int) -> None:
         table.add_row(*map(cell, (name, label, outcome.chosen.opened.parameters[name].help)))
     for name, word in outcome.chosen.places.items():
         table.add_row(*map(cell, (name, word, outcome.path.choices[name].help)))
+    for axis in outcome.grid.axes:
+        table.add_row(*map(cell, (axis.name, span_text(axis, numbers.digits), axis.help)))
     console.print(table)
-    for name in outcome.lights:
-        console.print(_light_table(outcome, name, numbers))
-    if outcome.note:
-        console.print(cell(f"note: {outcome.note}"))
-    console.print(cell(_ran([outcome])))
 
 
 def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
@@ -131,10 +95,12 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
         parameter = None if name in labels else first.path.parameters.get(name)
         text = value if parameter is None else numbers.value_of(parameter)
         console.print(cell(f"{name} {text}"))
+    for axis in first.grid.axes:
+        console.print(cell(f"{axis.name} {span_text(axis, digits)}"))
     table = headed("case", "at", "S0", "S1", "S2", "S3")
     for case, outcome in outcomes.items():
         for name, light in outcome.lights.items():
-            for row in _case_rows(light, numbers):
+            for row in _case_rows(light, numbers, outcome.grid):
                 table.add_row(*map(cell, [f"{case}{row[0]}", name, *row[1:]]))
             if published := outcome.published(name):
                 texts = [f"{number:g}" for number in published]
@@ -148,20 +114,21 @@ def print_cases(outcomes: Mapping[str, Outcome], digits: int) -> None:
         console.print(
             cell(f"note on {'case' if len(cases) == 1 else 'cases'} {listed(cases)}: {note}")
         )
-    console.print(cell(_ran([*outcomes.values()])))
+    console.print(cell(ran([*outcomes.values()])))
 
 
-def _case_rows(light: Light, numbers: Numbers) -> Iterator[list[str]]:
-    """Yield what is told of each light of a batch: its index, and its components."""
-    indices = list(np.ndindex(light.intensity.shape))
-    for index in indices[:_ROWS]:
-        yield [f" {list(index)}" if index else "", *numbers.stokes(light, index)]
-    if len(indices) > _ROWS:
-        yield [f" {len(indices) - _ROWS} more", *[""] * 4]
+def _case_rows(light: Light, numbers: Numbers, grid: SweepGrid) -> Iterator[list[str]]:
+    """Yield what is told of each light of a batch: which it is, and its components."""
+    for index in islice(np.ndindex(light.intensity.shape), _ROWS):
+        values = ", ".join(point_texts(grid, index, numbers.digits))
+        place = values or (str(list(index)) if index else "")
+        yield [f" {place}".rstrip(), *numbers.stokes(light, index)]
+    if (more := light.intensity.size - _ROWS) > 0:
+        yield [f" {more} more", *[""] * 4]
 
 
-def _ran(outcomes: Sequence[Outcome]) -> str:
-    """Say how it was computed."""
+def ran(outcomes: Sequence[Outcome]) -> str:
+    """Say how some runs were computed."""
     ways = {
         "method": [outcome.plan.method for outcome in outcomes],
         "model": [outcome.model for outcome in outcomes],
@@ -172,6 +139,8 @@ def _ran(outcomes: Sequence[Outcome]) -> str:
 
 def _light_table(outcome: Outcome, name: str, numbers: Numbers) -> Table:
     light, published = outcome.lights[name], outcome.published(name)
+    if outcome.grid.axes:
+        return point_table(f"light at {name}", light, outcome.grid, numbers)
     if light.stokes.ndim > 1:
         return _batch_table(name, light, numbers, published)
     table = headed(f"light at {name}", "computed")
@@ -205,7 +174,7 @@ def _batch_table(
     name: str, light: Light, numbers: Numbers, published: Sequence[float] | None
 ) -> Table:
     table = headed(f"light at {name}", "S0", "S1", "S2", "S3")
-    for row in _case_rows(light, numbers):
+    for row in _case_rows(light, numbers, SweepGrid(())):
         table.add_row(*(cell(text.strip()) for text in row))
     if published:
         table.add_row("published", *(f"{number:g}" for number in published))

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, say_json
-from optipath.cli.outcome import Outcome, outcome_as_json
+from optipath.cli.given_axes import grid_of_axes, refuse_arrays
+from optipath.cli.outcome import outcome_as_json, outcome_of
 from optipath.cli.preset_command import COMPOSING, PresetGroup
 from optipath.cli.printed_light import print_cases, print_outcome
 from optipath.composer.composer import Composer
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from optipath.cli.chosen import Chosen
+    from optipath.cli.outcome import Outcome
 
 
 def _run(chosen: Chosen, *, reads: str | None, as_json: bool, digits: int, **options: Any) -> None:
@@ -39,9 +41,9 @@ def _run_several(
 
 def _outcome(chosen: Chosen, reads: str | None, options: Mapping[str, Any]) -> Outcome:
     path = chosen.path(reads)
+    refuse_arrays(path, chosen.axes)
     plan = Composer(**options).compose(path)
-    lights = plan.run_all()
-    return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by))
+    return outcome_of(chosen, path, plan, grid_of_axes(path, chosen.axes))
 
 
-run = PresetGroup("run", _run, (*COMPOSING, DIGITS), several=_run_several)
+run = PresetGroup("run", _run, (*COMPOSING, DIGITS), several=_run_several, ranges=True)

@@ -5,11 +5,16 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Never
 
+from optipath.errors import MissingExtraError
+
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from os import PathLike
 
     from optipath.composer.composer import Composer
+
+_BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
+"""What a sweep needs of the extra that brings it, and what that needs itself."""
 
 
 class Sweeping:
@@ -24,7 +29,7 @@ class Sweeping:
         chunks: int | str | Mapping[str, int] | None = None,
         store: str | PathLike[str] | None = None,
         scheduler: Any = None,
-        progress: bool = False,
+        progress: bool | Callable[[int, int], None] = False,
         composer: Composer | None = None,
         **axes: Any,
     ) -> Any:
@@ -37,9 +42,9 @@ class Sweeping:
         zip : sequence of str, or several, optional
             Parameters whose values vary together, along one dimension: ``zip=("delta", "rho")``,
             or a mapping of its name to them.
-        coords : str, PathLike or Dataset, optional
-            Axes besides: a CSV file with a column for each parameter, its unit in the heading, or
-            the coordinates of a Dataset.
+        coords : str, PathLike, Dataset, DataArray or mapping, optional
+            Axes besides: a CSV file with a column for each parameter, its unit in the heading; the
+            coordinates of a Dataset; or a mapping from names to values.
         chunks : int, str or mapping of str to int, optional
             The variables are Dask arrays of so many values along each dimension; ``"auto"`` for
             blocks of about a million.
@@ -49,23 +54,39 @@ class Sweeping:
         scheduler : str or distributed.Client, optional
             What computes the blocks for a store: ``"threads"``, ``"processes"``, ``"synchronous"``,
             a client, or the address of a cluster.
-        progress : bool, optional
-            Whether a bar shows how far it is.
+        progress : bool or callable, optional
+            Whether a bar shows how far it is; or what is told how many blocks are done, and of how
+            many.
         composer : Composer, optional
             How the path is composed.
         **axes : array_like
-            The values of parameters, in radians and metres, or texts with units; a single value
-            is no axis.
+            The values of parameters, in radians and metres, texts with units, a range
+            ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value is no
+            axis.
 
         Returns
         -------
         xarray.Dataset
             The dimensions are called as the parameters, in the order given.
+
+        Raises
+        ------
+        MissingExtraError
+            If xarray is not installed.
+        ParameterError
+            With all that is wrong with the axes, or as `Plan.run`.
+        ShapeError
+            If the light takes more memory than is free.
         """
-        sweep = import_module("optipath.sweeps.sweep").sweep
         own = {"zip": zip, "coords": coords, "chunks": chunks, "store": store}
         more = {"scheduler": scheduler, "progress": progress, "composer": composer}
-        return sweep(self, unnamed, axes, **own, **more)
+        try:
+            sweep = import_module("optipath.sweeps.sweep").sweep
+            return sweep(self, unnamed, axes, **own, **more)
+        except ModuleNotFoundError as missing:
+            if missing.name is None or missing.name.partition(".")[0] not in _BROUGHT:
+                raise
+            raise MissingExtraError("sweeps", missing.name, "sweep") from None
 
     def propagate(
         self,

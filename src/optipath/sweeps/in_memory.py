@@ -2,32 +2,67 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import xarray as xr
 
-from optipath.sweeps.light_quantities import COMPONENTS
+from optipath.sweeps.dataset_attributes import dataset_attributes
+from optipath.sweeps.dataset_labels import attributes_of, coordinates_of, dimensions_of
+from optipath.sweeps.derived_variable import derived
+from optipath.sweeps.free_memory import refuse_more_than_free
+from optipath.sweeps.light_quantities import COMPONENTS, DERIVED, FAINT
+from optipath.sweeps.stacked_views import stacked
+from optipath.sweeps.swept_light import SweptLight
+from optipath.sweeps.variable_names import detectors_of, variable_names
+from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
+    from optipath.composer.composer import Composer
+    from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
     from optipath.sweeps.sweep_grid import SweepGrid
 
 
-def swept_in_memory(plan: Plan, grid: SweepGrid) -> xr.Dataset:
+def swept_in_memory(
+    path: PathGraph, plan: Plan, grid: SweepGrid, composer: Composer | None = None
+) -> xr.Dataset:
     """Return the light of a grid.
 
     Parameters
     ----------
+    path : PathGraph
+        What is swept.
     plan : Plan
         What is run.
     grid : SweepGrid
         With the values of its parameters.
+    composer : Composer, optional
+        What has made the plan; the default one if not given.
 
     Returns
     -------
     xarray.Dataset
+
+    Raises
+    ------
+    ParameterError
+        As `Plan.run`, or if a coordinate is called as a variable.
+    ShapeError
+        If it takes more memory than is free.
     """
-    light = plan.run(**grid.given())
-    variables = {each.variable: (tuple(grid.sizes), each.of(light)) for each in COMPONENTS}
-    coords = {axis.name: (axis.dimension, axis.shown) for axis in grid.axes}
-    return xr.Dataset(variables, coords)
+    names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
+    coords = coordinates_of(grid, plan)
+    refuse_more_than_free(plan, grid)
+    with units_are_written():  # Who reads the axes has told of degrees among them.
+        found = plan.answers.lights(grid.given())
+    lights = tuple([SweptLight(plan, grid, name, *found[name]) for name in detectors_of(plan)])
+    variables: dict[str, Any] = {}
+    each = zip(*[light.components for light in lights], strict=True)
+    for quantity, parts in zip(COMPONENTS, each, strict=True):
+        numbers = parts[0] if len(parts) == 1 else stacked(parts)
+        variables[quantity.variable] = dims, numbers, attributes_of(quantity)
+    faint = (FAINT,) if any(light.is_faint for light in lights) else ()
+    for quantity in (*DERIVED, *faint):
+        name = names[quantity.variable]
+        variables[name] = dims, derived(quantity, lights), attributes_of(quantity)
+    return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))

@@ -20,8 +20,10 @@ class LightQuantity(NamedTuple):
         What the variable of a Dataset is called.
     attribute : str
         That of `Light`; a component of the Stokes vector stands as ``"0"`` to ``"3"``.
-    unit, name : str
-        Its unit, and what it is.
+    unit : str
+        Its unit; ``"1"`` without a dimension, and ``""`` for that of the sources.
+    name : str
+        What it is.
     """
 
     variable: str
@@ -48,13 +50,18 @@ COMPONENTS = tuple(
     )
 )
 DERIVED = (
-    LightQuantity("DoP", "dop", "", "degree of polarisation"),
-    LightQuantity("DoLP", "dolp", "", "degree of linear polarisation"),
+    LightQuantity("DoP", "dop", "1", "degree of polarisation"),
+    LightQuantity("DoLP", "dolp", "1", "degree of linear polarisation"),
     LightQuantity("AoP", "aop", "rad", "angle of polarisation, from x towards y"),
-    LightQuantity("ellipticity", "ellipticity", "", "minor over major axis, with the sign of S3"),
+    LightQuantity("ellipticity", "ellipticity", "1", "minor over major axis, with the sign of S3"),
     LightQuantity("psi", "psi", "rad", "ellipsometric psi of the polarised part"),
     LightQuantity("delta", "delta", "rad", "ellipsometric Delta of the polarised part"),
 )
 """What is computed of the light when somebody asks for it."""
 
 QUANTITIES = (*COMPONENTS, *DERIVED)
+
+FAINT = LightQuantity(
+    "log10_intensity", "log10_intensity", "1", "decimal logarithm of the intensity, however faint"
+)
+"""What is there besides where intensities are too small for a float."""

@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from importlib import import_module
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 
 from optipath.composer.composer import Composer
 from optipath.elements.own_couplings import is_own
+from optipath.errors import PathError
 from optipath.paths.presets.preset_text import path_of_text
 
 if TYPE_CHECKING:
@@ -75,13 +77,39 @@ class PlanRecipe:
 
     @property
     def plan(self) -> Plan:
-        """The plan, made once a process."""
-        return _plan_of(self)
+        """The plan, made once a process.
+
+        Raises
+        ------
+        PathError
+            If an element of a user's own is not there in this process.
+        """
+        with _making:
+            return _plan_of(self)
+
+
+_making = Lock()
+"""Threads that ask for one plan at once share it."""
 
 
 @lru_cache(maxsize=8)
 def _plan_of(recipe: PlanRecipe) -> Plan:
     for module in recipe.modules:
-        import_module(module)
-    path = path_of_text(recipe.text, "the path of a sweep")
+        try:
+            import_module(module)
+        except ImportError as error:
+            raise PathError(
+                f"elements of the path are defined in '{module}', which cannot be imported here: "
+                f"{error}; put it where every worker finds it"
+            ) from None
+    try:
+        path = path_of_text(recipe.text, "the path of a sweep")
+    except PathError as error:
+        if "__main__" not in recipe.modules:
+            raise
+        raise PathError(
+            *error.faults,
+            "elements that are defined in the script itself are not there in another process; put "
+            "their classes into a module of its own and import it, or use threads",
+        ) from None
     return Composer(**dict(recipe.options)).compose(path)

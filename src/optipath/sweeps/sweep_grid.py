@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import prod
 from typing import TYPE_CHECKING, Any
@@ -42,6 +42,28 @@ class SweepGrid:
     def points(self) -> int:
         """How many paths it has."""
         return prod(self.shape)
+
+    def part(self, region: Sequence[slice]) -> SweepGrid:
+        """Return a part of the grid.
+
+        Parameters
+        ----------
+        region : sequence of slice
+            One for each dimension.
+
+        Returns
+        -------
+        SweepGrid
+            Its arrays are views.
+        """
+        cuts = dict(zip(self.sizes, region, strict=True))
+        axes = [
+            replace(
+                axis, shown=axis.shown[cuts[axis.dimension]], given=axis.given[cuts[axis.dimension]]
+            )
+            for axis in self.axes
+        ]
+        return SweepGrid(tuple(axes), self.fixed)
 
     def given(self, region: Sequence[slice] | None = None) -> dict[str, Any]:
         """Return what `Plan.run` is given for the grid, or for a part of it.

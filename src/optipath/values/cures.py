@@ -100,3 +100,14 @@ def how_to_give(name: str) -> str:
     --n-1 ...
     """
     return cure(f"{name}=...", f"--{name.replace('_', '-')} ...")
+
+
+def no_value(name: str) -> str:
+    """Return the sentence for a parameter that nobody has given a value.
+
+    Examples
+    --------
+    >>> no_value("n")
+    "parameter 'n' has no value; give one, n=..."
+    """
+    return f"parameter '{name}' has no value; give one, {how_to_give(name)}"

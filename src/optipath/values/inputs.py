@@ -14,7 +14,7 @@ from optipath.values.agreement import first_faults
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.shapes import broadcast_fault, joint_shape
-from optipath.values.cures import how_to_give
+from optipath.values.cures import no_value
 from optipath.values.curves.computed_values import computed_values
 from optipath.values.curves.wavelength_range import WavelengthRange
 from optipath.values.domains.axis import axes_for
@@ -101,19 +101,19 @@ class Inputs:
         ParameterError
             With every fault of what is given.
         """
-        faults = [self._unknown(name) for name in given if name not in self.open]
+        faults = [self.unknown(name) for name in given if name not in self.open]
         resolved: dict[str, Resolved] = {}
         unchecked = set()
         for name, parameter in self.open.items():
             value = given.get(name, parameter.default)
             if value is None:
-                faults.append(f"parameter '{name}' has no value; give one, {how_to_give(name)}")
+                faults.append(no_value(name))
             elif plain is not None and plain(name, value):
                 resolved[name] = Resolved(value, THERE)
                 unchecked.add(name)
             else:
                 try:
-                    self._ask_in_doubt(name, value)
+                    self.ask_in_doubt(name, value)
                     value = axes_for(name, value, self.uses)
                     resolved[name] = self.numbers_for(name, value)
                 except OptipathError as fault:
@@ -263,8 +263,16 @@ class Inputs:
 
     __hash__ = None  # type: ignore[assignment]
 
-    def _ask_in_doubt(self, name: str, value: Any) -> None:
-        """Raise at the first place where a value may be one or several, or is not known yet."""
+    def ask_in_doubt(self, name: str, value: Any) -> None:
+        """Raise at the first place where a value may be one or several, or is not known yet.
+
+        Parameters
+        ----------
+        name : str
+            The parameter.
+        value : Any
+            What is given for it.
+        """
         if late := given_too_late(name, value):
             raise ParameterError(late)
         for use in self.uses:
@@ -279,7 +287,8 @@ class Inputs:
     def _batch(self) -> tuple[int, ...]:
         return joint_shape(*self.shapes.values())
 
-    def _unknown(self, name: str) -> str:
+    def unknown(self, name: str) -> str:
+        """Return the sentence for a name that is no open parameter's."""
         if name in self.bound:
             value = self.bound[name]
             return (

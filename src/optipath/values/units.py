@@ -74,7 +74,7 @@ USUAL_UNITS = {
 }
 """The unit in which a dimension is written where nobody says another."""
 
-_BASE_UNITS = {
+BASE_UNITS = {
     "angle": "rad",
     "length": "m",
     "inverse length": "1/m",
@@ -243,7 +243,7 @@ def format_quantity(value: complex, unit: str) -> str:
     for number in _candidates(value, of_unit):
         if _in_base_units(number, of_unit) == value:
             return f"{number} {unit}"
-    return f"{value!r} {_BASE_UNITS[of_unit.dimension]}"
+    return f"{value!r} {BASE_UNITS[of_unit.dimension]}"
 
 
 def with_article(dimension: str) -> str:

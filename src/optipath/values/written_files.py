@@ -7,8 +7,13 @@ import errno
 import os
 import secrets
 import shutil
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
+from typing import IO, TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 
 def write_file(file: Path, content: bytes) -> None:
@@ -37,9 +42,33 @@ def write_file(file: Path, content: bytes) -> None:
     ...     [(file.name, file.read_bytes()) for file in Path(folder).iterdir()]
     [('a.txt', b'light')]
     """
+    with written_whole(file) as stream:
+        stream.write(content)
+
+
+@contextmanager
+def written_whole(file: Path) -> Iterator[IO[bytes]]:
+    """Let a file be written part by part, which is in its place once all is written.
+
+    Parameters
+    ----------
+    file : Path
+        Where it is to be, as `write_file` takes it.
+
+    Yields
+    ------
+    IO of bytes
+        What takes the parts.
+
+    Raises
+    ------
+    OSError
+        As `write_file` does.
+    """
     # The real path of a pipe is none.
     if file.exists() and not file.is_file():
-        file.write_bytes(content)
+        with file.open("wb") as stream:
+            yield stream
         return
     place = Path(os.path.realpath(file))
     if place.is_symlink():
@@ -47,7 +76,8 @@ def write_file(file: Path, content: bytes) -> None:
     there = place.exists()
     if there and not os.access(place, os.W_OK):
         raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-    _put(place, content, 0o666, place if there else None)
+    with _draft(place, 0o666, place if there else None) as stream:
+        yield stream
 
 
 def write_own_file(file: Path, content: bytes) -> None:
@@ -60,14 +90,16 @@ def write_own_file(file: Path, content: bytes) -> None:
     content : bytes
         What it is to hold.
     """
-    _put(file, content, 0o600)
+    with _draft(file, 0o600) as stream:
+        stream.write(content)
 
 
-def _put(place: Path, content: bytes, mode: int, alike: Path | None = None) -> None:
+@contextmanager
+def _draft(place: Path, mode: int, alike: Path | None = None) -> Iterator[IO[bytes]]:
     draft = place.with_name(f".{secrets.token_hex(8)}.draft")
     try:
         with open(draft, "xb", opener=partial(os.open, mode=mode)) as stream:
-            stream.write(content)
+            yield stream
             stream.flush()
             os.fsync(stream.fileno())
         if alike:

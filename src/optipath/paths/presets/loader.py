@@ -19,7 +19,7 @@ from optipath.spelling import closest
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
     from os import PathLike
 
     from optipath.paths.path_graph import PathGraph
@@ -136,7 +136,11 @@ def preset_of_case(path: PathGraph, preset: str | PathLike[str], case: str | int
 
 
 def bound_preset(
-    path: PathGraph, preset: str | PathLike[str], case: str | int | None, values: Mapping[str, Any]
+    path: PathGraph,
+    preset: str | PathLike[str],
+    case: str | int | None,
+    values: Mapping[str, Any],
+    varied: Collection[str] = (),
 ) -> PathGraph:
     """Return the path of a preset, bound to the values of a case and to others.
 
@@ -150,6 +154,8 @@ def bound_preset(
         A named set of its values.
     values : mapping of str to float, str or array_like
         Values that take precedence over the case.
+    varied : collection of str, optional
+        Parameters that stay open, whatever the case says of them.
 
     Returns
     -------
@@ -162,6 +168,7 @@ def bound_preset(
         As `load_preset` does.
     """
     known, faults = _of_case(path, preset, case)
+    known = {name: value for name, value in known.items() if name not in varied}
     return _bound(path, beside(path, known, values), faults)
 
 

@@ -32,14 +32,35 @@ _FREQUENCIES = ("THz", "GHz", "PHz", "Hz")
 _HEAD = re.compile(r"(.*?)\s*(?:\(([^()]*)\)|\[([^][]*)\])?")
 
 
-def _name_and_unit(head: str) -> tuple[str, str]:
-    """Return what a column is called, in small letters, and its unit."""
+def split_heading(head: str) -> tuple[str, str]:
+    """Return what a column is called, and its unit; ``""`` for none.
+
+    Parameters
+    ----------
+    head : str
+        What stands in the first line.
+
+    Returns
+    -------
+    name, unit : str
+
+    Examples
+    --------
+    >>> split_heading("delta (deg)"), split_heading("wavelength_nm"), split_heading("n1")
+    (('delta', 'deg'), ('wavelength', 'nm'), ('n1', ''))
+    """
     match = _HEAD.fullmatch(head.strip())
     name, unit = (match[1], match[2] or match[3] or "") if match else (head, "")
     before, line, behind = name.rpartition("_")
     if not unit and line and (behind in UNITS or behind in _SPECTRAL or behind in _SPELT):
         name, unit = before, behind
-    return name.strip().lower(), _SPELT.get(unit.strip(), unit.strip())
+    return name.strip(), _SPELT.get(unit.strip(), unit.strip())
+
+
+def _name_and_unit(head: str) -> tuple[str, str]:
+    """Return what a column is called, in small letters, and its unit."""
+    name, unit = split_heading(head)
+    return name.lower(), unit
 
 
 def axis_of(

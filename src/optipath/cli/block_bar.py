@@ -1,0 +1,53 @@
+"""A bar that shows how many blocks of a sweep are done, and what is said of those kept before."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import click
+
+from optipath.cli.progress_bar import progress_bar
+from optipath.errors import printable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+@contextmanager
+def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
+    """Show a bar on a terminal; say how many blocks were there, and are where Ctrl-C comes.
+
+    Parameters
+    ----------
+    store : str
+        Where blocks are kept.
+
+    Yields
+    ------
+    callable
+        Takes how many blocks are done, and of how many.
+    """
+    counts: list[tuple[int, int]] = []
+    try:
+        with progress_bar(1.0) as show:
+
+            def tell(done: int, total: int) -> None:
+                if not counts and done:
+                    _say(f"{_counted(done, total)} in {store} already")
+                counts.append((done, total))
+                show(f"{done} of {total} blocks", completed=done / total)
+
+            yield tell
+    except KeyboardInterrupt:
+        if counts and counts[-1][0]:
+            _say(f"{_counted(*counts[-1])} in {store}; the same command goes on from there")
+        raise
+
+
+def _counted(done: int, total: int) -> str:
+    return f"{done:,} of {total:,} block{'s' * (total != 1)} {'is' if done == 1 else 'are'}"
+
+
+def _say(text: str) -> None:
+    click.echo(printable(f"optipath: {text}"), err=True)

@@ -1,0 +1,160 @@
+"""Ranges, lists and columns of files that are given by options: ``--delta 0:90:91``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.sweep_axis import SweepAxis
+from optipath.sweeps.sweep_grid import SweepGrid
+from optipath.values.axis_texts import read_axis_text
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.axis_texts import AxisValues
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+RANGES = (
+    "Several values: 0:90:91 (start:stop:count), 10,20,30, or @FILE.csv for a column of a file."
+)
+"""How an option takes more than one value, for help."""
+
+
+def axis_given(parameter: Parameter, text: str, uses: Sequence[Use]) -> AxisValues | None:
+    """Return the values that the text of an option stands for.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        For which it is given; numbers without a unit are in its own.
+    text : str
+        A range, a list, or a file, whose heading says the unit.
+    uses : sequence of Use
+        The numbers of the path.
+
+    Returns
+    -------
+    AxisValues or None
+        None for a single value.
+
+    Raises
+    ------
+    ParameterError
+        With all that is wrong.
+
+    Examples
+    --------
+    >>> from optipath.values.parameters import Parameter
+    >>> axis_given(Parameter("delta", unit="deg"), "0:90:3", ()).shown.tolist()
+    [0.0, 45.0, 90.0]
+    """
+    # A bare wavelength may be nanometres, micrometres or electronvolts; a file says its units.
+    is_told = isinstance(parameter, Wavelength) or text.lstrip().startswith("@")
+    unit = "" if is_told else parameter.unit
+    try:
+        return read_axis_text(text, parameter, unit, uses)
+    except OptipathError as error:
+        about = f"{error.about}: " if error.about else ""
+        raise ParameterError(*[f"{about}{fault}" for fault in error.faults]) from None
+
+
+def axis_faults(path: PathGraph, axes: Mapping[str, AxisValues]) -> list[str]:
+    """Return what is wrong with the values of axes, a sentence each.
+
+    Parameters
+    ----------
+    path : PathGraph
+        What they are given for, not bound yet.
+    axes : mapping of str to AxisValues
+        By name.
+
+    Returns
+    -------
+    list of str
+        Nothing of a parameter that comes with a material.
+    """
+    faults: list[str] = []
+    for name, values in axes.items():
+        if name in path.parameters:
+            try:
+                path.bind(**{name: values.given})
+            except OptipathError as error:
+                faults += error.faults
+    return faults
+
+
+def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
+    """Return the grid of what is given several values.
+
+    Parameters
+    ----------
+    path : PathGraph
+        Bound to what has one value.
+    axes : mapping of str to AxisValues
+        By name, in order.
+
+    Returns
+    -------
+    SweepGrid
+    """
+    known = path.parameters
+    return SweepGrid(
+        tuple([SweepAxis(name, name, *values, known[name].help) for name, values in axes.items()])
+    )
+
+
+def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:
+    """Raise where a command is given several values for a parameter, of which it takes one.
+
+    Parameters
+    ----------
+    command : str
+        Its name.
+    texts : mapping of str to sequence of str
+        What stands behind the option of each parameter.
+    axes : iterable of str
+        The parameters that are given several values.
+
+    Raises
+    ------
+    ParameterError
+        Naming each, and the commands that take them.
+    """
+    faults = [
+        f"--{name.replace('_', '-')} is given several values, {shown(texts[name][-1])}, of which "
+        f"{command} takes one; give one, or write 'optipath run' or 'optipath sweep'"
+        for name in axes
+    ]
+    if faults:
+        raise ParameterError(*faults)
+
+
+def refuse_arrays(path: PathGraph, axes: Iterable[str]) -> None:
+    """Raise where a path has arrays of its own, of which each value would go with one of an axis.
+
+    Parameters
+    ----------
+    path : PathGraph
+        Bound to what has one value.
+    axes : iterable of str
+        The parameters that are given several values.
+
+    Raises
+    ------
+    ParameterError
+        Naming each, and how one value is given.
+    """
+    faults = [
+        f"parameter '{name}' has several values in the file; give one by "
+        f"--{name.replace('_', '-')}, or a range"
+        for name, parameter in path.parameters.items()
+        if name not in axes and isinstance(parameter.default, np.ndarray)
+    ]
+    if axes and faults:
+        raise ParameterError(*faults)

@@ -1,0 +1,91 @@
+"""What a large job says of itself, so that it can be cut into blocks that are kept."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+
+class KeptArray(NamedTuple):
+    """An array that blocks fill, part by part.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        What its dimensions are called.
+    shape, chunks : tuple of int
+        Of the whole, and of the parts that are files of their own: a block fills whole chunks.
+    dtype : str
+        As NumPy writes it. Floats that are not there yet are NaN.
+    attrs : mapping of str to Any
+        What JSON can hold, such as ``units`` and ``long_name``.
+    """
+
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    chunks: tuple[int, ...]
+    dtype: str = "float64"
+    attrs: Mapping[str, Any] = {}
+
+
+class WholeArray(NamedTuple):
+    """A small array that is written when the store is made, such as a coordinate.
+
+    Attributes
+    ----------
+    dims : tuple of str
+        What its dimensions are called.
+    values : ndarray
+        Numbers, or words of a fixed length.
+    attrs : mapping of str to Any
+        What JSON can hold.
+    """
+
+    dims: tuple[str, ...]
+    values: npt.NDArray[Any]
+    attrs: Mapping[str, Any] = {}
+
+
+class BlockJob(Protocol):
+    """A large job, cut into blocks that are computed each by itself, in any order.
+
+    It is pickled to workers, so its fields are plain data; it stays as it is while it runs.
+    """
+
+    @property
+    def identity(self) -> str:
+        """All of what is computed: two jobs with one text come to the same bits."""
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+
+    @property
+    def arrays(self) -> Mapping[str, KeptArray]:
+        """What is kept, by name."""
+
+    @property
+    def coords(self) -> Mapping[str, WholeArray]:
+        """What is known before, by name: the coordinates of the arrays."""
+
+    @property
+    def attrs(self) -> Mapping[str, Any]:
+        """What the whole is, as JSON can hold it."""
+
+    def compute(self, number: int) -> Mapping[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
+        """Compute one block.
+
+        Parameters
+        ----------
+        number : int
+            Which one, from 0.
+
+        Returns
+        -------
+        mapping of str to (tuple of slice, ndarray)
+            For each of `arrays` the part that the block fills, and what is in it.
+        """

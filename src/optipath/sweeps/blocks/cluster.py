@@ -1,0 +1,125 @@
+"""The client of a cluster: of one that is there, or of processes of this machine."""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import signal
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from dask.system import CPU_COUNT
+from distributed import Client, LocalCluster
+from distributed.comm import connect
+
+from optipath.errors import JobError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_PATIENCE = 10.0
+"""How many seconds a cluster has to answer."""
+
+
+def threads_of(client: Client) -> int:
+    """Return how many threads a cluster has now; one if it waits for work to have any.
+
+    Raises
+    ------
+    JobError
+        If it is lost.
+    """
+    try:
+        threads: int = sum(client.nthreads().values())
+    except (OSError, AttributeError):  # a client that is closed meanwhile has no scheduler
+        raise JobError(
+            "the cluster was lost; start again when it is back, and what is done is not computed "
+            "again"
+        ) from None
+    return max(threads, 1)
+
+
+@contextmanager
+def client_of(given: str | Client, blocks: int) -> Iterator[Client]:
+    """Have a client; what is made for it is closed afterwards.
+
+    Parameters
+    ----------
+    given : str or distributed.Client
+        One, the address of a cluster, or ``"processes"``.
+    blocks : int
+        How many there are to do; there are no more processes than that.
+
+    Yields
+    ------
+    distributed.Client
+
+    Raises
+    ------
+    JobError
+        If it is closed, or nothing answers.
+    """
+    if given == "processes":
+        with (
+            _processes(min(CPU_COUNT, blocks)) as cluster,
+            Client(cluster, set_as_default=False) as client,
+        ):
+            client.run(_ignore_interrupts)
+            yield client
+    elif isinstance(given, str):
+        with _reached(given) as client:
+            yield client
+    else:
+        if given.asynchronous:
+            raise JobError(
+                "the client is asynchronous, and blocks are waited for; give "
+                "distributed.Client(client.scheduler.address)"
+            )
+        if given.status != "running":
+            raise JobError(
+                f"the client of the cluster is {given.status}; give one that is connected, such "
+                f"as distributed.Client(address)"
+            )
+        yield given
+
+
+def _reached(address: str) -> Client:
+    try:
+        # A client that waits in vain cannot be closed, so that somebody else asks first.
+        with ThreadPoolExecutor(1) as elsewhere:
+            elsewhere.submit(asyncio.run, _knock(address)).result()
+        return Client(address, set_as_default=False)
+    except (OSError, ValueError, ImportError) as fault:
+        raise JobError(
+            f"no cluster answers at {address!r} ({fault}); see that its scheduler runs and that "
+            f"the address is as it prints it"
+        ) from None
+
+
+def _ignore_interrupts() -> None:
+    # Ctrl-C comes to all processes of a terminal, and who made these ends them.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+async def _knock(address: str) -> None:
+    comm = await connect(address, timeout=_PATIENCE)
+    await comm.close()
+
+
+def _processes(count: int) -> LocalCluster:
+    try:
+        return LocalCluster(
+            n_workers=count,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address=None,
+            # It has an HTTP server all the same, by default at one port for all.
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+            silence_logs=logging.ERROR,
+        )
+    except (RuntimeError, OSError) as fault:
+        raise JobError(
+            f"no processes can be started ({fault}); in a script, put what is run under if "
+            f"__name__ == '__main__':, since each process imports it, or give scheduler='threads'"
+        ) from None

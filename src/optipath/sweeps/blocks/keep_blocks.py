@@ -1,0 +1,149 @@
+"""A large job, computed block after block by whatever computes, and kept."""
+
+from __future__ import annotations
+
+from concurrent.futures import FIRST_COMPLETED, CancelledError, wait
+from contextlib import closing
+from itertools import islice
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import JobError
+from optipath.sweeps.blocks.block_store import BlockStore
+from optipath.sweeps.blocks.workers import workers_of
+from optipath.values.given_files import given_file
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Generator
+    from concurrent.futures import Future
+    from os import PathLike
+    from pathlib import Path
+
+    from optipath.sweeps.blocks.block_job import BlockJob
+    from optipath.sweeps.blocks.workers import Workers
+
+
+def keep_blocks(
+    job: BlockJob,
+    store: str | PathLike[str],
+    scheduler: Any = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
+    """Compute those blocks of a job that its store does not hold, and keep each when it is done.
+
+    Parameters
+    ----------
+    job : BlockJob
+        What is computed.
+    store : str or PathLike
+        The folder of a Zarr group, which `xarray.open_zarr` opens as well; made if it is not
+        there. Workers on other machines see it under the same name.
+    scheduler : str or distributed.Client, optional
+        Who computes: ``"synchronous"``, ``"threads"``, ``"processes"``, a client of a cluster, or
+        its address such as ``"tcp://127.0.0.1:8786"``; by default the client that is active,
+        else threads.
+    progress : callable, optional
+        Told how many blocks are done, and of how many: at first, and whenever one is.
+
+    Returns
+    -------
+    Path
+        Of the store.
+
+    Raises
+    ------
+    JobError
+        If the store holds something else, cannot be written, or there is nobody to compute.
+
+    Notes
+    -----
+    Every block that is done stays, whatever ends the rest: an error of a block, which comes out as
+    it is, Ctrl-C, or a process that is killed. Results go from the workers to the store, and do
+    not come back here. Sums over blocks are made of what the store holds, in the order of blocks,
+    and so do not depend on who was first. Two runs may share a store.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from types import SimpleNamespace
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> from optipath.sweeps.blocks.block_job import KeptArray
+    >>> job = SimpleNamespace(
+    ...     identity="squares of 0 to 5, in blocks of 2",
+    ...     blocks=3,
+    ...     arrays={"square": KeptArray(("number",), (6,), (2,))},
+    ...     coords={},
+    ...     attrs={"title": "squares"},
+    ... )
+    >>> def compute(block):
+    ...     region = slice(2 * block, 2 * block + 2)
+    ...     return {"square": ((region,), np.arange(6.0)[region] ** 2)}
+    >>> job.compute = compute
+    >>> with TemporaryDirectory() as folder:
+    ...     with xr.open_zarr(keep_blocks(job, f"{folder}/squares.zarr")) as found:
+    ...         print(found.square.values)
+    [ 0.  1.  4.  9. 16. 25.]
+    """
+    kept = BlockStore.of(job, given_file(store, JobError))
+    done = kept.done(job.blocks)
+    missing = [number for number in range(job.blocks) if number not in done]
+    _tell(progress, len(done), job)
+    if missing:
+        with (
+            workers_of(scheduler, len(missing)) as workers,
+            closing(_handed_out(job, kept, missing, workers)) as found,
+        ):
+            for finished, _ in enumerate(found, len(done) + 1):
+                _tell(progress, finished, job)
+    return kept.folder
+
+
+def _tell(progress: Callable[[int, int], None] | None, done: int, job: BlockJob) -> None:
+    if progress is not None:
+        progress(done, job.blocks)
+
+
+def _handed_out(
+    job: BlockJob, kept: BlockStore, numbers: list[int], workers: Workers
+) -> Generator[int]:
+    """Yield the numbers of blocks as they are done, of which a few at a time are handed out."""
+    ahead = iter(numbers)
+    pending: dict[Future[None], int] = {}
+    try:
+        while True:
+            for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
+                pending[workers.executor.submit(_keep_block, job, kept, number)] = number
+            if not pending:
+                return
+            for each in wait(pending, return_when=FIRST_COMPLETED).done:
+                number = pending.pop(each)
+                _raise_fault(each, number)
+                yield number
+    finally:
+        for each in pending:
+            each.cancel()
+
+
+def _keep_block(job: BlockJob, kept: BlockStore, number: int) -> None:
+    # Another run, or a worker that was thought lost, may have done it.
+    if not kept.holds(number):
+        kept.keep(job, number, job.compute(number))
+
+
+def _raise_fault(finished: Future[None], number: int) -> None:
+    """Raise what went wrong with a block, as it is or, where its worker was lost, in a sentence."""
+    try:
+        finished.result()
+    except CancelledError:
+        raise JobError(
+            f"the cluster was lost while block {number} was computed; start again when it is "
+            f"back, and what is done is not computed again"
+        ) from None
+    except Exception as fault:
+        if type(fault).__name__ != "KilledWorker":
+            raise
+        raise JobError(
+            f"the process that computed block {number} was lost again and again, for want of "
+            f"memory perhaps; make blocks smaller or workers fewer and start again, and what is "
+            f"done is not computed again"
+        ) from None

@@ -1,0 +1,67 @@
+"""The Zarr group of a store, as it is before the first block is done."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+import zarr
+
+from optipath.sweeps.blocks.block_job import KeptArray
+from optipath.sweeps.blocks.job_record import record_of
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from optipath.sweeps.blocks.block_job import BlockJob, WholeArray
+
+# Version 2 of the format has words of a fixed length, and all metadata at one place, in its
+# specification; zarr and xarray warn that version 3 has neither.
+_VERSION: Literal[2] = 2
+_DIMENSIONS = "_ARRAY_DIMENSIONS"
+
+
+def make_group(job: BlockJob, folder: Path) -> None:
+    """Write a group with the arrays of a job, its coordinates and its record.
+
+    Parameters
+    ----------
+    job : BlockJob
+        What will be kept in it.
+    folder : Path
+        Where it is made; nothing is there yet.
+    """
+    # Coordinates that do not bear the name of a dimension are told apart by this attribute.
+    others = [name for name, each in job.coords.items() if each.dims != (name,)]
+    attrs = {**job.attrs, **({"coordinates": " ".join(others)} if others else {})}
+    folder.mkdir()
+    group = zarr.create_group(str(folder), zarr_format=_VERSION, attributes=attrs)
+    for name, kept in job.arrays.items():
+        _create(group, name, kept)
+    for name, whole in job.coords.items():
+        _write(group, name, whole)
+    record = group.create_group("blocks", attributes=record_of(job))
+    marks = KeptArray(("block",), (job.blocks,), (1,), "uint8")
+    _create(record, "done", marks, compressors=None, filters=None)
+    zarr.consolidate_metadata(str(folder), zarr_format=_VERSION)
+
+
+def _create(group: zarr.Group, name: str, kept: KeptArray, **encoding: Any) -> zarr.Array[Any]:
+    dtype = np.dtype(kept.dtype)
+    return group.create_array(
+        name,
+        shape=kept.shape,
+        chunks=kept.chunks,
+        dtype=dtype,
+        # xarray takes a fill value for one that is missing, which a number must not be.
+        fill_value=np.nan if dtype.kind in "fc" else None,
+        attributes={**kept.attrs, _DIMENSIONS: list(kept.dims)},
+        **encoding,
+    )
+
+
+def _write(group: zarr.Group, name: str, whole: WholeArray) -> None:
+    shape = whole.values.shape
+    chunks = tuple(max(size, 1) for size in shape)
+    kept = KeptArray(whole.dims, shape, chunks, whole.values.dtype.str, whole.attrs)
+    _create(group, name, kept)[...] = whole.values

@@ -1,0 +1,88 @@
+"""Where a sweep is cut into blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from optipath.errors import ParameterError, shown, unknown
+from optipath.values.whole_numbers import is_whole
+
+BLOCK = 1 << 20
+"""About how many points a block has that nobody has chosen a size for."""
+
+
+def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> dict[str, int]:
+    """Return how many values a block has along each dimension.
+
+    Parameters
+    ----------
+    chunks : int, str or mapping of str to int
+        As `PathGraph.sweep` takes it. Dimensions that a mapping does not name are cut as by
+        ``"auto"``, in the room that the others leave.
+    sizes : mapping of str to int
+        How many values each dimension has, in order.
+    detectors : int, optional
+        How many lights each point has; a block has all of them.
+
+    Returns
+    -------
+    dict of str to int
+        In the order of the dimensions.
+
+    Raises
+    ------
+    ParameterError
+        With every fault: of an unknown dimension, or of what is no size.
+
+    Examples
+    --------
+    >>> chunk_sizes("auto", {"delta": 1000, "rho": 1000, "phi": 100})
+    {'delta': 10, 'rho': 1000, 'phi': 100}
+    >>> chunk_sizes({"delta": 250, "phi": -1}, {"delta": 1000, "rho": 1000, "phi": 100})
+    {'delta': 250, 'rho': 40, 'phi': 100}
+    """
+    if not sizes:
+        raise ParameterError(
+            "chunks= and store= cut axes into blocks, and there is no axis; give several values "
+            "for a parameter, or leave them out"
+        )
+    told = _told(chunks, sizes)
+    found = {name: min(sizes[name], size) for name, size in told.items()}
+    room = BLOCK // detectors
+    for size in found.values():
+        room //= size
+    for name in reversed([*sizes]):
+        if name not in found:
+            found[name] = _even(sizes[name], max(1, min(room, sizes[name])))
+            room //= found[name]
+    return {name: found[name] for name in sizes}
+
+
+def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
+    """Return the sizes that somebody has chosen."""
+    if isinstance(chunks, str) and chunks == "auto":
+        return {}
+    forms = (
+        f"give 'auto', a number of values along each dimension, or {{'{next(iter(sizes))}': 10}}"
+    )
+    if isinstance(chunks, Mapping):
+        faults = [fault for name in chunks for fault in unknown("dimension", name, sizes)]
+        given = {name: size for name, size in chunks.items() if name in sizes}
+        wrong = [(f"chunks of '{name}'", size) for name, size in given.items()]
+    else:
+        faults, given, wrong = [], dict.fromkeys(sizes, chunks), [("chunks", chunks)]
+    faults += [
+        f"{what} cannot be {shown(size)}: {forms}; -1 keeps a dimension whole"
+        for what, size in wrong
+        if not (is_whole(size) or is_whole(size, -1, -1))
+    ]
+    if faults:
+        raise ParameterError(*faults)
+    return {name: sizes[name] if size == -1 else int(size) for name, size in given.items()}
+
+
+def _even(count: int, most: int) -> int:
+    """Return the size of as few and as equal parts as there can be."""
+    parts = -(-count // most)
+    return -(-count // parts)

@@ -1,0 +1,164 @@
+"""A sweep as a job of blocks that are kept, each computed by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from hashlib import sha256
+from importlib.metadata import version
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.sweeps.block_light import run_block
+from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    import numpy.typing as npt
+
+    from optipath.sweeps.in_chunks import ChunkedSweep
+    from optipath.sweeps.light_quantities import LightQuantity
+    from optipath.sweeps.plan_recipe import PlanRecipe
+    from optipath.sweeps.sweep_axis import SweepAxis
+    from optipath.sweeps.sweep_grid import SweepGrid
+
+LAYOUT = 1
+"""The version of what a store of a sweep has in it."""
+
+
+@dataclass(frozen=True)
+class SweepJob:
+    """A sweep that is computed block by block and kept; see `BlockJob`.
+
+    Attributes
+    ----------
+    recipe : PlanRecipe
+        What is run.
+    grid : SweepGrid
+        With the values of its parameters.
+    sizes : mapping of str to int
+        How many values a block has along each dimension.
+    quantities : mapping of str to LightQuantity
+        By the names of their variables.
+    arrays, coords, attrs
+        The variables, coordinates and attributes of the Dataset.
+    """
+
+    recipe: PlanRecipe
+    grid: SweepGrid
+    sizes: Mapping[str, int]
+    quantities: Mapping[str, LightQuantity]
+    arrays: Mapping[str, KeptArray]
+    coords: Mapping[str, WholeArray]
+    attrs: Mapping[str, Any] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, chunked: ChunkedSweep) -> SweepJob:
+        """Return the job that keeps a sweep in chunks.
+
+        Parameters
+        ----------
+        chunked : ChunkedSweep
+            The sweep, of which nothing is computed yet.
+
+        Returns
+        -------
+        SweepJob
+        """
+        dataset, sizes = chunked.dataset, chunked.dataset.chunksizes
+        arrays = {
+            str(name): KeptArray(
+                tuple(map(str, each.dims)),
+                each.shape,
+                tuple([sizes[dimension][0] for dimension in each.dims]),
+                str(each.dtype),
+                each.attrs,
+            )
+            for name, each in dataset.data_vars.items()
+        }
+        coords = {
+            str(name): WholeArray(tuple(map(str, each.dims)), _fixed(each.to_numpy()), each.attrs)
+            for name, each in dataset.coords.items()
+        }
+        each_size = {name: sizes[name][0] for name in chunked.grid.sizes}
+        return cls(
+            chunked.recipe,
+            chunked.grid,
+            each_size,
+            chunked.quantities,
+            arrays,
+            coords,
+            dataset.attrs,
+        )
+
+    @property
+    def identity(self) -> str:
+        """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
+        lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
+        lines += [f"option {name}: {value!r}" for name, value in self.recipe.options]
+        lines += [f"fixed {name}: {_plain(value)!r}" for name, value in self.grid.fixed.items()]
+        lines += [f"axis {axis.name}: {_told(axis)}" for axis in self.grid.axes]
+        lines += [f"chunks of {name}: {size}" for name, size in self.sizes.items()]
+        lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
+        return "\n".join([*lines, self.recipe.text])
+
+    @property
+    def _counts(self) -> tuple[int, ...]:
+        """How many blocks there are along each dimension."""
+        return tuple([-(-count // self.sizes[name]) for name, count in self.grid.sizes.items()])
+
+    @property
+    def blocks(self) -> int:
+        """How many blocks there are."""
+        return prod(self._counts)
+
+    def region(self, number: int) -> tuple[slice, ...]:
+        """Return the part of the grid that a block is, counted from 0 in the order of the axes."""
+        places = np.unravel_index(number, self._counts)
+        return tuple(
+            [
+                slice(int(place) * size, min((int(place) + 1) * size, count))
+                for place, size, count in zip(
+                    places, self.sizes.values(), self.grid.shape, strict=True
+                )
+            ]
+        )
+
+    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
+        """Return the part of each variable that a block is, and what is in it.
+
+        Parameters
+        ----------
+        number : int
+            Which block, from 0.
+
+        Returns
+        -------
+        dict of str to (tuple of slice, ndarray)
+        """
+        region = self.region(number)
+        light = run_block(self.recipe, self.grid.part(region))
+        front = (slice(0, len(light.lights)),) if len(light.lights) > 1 else ()
+        return {name: ((*front, *region), light.of(each)) for name, each in self.quantities.items()}
+
+
+def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return words as words of a fixed length, which stores have."""
+    return values.astype(str) if values.dtype.kind == "O" else values
+
+
+def _plain(value: Any) -> Any:
+    """Return a single number of NumPy as one of Python: they are the same sweep."""
+    return value.item() if isinstance(value, np.generic | np.ndarray) else value
+
+
+def _told(axis: SweepAxis) -> str:
+    """Return what tells an axis from all others, to the last bit."""
+    ends = f"{axis.shown[0]} to {axis.shown[-1]} {axis.unit}".rstrip()
+    digest = sha256()
+    for values in (axis.given, axis.shown):
+        held = values.tobytes() if values.dtype.kind != "O" else repr(values.tolist()).encode()
+        digest.update(f"{values.dtype.str} {values.shape} ".encode() + held)
+    return f"{len(axis)} values, {ends}, along {axis.dimension}, {digest.hexdigest()[:16]}"

@@ -1,0 +1,149 @@
+"""Tables of texts: columns of a file of separated values, each with a name and a unit."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from optipath.errors import OptipathError, ParameterError, did_you_mean, listed
+from optipath.values.curves.csv_header import split_heading
+from optipath.values.curves.csv_lines import first_of, lines_of
+from optipath.values.given_files import given_file
+from optipath.values.units import unit_of
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+    from os import PathLike
+
+    from optipath.values.parameters import Parameter
+
+_NUMBER = re.compile(r"[-+]?\.?\d")
+
+
+class TextColumn(NamedTuple):
+    """A column of a file.
+
+    Attributes
+    ----------
+    name, unit : str
+        As the first line says; ``""`` for no unit.
+    texts : tuple of str
+        What stands below, numbers with the unit behind them.
+    """
+
+    name: str
+    unit: str
+    texts: tuple[str, ...]
+
+    @property
+    def lacks_units(self) -> bool:
+        """Whether a number of it has no unit."""
+        return any(_NUMBER.match(text) and not unit_of(text) for text in self.texts)
+
+
+def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[TextColumn]:
+    """Return the columns of a file.
+
+    The first line has their names, a unit in parentheses or behind a line: ``delta (deg)``,
+    ``delta [deg]``, ``delta_deg``; or each number has one. Values are separated by commas,
+    semicolons or tabulators; empty lines and those that begin with ``#`` are comments.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        The file, in UTF-8.
+    known : collection of str, optional
+        Names that are no name and unit, such as ``width_mm``.
+
+    Returns
+    -------
+    list of TextColumn
+
+    Raises
+    ------
+    ParameterError, ValueFault
+        With all that is wrong, and the lines.
+    """
+    file = given_file(path, ParameterError)
+    lines = lines_of(file)
+    if not lines:
+        raise ParameterError("it is empty; write the names of columns, and lines", about=str(file))
+    (number, header), *rows = lines
+    faults = []
+    if any(_NUMBER.match(cell) or not cell for cell in header):
+        faults.append(
+            f"line {number} has numbers or nothing for names of columns; begin with a line such as "
+            f"'delta (deg), wavelength (nm)'"
+        )
+    elif not rows:
+        faults.append(f"line {number} is the only one; write a line for each value behind it")
+    faults += [
+        f"line {line} has {len(cells)} values, and line {number} has {len(header)} names; write "
+        f"one for each"
+        for line, cells in rows
+        if len(cells) != len(header)
+    ]
+    faults += [f"line {line} has an empty cell; write a value" for line, c in rows if "" in c]
+    heads = [(head, "") if head in known else split_heading(head) for head in header]
+    names = [name for name, _ in heads]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    faults += [f"line {number} names '{name}' twice; keep one column" for name in twice]
+    if faults:
+        raise ParameterError(*first_of(faults), about=str(file))
+    found = []
+    for place, (name, unit) in enumerate(heads):
+        texts = [_text(line, cells[place], unit, faults) for line, cells in rows]
+        found.append(TextColumn(name, unit, tuple(texts)))
+    if faults:
+        raise ParameterError(*first_of(faults), about=str(file))
+    return found
+
+
+def column_for(parameter: Parameter, path: str) -> list[str]:
+    """Return the texts of the column that is a parameter's: of its name, or the only one.
+
+    Parameters
+    ----------
+    parameter : Parameter
+        What they are for.
+    path : str
+        The file.
+
+    Returns
+    -------
+    list of str
+
+    Raises
+    ------
+    ParameterError, ValueFault
+        As `columns_of`, or if there are several columns of other names.
+    """
+    name = parameter.name
+    columns = columns_of(path, [name])
+    for column in columns:
+        if column.name == name:
+            return [*column.texts]
+    names = [column.name for column in columns]
+    if len(columns) > 1:
+        why = f"of the columns {listed(names)}, none is called '{name}'{did_you_mean(name, names)}"
+        raise ParameterError(why, about=path)
+    if _is_value(parameter, names[0]):
+        why = f"'{names[0]}' is the first line, which is a name; begin with the line '{name}'"
+        raise ParameterError(why, about=path)
+    return [*columns[0].texts]
+
+
+def _is_value(parameter: Parameter, text: str) -> bool:
+    try:
+        parameter.parse(text)
+    except OptipathError:
+        return False
+    return True
+
+
+def _text(line: int, cell: str, unit: str, faults: list[str]) -> str:
+    """Return what stands in a cell, a number with its unit."""
+    own = unit_of(cell)
+    if own and unit and own != unit:
+        faults.append(f"line {line}: '{cell}' is not in {unit}, as the first line says; keep one")
+    return f"{cell} {unit}" if unit and not own and _NUMBER.match(cell) else cell

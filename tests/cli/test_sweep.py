@@ -1,0 +1,232 @@
+"""``optipath sweep``: tables, and files of every form."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.cli import main, sweep_command
+from optipath.cli.sweep_files import regions
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "80")
+
+
+def sweep(capsys, *arguments):
+    status = main(["sweep", *arguments])
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+def written(file):
+    """Return the columns of a table by their headings."""
+    header, *rows = [line.split(",") for line in file.read_text("utf-8").splitlines()]
+    return dict(zip(header, np.array(rows, float).T, strict=True))
+
+
+def test_one_axis_is_a_table_with_what_light_is_told_of(capsys):
+    status, out, err = sweep(capsys, "malus", "--angle", "0:90:3")
+    lines = [line.split() for line in out.splitlines()]
+    assert (status, err) == (0, "")
+    header = ["angle", "(deg)", "S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "(deg)"]
+    assert any(line[: len(header)] == header for line in lines)
+    assert any(line[:8] == ["45", "0.25", "0", "0.25", "0", "1", "1", "45"] for line in lines)
+    assert any(line[:7] == ["90", "0", "0", "0", "0", "-", "-"] for line in lines)
+    assert all(len(line) <= 80 for line in out.splitlines())
+
+
+def test_two_small_axes_are_a_plane_of_intensities(capsys):
+    _, out, _ = sweep(capsys, "malus", "--angle", "0:90:3", "--intensity", "1:2:2")
+    lines = [line.split() for line in out.splitlines()]
+    assert ["angle", "(deg)", "\\", "intensity", "1", "2"] in lines
+    assert ["45", "0.25", "0.5"] in lines
+    assert "--out FILE" in lines[-1][-5:] or "--out FILE" in out
+
+
+def test_large_grids_are_summed_up(capsys):
+    _, out, _ = sweep(capsys, "malus", "--angle", "0:90:31", "--intensity", "1:4:31")
+    assert "961 points (angle 31, intensity 31)" in out
+    assert out.split("light at eye")[1].split()[:2] == ["0", "2"]
+
+
+def test_json_has_axes_units_and_all_values(capsys):
+    _, out, _ = sweep(capsys, "malus", "--angle", "0:60:3", "--intensity", "1, 2", "--json")
+    told = json.loads(out)
+    assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
+    stokes = np.array(told["detectors"]["eye"]["stokes"])
+    np.testing.assert_allclose(stokes[..., 0], [[0.5, 1], [0.375, 0.75], [0.125, 0.25]], atol=1e-15)
+
+
+def test_what_is_zipped_varies_along_one_axis(capsys):
+    given = ["--angle", "0:60:3", "--intensity", "1:3:3", "--zip", "angle,intensity"]
+    told = json.loads(sweep(capsys, "malus", *given, "--json")[1])
+    intensities = [stokes[0] for stokes in told["detectors"]["eye"]["stokes"]]
+    assert intensities == pytest.approx([0.5, 0.75, 0.375], abs=1e-15)
+    assert told["axes"]["angle"]["dimension"] == told["axes"]["intensity"]["dimension"]
+
+
+def test_a_table_has_a_line_for_each_point_and_units_in_its_headings(capsys, tmp_path):
+    file = tmp_path / "result.csv"
+    given = ["--angle", "0:60:3", "--intensity", "1:2:2", "--out", "result.csv"]
+    status, out, err = sweep(capsys, "malus", *given)
+    assert (status, err) == (0, "")
+    assert out == "wrote result.csv: 6 points (angle 3, intensity 2)\n"
+    found = written(file)
+    assert [*found][:4] == ["angle (deg)", "intensity", "S0", "S1"]
+    np.testing.assert_allclose(found["angle (deg)"], [0, 0, 30, 30, 60, 60])
+    cosines = np.cos(np.radians(found["angle (deg)"])) ** 2
+    np.testing.assert_allclose(found["S0"], found["intensity"] * cosines / 2, rtol=1e-14)
+    np.testing.assert_allclose(found["AoP (deg)"], found["angle (deg)"], atol=1e-12)
+
+
+def test_a_table_that_is_written_is_read_back_as_an_axis(capsys):
+    sweep(capsys, "malus", "--angle", "0:60:3", "--out", "result.csv")
+    told = json.loads(sweep(capsys, "malus", "--angle", "@result.csv", "--json")[1])
+    assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
+
+
+def test_columns_of_a_file_vary_together(capsys, tmp_path):
+    (tmp_path / "points.csv").write_text("delta (deg),rho (deg)\n10,0\n20,5\n", "utf-8")
+    given = ["--coords", "points.csv", "--case", "8", "--json"]
+    stokes = json.loads(sweep(capsys, "npgr026", *given)[1])["detectors"]["E"]["stokes"]
+    path = op.load_preset("npgr026", case="8")
+    alone = [
+        path.trace(delta=delta, rho=rho).stokes
+        for delta, rho in (("10 deg", "0 deg"), ("20 deg", "5 deg"))
+    ]
+    np.testing.assert_allclose(stokes, alone, rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.parametrize("name", ["result.zarr", "result.nc"])
+def test_stores_have_the_axes_in_the_units_given(name, capsys):
+    xarray = pytest.importorskip("xarray")
+    given = ["--delta", "0:90:4", "--filter", "0:90:3", "--out", name]
+    status, out, _ = sweep(capsys, "npgr026", *given, "--scheduler", "synchronous")
+    assert (status, out) == (0, f"wrote {name}: 12 points (delta 4, filter 3)\n")
+    opened = xarray.open_zarr(name) if name.endswith(".zarr") else xarray.open_dataset(name)
+    with opened as dataset:
+        assert dict(dataset.sizes) == {"delta": 4, "filter": 3}
+        assert dataset.delta.attrs["units"] == "deg"
+        assert dataset.delta.values.tolist() == [0.0, 30.0, 60.0, 90.0]
+        alone = op.load_preset("npgr026").trace(delta="30 deg", filter="45 deg").stokes
+        found = [float(dataset[f"S{place}"][1, 1]) for place in range(4)]
+    np.testing.assert_allclose(found, alone, rtol=1e-13, atol=1e-16)
+
+
+def test_a_store_that_is_whole_is_not_computed_again(capsys):
+    pytest.importorskip("xarray")
+    given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "5"]
+    assert sweep(capsys, *given, "--scheduler", "synchronous")[2] == ""
+    status, _, err = sweep(capsys, *given, "--scheduler", "synchronous")
+    assert (status, err) == (0, "optipath: 2 of 2 blocks are in a.zarr already\n")
+
+
+def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, monkeypatch):
+    pytest.importorskip("xarray")
+    from optipath.sweeps.sweep_job import SweepJob  # noqa: PLC0415 - an extra
+
+    compute = SweepJob.compute
+
+    def interrupted(job, number):
+        if number == 2:
+            raise KeyboardInterrupt
+        return compute(job, number)
+
+    given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "3"]
+    given += ["--scheduler", "synchronous"]
+    with monkeypatch.context() as patch:
+        patch.setattr(SweepJob, "compute", interrupted)
+        status, _, err = sweep(capsys, *given)
+    told = "optipath: 2 of 4 blocks are in a.zarr; the same command goes on from there\n"
+    assert (status, err) == (130, f"{told}optipath: interrupted\n")
+    numbers = []
+    monkeypatch.setattr(SweepJob, "compute", lambda *a: numbers.append(a[1]) or compute(*a))
+    assert sweep(capsys, *given)[2] == "optipath: 2 of 4 blocks are in a.zarr already\n"
+    assert numbers == [2, 3]
+
+
+@pytest.mark.parametrize("name", ["a.csv", "a.json", "a.nc", "a.zarr"])
+def test_nothing_that_is_there_is_overwritten(name, capsys, tmp_path):
+    if name in ("a.nc", "a.zarr"):
+        pytest.importorskip("xarray")
+    (tmp_path / name).write_text("mine", "utf-8")
+    status, out, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", name)
+    assert (status, out, len(err.splitlines())) == (2, "", 1)
+    assert name in err
+    assert (tmp_path / name).read_text("utf-8") == "mine"
+    assert [file.name for file in tmp_path.iterdir()] == [name]
+
+
+def test_a_table_is_whole_or_not_there(capsys, monkeypatch, tmp_path):
+    def broken(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("optipath.cli.sweep_files._texts", broken)
+    assert sweep(capsys, "malus", "--angle", "0:90:3", "--out", "a.csv")[0] == 130
+    assert not [*tmp_path.iterdir()]
+
+
+def test_all_that_is_wrong_with_options_and_values_is_told_at_once(capsys):
+    wrong = ["--out", "a.txt", "--chunks", "0", "--scheduler", "hreads", "--zip", "delta"]
+    wrong += ["--coords", "none.csv", "--delta", "0:95:3", "--phi", "95"]
+    status, out, err = sweep(capsys, "npgr026", *wrong)
+    assert (status, out) == (2, "")
+    for part in (
+        "'a.txt' has no ending of a sweep; write 'a.csv', .json, .nc or .zarr",
+        "--chunks '0' is no size",
+        "--scheduler 'hreads' is unknown",
+        "--zip 'delta' names fewer than two",
+        "none.csv: there is no such file",
+        "'delta' is 95 deg at 2",
+        "'phi' is 95 deg,",
+    ):
+        assert part in err
+
+
+@pytest.mark.parametrize(
+    ("given", "sentence"),
+    [
+        ([], "a sweep has an axis at least; give --angle START:STOP:COUNT or --coords FILE.csv"),
+        (["--angle", "45"], "a sweep has an axis at least"),
+        (["--angle", "0:9:3", "--out", "none/a.csv"], "there is no folder"),
+        (["--angle", "0:9:3", "--out", "a.csv", "--json"], "give one of them"),
+        (["--angle", "0:9:3", "--out", "a.csv", "--chunks", "3"], "--chunks belongs to a sweep"),
+        (["--angle", "0:9:3", "--zip", "angle,intensty"], "which has no axis of its own"),
+        (["--angle", "0:9:3", "--case", "1", "--case", "2"], "sweep takes one case"),
+    ],
+)
+def test_a_fault_is_one_sentence(given, sentence, capsys):
+    status, out, err = sweep(capsys, "malus", *given)
+    assert (status, out) == (2, "")
+    assert sentence in err
+    assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize("missing", ["xarray", "dask", "zarr"])
+def test_a_missing_extra_is_told_with_its_cure(missing, capsys, monkeypatch):
+    # As if nothing of it had been imported by another test.
+    for name in [name for name in sys.modules if name.startswith("optipath.sweeps.")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, missing, None)
+    status, _, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", "a.zarr")
+    assert status == 2
+    assert err.endswith("is not installed; pip install 'optipath[sweep]'\n")
+
+
+def test_help_says_how_several_values_are_written(capsys):
+    assert "start:stop:count" in sweep(capsys, "malus", "--help")[1]
+    assert "--out FILE" in sweep(capsys, "malus", "--help")[1]
+    assert sweep_command.sweep.name == "sweep"
+
+
+@pytest.mark.parametrize("most", [1, 2, 5, 6, 7, 100])
+def test_regions_cover_a_grid_in_the_order_of_its_points(most):
+    points = np.arange(2 * 3 * 4).reshape(2, 3, 4)
+    parts = [points[region].ravel() for region in regions(points.shape, most)]
+    assert all(len(part) <= most for part in parts)
+    np.testing.assert_array_equal(np.concatenate(parts), points.ravel())

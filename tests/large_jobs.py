@@ -1,0 +1,98 @@
+"""Large jobs that are small: for tests of blocks that are kept, and for the workers of these."""
+
+import os
+import signal
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from optipath.errors import ValueFault
+from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
+
+ROWS, COLUMNS = 4, 3
+
+
+@dataclass(frozen=True)
+class Powers:
+    """Powers of whole numbers, four rows a block; each block that is computed is told in a log."""
+
+    blocks: int
+    log: str = ""
+    slow: float = 0.0
+    fails_at: int = -1
+    kills_at: int = -1
+    title: str = "powers"
+    axis: bytes = b""
+
+    @property
+    def identity(self):
+        return f"{self.title}\nblocks = {self.blocks}"
+
+    @property
+    def arrays(self):
+        shape = (ROWS * self.blocks, COLUMNS)
+        attrs = {"units": "1", "long_name": "power"}
+        return {
+            "power": KeptArray(("number", "exponent"), shape, (2, COLUMNS), attrs=attrs),
+            "total": KeptArray(("block",), (self.blocks,), (1,), "int64"),
+        }
+
+    @property
+    def coords(self):
+        return {
+            "number": WholeArray(("number",), np.arange(float(ROWS * self.blocks)), {"units": "m"}),
+            "called": WholeArray(("exponent",), np.array(["itself", "square", "cube"])),
+        }
+
+    @property
+    def attrs(self):
+        return {"path": "[vertices]\n", "title": self.title}
+
+    def compute(self, number):
+        if self.log:
+            told_in(Path(self.log), number)
+        time.sleep(self.slow)
+        if number == self.fails_at:
+            raise ValueFault(f"block {number} is dark")
+        if number == self.kills_at:
+            os.kill(os.getpid(), signal.SIGKILL)
+        rows = slice(ROWS * number, ROWS * (number + 1))
+        values = np.arange(rows.start, rows.stop)[:, np.newaxis] ** np.arange(1.0, COLUMNS + 1)
+        total = np.array([int(values.sum())])
+        return {
+            "power": ((rows, slice(0, COLUMNS)), values),
+            "total": ((slice(number, number + 1),), total),
+        }
+
+
+class WhoComputes(Powers):
+    """Its numbers are the process that computes them."""
+
+    def compute(self, number):
+        found = super().compute(number)
+        region, values = found["power"]
+        return found | {"power": (region, np.full_like(values, os.getpid()))}
+
+
+def told_in(log, number):
+    """Add a line in one piece, whichever processes do so at a time."""
+    place = os.open(log, os.O_WRONLY | os.O_APPEND | os.O_CREAT)
+    os.write(place, f"{number}\n".encode())
+    os.close(place)
+
+
+def computed(log):
+    """The numbers of the blocks that were computed, in this order."""
+    return [int(line) for line in log.read_text().split()] if log.exists() else []
+
+
+def powers(blocks):
+    """What they are, all at once."""
+    return np.arange(ROWS * blocks)[:, np.newaxis] ** np.arange(1.0, COLUMNS + 1)
+
+
+def marked(store):
+    """The numbers of the blocks that a store says it has."""
+    return {int(file.name) for file in (store / "blocks" / "done").iterdir() if file.name.isdigit()}
