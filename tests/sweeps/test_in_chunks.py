@@ -12,7 +12,7 @@ import dask
 import xarray as xr
 
 import optipath as op
-from optipath.sweeps import in_chunks
+from optipath.sweeps import chunked_light, in_chunks
 from optipath.sweeps.block_light import run_block
 
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4}
@@ -47,7 +47,7 @@ def test_threads_have_the_same_bits():
 
 
 def test_nothing_is_computed_before_somebody_asks(monkeypatch):
-    monkeypatch.setattr(in_chunks, "run_block", None)
+    monkeypatch.setattr(chunked_light, "run_block", None)
     assert swept(chunks=4).S0.chunks == ((4, 3), (4, 1), (4, 2))
 
 
@@ -58,7 +58,7 @@ def test_a_block_is_run_once_for_all_that_is_asked_of_it(monkeypatch):
         blocks.append(block.shape)
         return run_block(recipe, block)
 
-    monkeypatch.setattr(in_chunks, "run_block", counted)
+    monkeypatch.setattr(chunked_light, "run_block", counted)
     swept(chunks={"delta": 4}).compute(scheduler="synchronous")
     assert sorted(blocks) == [(3, 5, 6), (4, 5, 6)]
 
@@ -70,7 +70,7 @@ def test_a_part_of_a_sweep_runs_the_blocks_that_it_touches(monkeypatch):
         blocks.append(block.shape)
         return run_block(recipe, block)
 
-    monkeypatch.setattr(in_chunks, "run_block", counted)
+    monkeypatch.setattr(chunked_light, "run_block", counted)
     found = swept(chunks={"delta": 1}).DoP.isel(delta=3).compute(scheduler="synchronous")
     assert blocks == [(1, 5, 6)]
     assert np.array_equal(found, swept().DoP.isel(delta=3))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from hashlib import sha256
-from importlib.metadata import version
 from math import prod
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +11,7 @@ import numpy as np
 from optipath.errors import ParameterError
 from optipath.sweeps.block_light import run_block
 from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
+from optipath.sweeps.sweep_identity import sweep_identity
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,11 +21,7 @@ if TYPE_CHECKING:
     from optipath.sweeps.in_chunks import ChunkedSweep
     from optipath.sweeps.light_quantities import LightQuantity
     from optipath.sweeps.plan_recipe import PlanRecipe
-    from optipath.sweeps.sweep_axis import SweepAxis
     from optipath.sweeps.sweep_grid import SweepGrid
-
-LAYOUT = 1
-"""The version of what a store of a sweep has in it."""
 
 
 @dataclass(frozen=True)
@@ -107,13 +102,8 @@ class SweepJob:
     @property
     def identity(self) -> str:
         """All of what is computed, a line each: other values, blocks, or bits are another sweep."""
-        lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
-        lines += [f"option {name}: {value!r}" for name, value in self.recipe.options]
-        lines += [f"fixed {name}: {_plain(value)!r}" for name, value in self.grid.fixed.items()]
-        lines += [f"axis {axis.name}: {_told(axis)}" for axis in self.grid.axes]
-        lines += [f"chunks of {name}: {size}" for name, size in self.sizes.items()]
-        lines += [f"variable {name}: {each.dtype}" for name, each in self.arrays.items()]
-        return "\n".join([*lines, self.recipe.text])
+        types = {name: each.dtype for name, each in self.arrays.items()}
+        return sweep_identity(self.recipe, self.grid, self.sizes, types)
 
     @property
     def _counts(self) -> tuple[int, ...]:
@@ -158,18 +148,3 @@ class SweepJob:
 def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
     """Return words as words of a fixed length, which stores have."""
     return values.astype(str) if values.dtype.kind == "O" else values
-
-
-def _plain(value: Any) -> Any:
-    """Return a single number of NumPy as one of Python: they are the same sweep."""
-    return value.item() if isinstance(value, np.generic | np.ndarray) else value
-
-
-def _told(axis: SweepAxis) -> str:
-    """Return what tells an axis from all others, to the last bit."""
-    ends = f"{axis.shown[0]} to {axis.shown[-1]} {axis.unit}".rstrip()
-    digest = sha256()
-    for values in (axis.given, axis.shown):
-        held = values.tobytes() if values.dtype.kind != "O" else repr(values.tolist()).encode()
-        digest.update(f"{values.dtype.str} {values.shape} ".encode() + held)
-    return f"{len(axis)} values, {ends}, along {axis.dimension}, {digest.hexdigest()[:16]}"
