@@ -153,5 +153,7 @@ class Sweeping:
         options = import_module(f"{room}.propagate_options").PropagateOptions(
             method, samples, seed, correlation, detector, composer
         )
-        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)
-        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)
+        found: Propagation = import_module(f"{room}.propagate").propagate(
+            self, unnamed, values, options
+        )
+        return found
