@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from os import PathLike
 
     from optipath.composer.composer import Composer
-    from optipath.sweeps.uncertainty.propagation import Propagation
 
 _BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
@@ -100,7 +99,7 @@ class Sweeping:
         detector: str | None = None,
         composer: Composer | None = None,
         **values: Any,
-    ) -> Propagation:
+    ) -> Any:
         """Return the light with its uncertainty, which follows from those of values.
 
         To the first order by slopes (JCGM 100:2008, the GUM, eqs. 10 and 13), or by samples (its
