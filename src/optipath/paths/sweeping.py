@@ -152,7 +152,4 @@ class Sweeping:
         options = import_module(f"{room}.propagate_options").PropagateOptions(
             method, samples, seed, correlation, detector, composer
         )
-        found: Propagation = import_module(f"{room}.propagate").propagate(
-            self, unnamed, values, options
-        )
-        return found
+        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)
