@@ -90,6 +90,14 @@ def test_a_table_that_is_written_is_read_back_as_an_axis(capsys):
     assert told["axes"]["angle"] == {"unit": "deg", "values": [0.0, 30.0, 60.0]}
 
 
+def test_the_points_of_a_table_are_given_again(capsys):
+    given = ["--delta", "10:20:2", "--rho", "5:10:2", "--out", "result.csv"]
+    sweep(capsys, "npgr026", *given)
+    told = json.loads(sweep(capsys, "npgr026", "--coords", "result.csv", "--json")[1])
+    assert told["axes"]["delta"]["values"] == [10.0, 10.0, 20.0, 20.0]
+    assert told["axes"]["rho"] == {"dimension": "point", "unit": "deg", "values": [5, 10, 5, 10]}
+
+
 def test_columns_of_a_file_vary_together(capsys, tmp_path):
     (tmp_path / "points.csv").write_text("delta (deg),rho (deg)\n10,0\n20,5\n", "utf-8")
     given = ["--coords", "points.csv", "--case", "8", "--json"]

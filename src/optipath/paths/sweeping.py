@@ -153,4 +153,3 @@ class Sweeping:
             method, samples, seed, correlation, detector, composer
         )
         return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)
-        return import_module(f"{room}.propagate").propagate(self, unnamed, values, options)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import OptipathError, ParameterError, shown
 from optipath.sweeps.labelled_values import has_coordinates
+from optipath.sweeps.variable_names import is_variable
 from optipath.values.axis_texts import read_entries
 from optipath.values.text_tables import columns_of
 from optipath.values.units import USUAL_UNITS, dimension_of
@@ -46,7 +47,8 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
     inputs : Inputs
         What may be given.
     coords : str, PathLike, xarray.Dataset, xarray.DataArray, mapping or None
-        A CSV file with a column for each parameter: several vary together along ``point``.
+        A CSV file with a column for each parameter: several vary together along ``point``; columns
+        called as what a sweep finds are not looked at.
         Coordinates of a Dataset: those along one dimension vary together, and its data are not
         looked at. A mapping from names to what else is given by keyword.
     faults : list of str
@@ -79,7 +81,12 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
 def _of_file(
     inputs: Inputs, path: str | PathLike[str], faults: list[str]
 ) -> dict[str, GivenCoordinate]:
-    columns = columns_of(path, inputs.open)
+    # The table of a sweep has its axes, and what was found along them.
+    columns = [
+        column
+        for column in columns_of(path, inputs.open)
+        if column.name in inputs.open or not is_variable(column.name)
+    ]
     dimension = _ROWS if len(columns) > 1 else ""
     found = {}
     for column in columns:

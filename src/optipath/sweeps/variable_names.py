@@ -20,6 +20,18 @@ _BESIDE = {"psi": "Psi", "delta": "Delta"}
 """What both ellipsometric angles are called where a parameter has the name of one."""
 
 
+def is_variable(name: str) -> bool:
+    """Tell whether a column of a file is called as a variable of a sweep, at a detector or at all.
+
+    Examples
+    --------
+    >>> is_variable("S0"), is_variable("DoP at camera"), is_variable("rho")
+    (True, True, False)
+    """
+    own = {quantity.variable for quantity in (*QUANTITIES, FAINT)}
+    return name.partition(" at ")[0] in {*own, *_BESIDE.values()}
+
+
 def detectors_of(plan: Plan) -> tuple[str, ...]:
     """Return the names of the detectors of a plan; dumps are none."""
     return tuple(plan.program.detectors)
