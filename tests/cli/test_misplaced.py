@@ -28,11 +28,11 @@ from optipath.cli import main
         ("run npgr026 -delta 30", "option '-delta' is unknown; did you mean '--delta'?"),
         ("run npgr026 -delta=30", "option '-delta' is unknown; did you mean '--delta'?"),
         ("run npgr026 --del 30", "option '--del' is unknown; did you mean '--delta'?"),
-        ("run npgr026 --n1 0,170", "'0,170' is not a quantity; did you mean '0.170'?"),
-        ("run npgr026 --n1 0,17", "'0,17' is not a quantity; did you mean '0.17'?"),
+        ("run npgr026 --n1 0,170", "write '0.170' for one, and '0, 170' for two"),
+        ("run npgr026 --n1 0,17", "write '0.17' for one, and '0, 17' for two"),
         (
             "run npgr026 --delta '30,5 deg'",
-            "'30,5 deg' is not a quantity; did you mean '30.5 deg'?",
+            "write '30.5 deg' for one, and '30 deg, 5 deg' for two",
         ),
     ],
 )

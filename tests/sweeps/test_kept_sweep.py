@@ -63,6 +63,13 @@ def test_what_is_kept_is_the_sweep_in_memory(store, scheduler):
     assert_same_bits(kept(store, scheduler=scheduler), swept())
 
 
+@pytest.mark.skipif(np.longdouble == np.float64, reason="longdouble is float64 here")
+def test_a_precision_that_stores_do_not_have_is_refused(store):
+    with pytest.raises(op.ParameterError, match="stores have no numbers of dtype 'longdouble'"):
+        kept(store, composer=op.Composer(dtype="longdouble"))
+    assert not store.exists()
+
+
 def test_what_is_kept_is_read_block_by_block(store):
     assert kept(store).S0.chunks == ((2, 2), (5, 5, 1))
 

@@ -112,7 +112,9 @@ def test_wavelengths_in_plain_nanometres_are_told():
 
 def test_a_hundred_million_points_are_refused_at_once_for_one_of_an_axis():
     given = {"delta": np.zeros(10_000), "rho": np.append(np.zeros(9_999), 7.0)}
-    (fault,) = refused(given)
+    with pytest.raises(op.ParameterError) as caught:
+        grid_of(NPGR.inputs, given, ranges=False)
+    (fault,) = caught.value.faults
     assert "at 9999, outside its range" in fault
 
 
@@ -228,6 +230,12 @@ def test_coordinates_along_one_dimension_vary_together():
     assert found.axes[1].given.tolist() == [10 * (np.pi / 180), 20 * (np.pi / 180)]
 
 
+def test_what_is_in_a_dataset_as_well_is_left_out_of_it():
+    faults = refused(TWO, coords=dataset())
+    assert all("such as coords.drop_vars(['delta', 'rho'])" in fault for fault in faults)
+    assert grid(TWO, coords=dataset().drop_vars(["delta", "rho"])).points == 12
+
+
 def test_coordinates_of_an_array_are_axes():
     assert grid(coords=dataset()["measured"]).sizes == {"point": 2}
 
@@ -267,10 +275,16 @@ def test_what_stands_along_the_dimension_of_a_parameter_varies_with_it():
 
 def test_the_dataset_of_a_sweep_gives_the_same_axes_again():
     pytest.importorskip("xarray")
-    given = {"delta": "0 deg:80 deg:9", "filter": ["none", "horizontal"], "n1": 1.2}
-    first = op.load_preset("npgr026").sweep(**given)
+    given = {
+        "delta": "0 deg:80 deg:2",
+        "rho": [0.3, 0.4],
+        "filter": ["none", "vertical"],
+        "n1": 1.2,
+    }
+    together = ("delta", "rho")
+    first = op.load_preset("npgr026").sweep(**given, zip=together)
     again = grid(coords=first)
-    for axis, other in zip(grid(given).axes, again.axes, strict=True):
+    for axis, other in zip(grid(given, together).axes, again.axes, strict=True):
         assert (axis.name, axis.dimension, axis.unit) == (other.name, other.dimension, other.unit)
         assert axis.given.tolist() == other.given.tolist()
     assert again.fixed["n1"] == 1.2

@@ -11,6 +11,7 @@ from optipath.sweeps.labelled_values import is_labelled, read_labelled
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, known
+from optipath.values.arrays.read_only import locked
 from optipath.values.axis_texts import AxisValues, read_axis_text, read_entries
 from optipath.values.cures import no_value
 from optipath.values.units import BASE_UNITS, dimension_of
@@ -57,8 +58,10 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
     parameter = inputs.open[name]
     if is_labelled(value):
         return _of_one_dimension(name, read_labelled(parameter, value, inputs.uses))
-    if isinstance(value, str) and (several := read_axis_text(value, parameter, "", inputs.uses)):
-        return several
+    if isinstance(value, str):
+        several = read_axis_text(value, parameter, "", inputs.uses)
+        if several is not None:
+            return several
     inputs.ask_in_doubt(name, value)
     array = as_given(f"parameter '{name}'", known(value), ParameterError)
     if array.dtype.kind in "UO":
@@ -68,9 +71,9 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
         )
     if array.dtype.kind not in "iufc":
         parameter.resolve(value)  # Which says what is wrong with it.
-    array = array.astype(np.float64) if array.dtype.kind in "iu" else array.copy()
+    array = locked(array.astype(np.float64) if array.dtype.kind in "iu" else array.copy())
     base = BASE_UNITS.get(dimension_of(parameter.unit), "")
-    return _of_one_dimension(name, AxisValues(array.copy(), base, array))
+    return _of_one_dimension(name, AxisValues(array, base, array))
 
 
 def _of_one_dimension(name: str, found: AxisValues) -> AxisValues:

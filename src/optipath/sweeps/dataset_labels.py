@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import pandas as pd
 
 from optipath.sweeps.variable_names import DETECTOR, detectors_of
 from optipath.values.units import BASE_UNITS
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
     from optipath.plan.plan import Plan
     from optipath.sweeps.light_quantities import LightQuantity
+    from optipath.sweeps.sweep_axis import SweepAxis
     from optipath.sweeps.sweep_grid import SweepGrid
     from optipath.values.parameters import Parameter
 
@@ -58,7 +60,7 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
         found[DETECTOR] = DETECTOR, np.array(several, object), attrs
     for axis in grid.axes:
         attrs = _attrs(axis.help, axis.unit, axis.shown)
-        found[axis.name] = axis.dimension, _for_files(axis.shown), attrs
+        found[axis.name] = axis.dimension, _labels(axis), attrs
     for name, parameter in plan.inputs.open.items():
         if name not in found:
             value = _single(parameter, grid.fixed.get(name, parameter.default))
@@ -79,6 +81,13 @@ def attributes_of(quantity: LightQuantity) -> dict[str, str]:
     """
     unit = {"units": quantity.unit} if quantity.unit else {}
     return {"long_name": quantity.name, **unit}
+
+
+def _labels(axis: SweepAxis) -> Any:
+    values = _for_files(axis.shown)
+    if axis.name != axis.dimension or values.dtype != np.float64:
+        return values
+    return pd.Index(values, copy=False)  # By default pandas copies what may be a long axis.
 
 
 def _attrs(name: str, unit: str, value: Any) -> dict[str, str]:

@@ -8,7 +8,7 @@ from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axis_values import read_values
 from optipath.sweeps.checked_axes import axis_faults, computed_faults, unnamed_arrays
 from optipath.sweeps.given_coords import GivenCoordinate, given_coords
-from optipath.sweeps.labelled_values import is_labelled
+from optipath.sweeps.labelled_values import has_coordinates, is_labelled
 from optipath.sweeps.sweep_axis import SweepAxis
 from optipath.sweeps.sweep_grid import SweepGrid
 from optipath.sweeps.zipped_axes import shared_dimensions, zipped_dimensions
@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from optipath.values.inputs import Inputs
+
+_SHORT = 16
+"""How many times the values of all axes a grid has at least beside which they are few."""
 
 
 def grid_of(
@@ -40,7 +43,8 @@ def grid_of(
     zip, coords
         As `PathGraph.sweep` takes them.
     ranges : bool, optional
-        Whether values are looked at that a run looks at as well; they are where others are wrong.
+        Whether values are looked at that a run looks at as well; they are where others are wrong,
+        and where the axes are short beside the grid.
 
     Returns
     -------
@@ -59,10 +63,11 @@ def grid_of(
     """
     faults: list[str] = []
     besides = given_coords(inputs, coords, faults)
+    twice = [name for name in given if name in besides]
+    drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
     faults += [
-        f"'{name}' is given by its name, and in coords as well; leave one of them out"
-        for name in given
-        if name in besides
+        f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
+        for name in twice
     ]
     several = {name: GivenCoordinate(value) for name, value in given.items()} | besides
     values = _read(inputs, several, faults)
@@ -82,7 +87,7 @@ def grid_of(
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
-    ranges = ranges or bool(faults)
+    ranges = ranges or bool(faults) or _SHORT * sum(map(len, axes)) < grid.points
     faults += axis_faults(inputs, grid, ranges=ranges)
     if not faults and ranges:
         faults = computed_faults(inputs, grid)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import ParameterError
 from optipath.sweeps.block_light import run_block
 from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
 
@@ -66,7 +67,17 @@ class SweepJob:
         Returns
         -------
         SweepJob
+
+        Raises
+        ------
+        ParameterError
+            If its numbers are of a precision that stores do not have.
         """
+        if chunked.dataset.S0.dtype.itemsize > np.dtype("float64").itemsize:
+            raise ParameterError(
+                "stores have no numbers of dtype 'longdouble'; leave store= out, or give "
+                "composer=op.Composer(dtype='float64')"
+            )
         dataset, sizes = chunked.dataset, chunked.dataset.chunksizes
         arrays = {
             str(name): KeptArray(

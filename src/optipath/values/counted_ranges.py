@@ -62,7 +62,7 @@ def texts_of_range(text: str) -> list[str]:
     rise = stop.numerator * start.denominator - start.numerator * stop.denominator
     behind = f" {unit}" if unit else ""
     # The quotient of two integers is the float next to it.
-    inner = [f"{(begin + rise * at) / denominator!r}{behind}" for at in range(1, steps)]
+    inner = [f"{(begin + rise * at) / denominator}{behind}" for at in range(1, steps)]
     return [first, *inner, last]
 
 

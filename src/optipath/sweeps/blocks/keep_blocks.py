@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import JobError
 from optipath.sweeps.blocks.block_store import BlockStore
-from optipath.sweeps.blocks.workers import workers_of
+from optipath.sweeps.blocks.workers import check_scheduler, workers_of
 from optipath.values.given_files import given_file
 
 if TYPE_CHECKING:
@@ -84,6 +84,7 @@ def keep_blocks(
     ...         print(found.square.values)
     [ 0.  1.  4.  9. 16. 25.]
     """
+    check_scheduler(scheduler)
     kept = BlockStore.of(job, given_file(store, JobError))
     done = kept.done(job.blocks)
     missing = [number for number in range(job.blocks) if number not in done]

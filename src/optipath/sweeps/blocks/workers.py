@@ -40,6 +40,28 @@ class Workers(NamedTuple):
     handed_out: Callable[[], int]
 
 
+def check_scheduler(scheduler: Any) -> None:
+    """Refuse what is no scheduler.
+
+    Raises
+    ------
+    JobError
+        If it is neither a known name, nor an address, nor a client.
+    """
+    if scheduler is None:
+        return
+    if isinstance(scheduler, str):
+        if "://" not in scheduler and (faults := unknown("scheduler", scheduler, SCHEDULERS)):
+            raise JobError(f"{faults[0]}; the address of a cluster begins with 'tcp://'")
+        return
+    found = sys.modules.get("distributed")
+    if found is None or not isinstance(scheduler, found.Client):
+        raise JobError(
+            f"a scheduler is one of {', '.join(SCHEDULERS)}, a distributed.Client or the address "
+            f"of a cluster, not {shown(scheduler)}; of a cluster, give cluster.get_client()"
+        )
+
+
 @contextmanager
 def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     """Have those at work whom a scheduler stands for; those who are made for it go afterwards.
@@ -58,7 +80,7 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     Raises
     ------
     JobError
-        If it is none, or cannot be reached.
+        If it cannot be reached.
     """
     given = _active_client() or "threads" if scheduler is None else scheduler
     if given == "synchronous":
@@ -67,7 +89,6 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
         with ThreadPoolExecutor(CPU_COUNT) as executor:
             yield Workers(executor, lambda: _AHEAD * CPU_COUNT)
     else:
-        _check(given)
         # It takes a second to import.
         from optipath.sweeps.blocks.cluster import client_of, threads_of  # noqa: PLC0415
 
@@ -76,19 +97,6 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
                 Travelling(client.get_executor(pure=False)),
                 lambda: _AHEAD * threads_of(client),
             )
-
-
-def _check(scheduler: Any) -> None:
-    if isinstance(scheduler, str):
-        if "://" not in scheduler and (faults := unknown("scheduler", scheduler, SCHEDULERS)):
-            raise JobError(f"{faults[0]}; the address of a cluster begins with 'tcp://'")
-        return
-    found = sys.modules.get("distributed")
-    if found is None or not isinstance(scheduler, found.Client):
-        raise JobError(
-            f"a scheduler is one of {', '.join(SCHEDULERS)}, a distributed.Client or the address "
-            f"of a cluster, not {shown(scheduler)}; of a cluster, give cluster.get_client()"
-        )
 
 
 def _active_client() -> Any:
