@@ -9,6 +9,7 @@ import pytest
 import optipath as op
 from optipath.engines.known_engines import REGISTRY
 from optipath.errors import MissingExtraError
+from optipath.values.arrays import memory
 
 
 def malus():
@@ -129,6 +130,13 @@ def test_a_parameter_that_is_called_as_an_option_is_told_with_a_cure_that_works(
     assert len(fault.value.faults) == 1
     found = path.bind(seed=3.0).propagate(t=(0.5, 0.1), method="differences")
     np.testing.assert_allclose(found.uncertainty_of("S0"), 0.3)
+
+
+def test_more_than_the_machine_has_memory_for_is_refused(monkeypatch):
+    monkeypatch.setattr(memory, "memory", lambda: 2**26)
+    angles = np.linspace(0.1, 1.0, 70_000)
+    with pytest.raises(op.ParameterError, match=r"paths, .* give fewer values at a time"):
+        malus().propagate(angle=(angles, 0.1), method="differences")
 
 
 def test_a_quantity_that_is_none_is_refused():

@@ -18,6 +18,7 @@ from optipath.sweeps.uncertainty.notes import notes_of_first_order, notes_of_los
 from optipath.sweeps.uncertainty.propagation import Propagation
 from optipath.sweeps.uncertainty.read_uncertain import read_uncertain
 from optipath.sweeps.uncertainty.stokes_slopes import slopes_of
+from optipath.values.arrays.memory import enough_for
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
@@ -27,6 +28,9 @@ if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
     from optipath.sweeps.uncertainty.propagate_options import PropagateOptions
+
+_BYTES = 1100
+"""What a path takes for each value that is uncertain, with all that is made on the way."""
 
 
 def propagate(
@@ -72,18 +76,14 @@ def propagate(
     asked.answers.large_angles.look(values)
     light_at = LightAt(asked, detector, exact, tuple(uncertain))
     light = light_at({})
-    if options.draws:
-        found = _by_samples(light_at, light, correlation, options)
-    else:
-        smooth = plan
-        if composer is not None:
-            exactly = replace(
-                composer, engine="auto", dtype="float64", tolerance=None, model="auto"
-            )
-            smooth = exactly.compose(path)
-        light_at = replace(light_at, plan=smooth)
-        found = _to_first_order(light_at, light, correlation, options)
-    return found
+    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
+        if options.draws:
+            return _by_samples(light_at, light, correlation, options)
+        if composer is None:
+            return _to_first_order(light_at, light, correlation, options)
+        exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
+        smooth = replace(light_at, plan=exactly.compose(path))
+        return _to_first_order(smooth, light, correlation, options)
 
 
 def _detector(plan: Plan, asked: Any) -> tuple[str, list[str]]:
