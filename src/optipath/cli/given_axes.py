@@ -13,7 +13,7 @@ from optipath.values.axis_texts import read_axis_text
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from optipath.paths.path_graph import PathGraph
     from optipath.values.axis_texts import AxisValues
@@ -103,7 +103,7 @@ def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
     -------
     SweepGrid
     """
-    known = path.parameters
+    known = path.parameters if axes else {}
     return SweepGrid(
         tuple([SweepAxis(name, name, *values, known[name].help) for name, values in axes.items()])
     )
@@ -135,7 +135,7 @@ def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable
         raise ParameterError(*faults)
 
 
-def refuse_arrays(path: PathGraph, axes: Iterable[str]) -> None:
+def refuse_arrays(path: PathGraph, axes: Collection[str]) -> None:
     """Raise where a path has arrays of its own, of which each value would go with one of an axis.
 
     Parameters
@@ -153,8 +153,8 @@ def refuse_arrays(path: PathGraph, axes: Iterable[str]) -> None:
     faults = [
         f"parameter '{name}' has several values in the file; give one by "
         f"--{name.replace('_', '-')}, or a range"
-        for name, parameter in path.parameters.items()
+        for name, parameter in (path.parameters.items() if axes else ())
         if name not in axes and isinstance(parameter.default, np.ndarray)
     ]
-    if axes and faults:
+    if faults:
         raise ParameterError(*faults)

@@ -125,7 +125,7 @@ def _in_base_units(parameter: Parameter, numbers: npt.NDArray[Any], unit: str) -
         return doubles * known.size
     # The decimal point is moved in the number as it is written, which rounds once.
     found = [
-        parameter.parse(f"{number!r} {unit}") if np.isfinite(number) else number
+        parameter.parse(f"{float(number)} {unit}") if np.isfinite(number) else number
         for number in doubles.ravel().tolist()
     ]
     return np.array(found).reshape(numbers.shape)

@@ -102,7 +102,7 @@ class Recorder:
         if about.commutes:
             names.sort(key=str)
         kind = _kind(operands[-1]) if about.kind == "same" else about.kind
-        axes = frozenset().union(*(symbol.axes for symbol in symbols))
+        axes = frozenset().union(*[symbol.axes for symbol in symbols])
         symbol = self._entered((operation, *names), operation, operands, kind, axes)
         symbol.positive = kind == "float" and stays_positive(operation, operands)
         return symbol
@@ -121,7 +121,7 @@ class Recorder:
         kinds = {_kind(operand) for operand in operands}
         kind = "float" if OPERATIONS.get(operation, _SAME).kind == "float" else ""
         kind = kind or next(name for name in ("float", "int", "bool") if name in kinds)
-        return tuple(self._number(operand, kind) for operand in operands)
+        return tuple([self._number(operand, kind) for operand in operands])
 
     def _number(self, value: Any, kind: str) -> Any:
         if isinstance(value, Symbol):
