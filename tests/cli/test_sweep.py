@@ -136,7 +136,7 @@ def test_a_store_that_is_whole_is_not_computed_again(capsys):
 
 def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, monkeypatch):
     pytest.importorskip("xarray")
-    from optipath.sweeps.sweep_job import SweepJob  # noqa: PLC0415 - an extra
+    from optipath.sweeps.kept.sweep_job import SweepJob  # noqa: PLC0415 - an extra
 
     compute = SweepJob.compute
 

@@ -13,7 +13,7 @@ pytest.importorskip("distributed")
 import distributed
 
 import optipath as op
-from optipath.sweeps.sweep_job import SweepJob
+from optipath.sweeps.kept.sweep_job import SweepJob
 
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4, "filter": "horizontal"}
 AXES = {

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, shown
-from optipath.sweeps.sweep_axis import SweepAxis
-from optipath.sweeps.sweep_grid import SweepGrid
+from optipath.sweeps.axes.sweep_axis import SweepAxis
+from optipath.sweeps.axes.sweep_grid import SweepGrid
 from optipath.values.axis_texts import read_axis_text
 from optipath.values.wavelength import Wavelength
 

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
     from optipath.cli.printed_numbers import Numbers
     from optipath.light.light import Light
-    from optipath.sweeps.sweep_axis import SweepAxis
-    from optipath.sweeps.sweep_grid import SweepGrid
+    from optipath.sweeps.axes.sweep_axis import SweepAxis
+    from optipath.sweeps.axes.sweep_grid import SweepGrid
 
 MOST_ROWS = 200
 """How many rows a table has; more are for a file."""

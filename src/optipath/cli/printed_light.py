@@ -15,7 +15,7 @@ from optipath.cli.plain_json import plain
 from optipath.cli.printed_grid import point_table, point_texts, span_text
 from optipath.cli.printed_numbers import Numbers
 from optipath.errors import listed
-from optipath.sweeps.sweep_grid import SweepGrid
+from optipath.sweeps.axes.sweep_grid import SweepGrid
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from optipath.cli.outcome import Outcome
-    from optipath.sweeps.sweep_grid import SweepGrid
+    from optipath.sweeps.axes.sweep_grid import SweepGrid
 
 _MOST_COLUMNS = 12
 _WIDEST = 1000

@@ -22,7 +22,7 @@ from optipath.cli.sweep_options import (
 )
 from optipath.composer.composer import Composer
 from optipath.errors import ParameterError, listed
-from optipath.sweeps.read_axes import grid_of
+from optipath.sweeps.axes.read_axes import grid_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

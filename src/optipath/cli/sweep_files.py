@@ -11,8 +11,8 @@ from optipath.cli.outcome import outcome_as_json
 from optipath.cli.printed_grid import heading
 from optipath.cli.progress_bar import progress_bar
 from optipath.cli.text_files import told_of, write
-from optipath.sweeps.light_quantities import QUANTITIES
-from optipath.sweeps.variable_names import detectors_of, variable_names
+from optipath.sweeps.labels.light_quantities import QUANTITIES
+from optipath.sweeps.labels.variable_names import detectors_of, variable_names
 from optipath.values.written_files import written_whole
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from optipath.cli.outcome import Outcome
     from optipath.plan.plan import Plan
-    from optipath.sweeps.sweep_grid import SweepGrid
+    from optipath.sweeps.axes.sweep_grid import SweepGrid
 
 _ROWS = 1 << 16
 """How many rows are computed and written at once."""

@@ -83,7 +83,7 @@ class ElementGraph(Chainable):
             raise PathError(f"declared must be a sequence of names, not {shown(declared)}")
         self._graph = nx.MultiDiGraph(declared=names, loops=loops)
         # What the graph has been composed to, until it changes.
-        self._plans: dict[str, Any] = {}
+        self._plans: dict[Any, Any] = {}
 
     @property
     def graph(self) -> nx.MultiDiGraph:

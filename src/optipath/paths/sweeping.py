@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from optipath.composer.composer import Composer
 
-_BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf")
+_BROUGHT = ("xarray", "pandas", "dask", "distributed", "zarr", "h5netcdf", "h5py")
 """What a sweep needs of the extra that brings it, and what that needs itself."""
 
 

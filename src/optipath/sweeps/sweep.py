@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEPT
 from optipath.errors import ParameterError, shown
-from optipath.sweeps.in_memory import swept_in_memory
-from optipath.sweeps.read_axes import grid_of
+from optipath.sweeps.axes.read_axes import grid_of
+from optipath.sweeps.whole.in_memory import swept_in_memory
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
@@ -64,13 +64,13 @@ def sweep(
             told = fault
         grid_of(plan.inputs, given, zip, coords)
         raise told
-    from optipath.sweeps.in_chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
+    from optipath.sweeps.chunked.in_chunks import swept_in_chunks  # noqa: PLC0415 - Dask takes its time
 
     chunked = swept_in_chunks(path, plan, grid, "auto" if chunks is None else chunks, composer)
     if place is None:
         return chunked.dataset
-    from optipath.sweeps.kept_sweep import kept_sweep  # noqa: PLC0415 - Zarr, too
-    from optipath.sweeps.sweep_job import SweepJob  # noqa: PLC0415
+    from optipath.sweeps.kept.kept_sweep import kept_sweep  # noqa: PLC0415 - Zarr, too
+    from optipath.sweeps.kept.sweep_job import SweepJob  # noqa: PLC0415
 
     return kept_sweep(SweepJob.of(chunked), place, scheduler, progress=progress)
 
@@ -88,13 +88,13 @@ def _plan(path: PathGraph, composer: Composer | None) -> Plan:
             f"a sweep gives the light at detectors, and Composer(keep='{composer.keep}') that on "
             f"every link as well; leave keep out, or put a Detector where light is to be read"
         )
-    return composer.compose(path)
+    return path.plan_by(composer)
 
 
 def _place(store: Any, scheduler: Any, progress: Any) -> Path | None:
     """Return where a sweep is to be kept; None where it is not."""
     if store is not None:
-        from optipath.sweeps.kept_sweep import place_of_store  # noqa: PLC0415
+        from optipath.sweeps.kept.kept_sweep import place_of_store  # noqa: PLC0415
 
         return place_of_store(store)
     given = {"scheduler": scheduler is not None, "progress": bool(progress)}

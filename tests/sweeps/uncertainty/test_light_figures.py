@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 import optipath as op
-from optipath.sweeps.light_quantities import QUANTITIES
+from optipath.sweeps.labels.light_quantities import QUANTITIES
 from optipath.sweeps.uncertainty.light_figures import difference, figures_of, gradients_of
 
 

@@ -93,7 +93,7 @@ def _reached(address: str) -> Client:
         return Client(address, set_as_default=False)
     except (OSError, ValueError, ImportError) as fault:
         raise JobError(
-            f"no cluster answers at {address!r} ({fault}); see that its scheduler runs and that "
+            f"no cluster answers at '{address}' ({fault}); see that its scheduler runs and that "
             f"the address is as it prints it"
         ) from None
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.errors import ParameterError, unknown
 from optipath.light.polarization_state import length
-from optipath.sweeps.light_quantities import QUANTITIES
+from optipath.sweeps.labels.light_quantities import QUANTITIES
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -71,7 +71,7 @@ def propagate(
     if faults:
         raise ParameterError(*faults)
     composer = options.composer
-    asked = plan if composer is None else composer.compose(path)
+    asked = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in given.items()}
     asked.answers.large_angles.look(values)
     light_at = LightAt(asked, detector, exact, tuple(uncertain))
@@ -89,7 +89,7 @@ def propagate(
 def _detector(plan: Plan, asked: Any) -> tuple[str, list[str]]:
     names = tuple(plan.program.detectors)
     try:
-        return only("detector", names, f"propagate(detector={names[0]!r}, ...)", asked), []
+        return only("detector", names, f"propagate(detector='{names[0]}', ...)", asked), []
     except OptipathError as fault:
         return "", list(fault.faults)
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.sweeps.light_quantities import QUANTITIES
+from optipath.sweeps.labels.light_quantities import QUANTITIES
 from optipath.sweeps.uncertainty.light_figures import figures_of
 
 if TYPE_CHECKING:

@@ -1,0 +1,133 @@
+"""What is wrong with the axes of a sweep, before any of it is computed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.errors import OptipathError
+from optipath.paths.sweeping import Sweeping
+from optipath.values.arrays.shapes import broadcast_fault
+from optipath.values.cures import no_value
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from optipath.sweeps.axes.sweep_grid import SweepGrid
+    from optipath.values.inputs import Inputs
+    from optipath.values.use import Use
+
+KEYWORDS = frozenset(Sweeping.sweep.__kwdefaults__ or ())
+"""What `PathGraph.sweep` takes by name beside parameters."""
+
+
+def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list[str]:
+    """Return what is wrong with values of a grid, each axis looked at by itself.
+
+    What combinations of values do not fit together is found when they are run.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given.
+    grid : SweepGrid
+        What is.
+    ranges : bool, optional
+        Whether ranges are looked at, as a run does as well.
+
+    Returns
+    -------
+    list of str
+        A sentence each, with the place along the axis.
+    """
+    faults = broadcast_fault({"a sweep": grid.shape})
+    given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes}}
+    for name, value in given.items():
+        uses = tuple([use for use in inputs.uses if use.value.name == name])
+        try:
+            if any(use.domain.takes_any for use in uses):
+                inputs.open[name].resolve(value)  # No light is looked at that NaN comes from.
+            if ranges:
+                _alone(inputs, name, uses).resolve({name: value})
+        except OptipathError as fault:
+            faults += fault.faults
+    return faults
+
+
+def computed_faults(inputs: Inputs, grid: SweepGrid) -> list[str]:
+    """Return what is wrong with what follows from values of a grid, each of which is well.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given.
+    grid : SweepGrid
+        What is.
+
+    Returns
+    -------
+    list of str
+        Of the index of a metal, for instance, which follows from a wavelength.
+    """
+    if not inputs.computed:
+        return []
+    try:
+        # Along the dimensions of what it follows from, and nothing is laid out.
+        replace(inputs, agreements=(), for_complex=()).resolve(grid.given())
+    except OptipathError as fault:
+        return [*fault.faults]
+    return []
+
+
+def unnamed_arrays(inputs: Inputs, given: Collection[str]) -> list[str]:
+    """Return what is wrong with a path that has arrays, of which no axis has the name.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What the path has.
+    given : collection of str
+        The parameters that a sweep gives.
+
+    Returns
+    -------
+    list of str
+    """
+    faults = [
+        f"{owner} has an array of shape {shape}, and no axis has its name; put a Parameter there, "
+        f"and sweep it"
+        for owner, shape in inputs.shapes.items()
+        if shape
+    ]
+    for name, parameter in inputs.open.items():
+        if name in given:
+            continue
+        if parameter.default is None and name in KEYWORDS:
+            faults.append(
+                f"parameter '{name}' has no value, and sweep has a keyword of that name; give it "
+                f"by coords={{'{name}': ...}}"
+            )
+        elif parameter.default is None:
+            faults.append(no_value(name))
+        elif np.ndim(parameter.default) > len(inputs.tails.get(name, ())):
+            faults.append(
+                f"parameter '{name}' has an array of shape {np.shape(parameter.default)} by "
+                f"default, which is no axis; give it, {name}=..., or one value"
+            )
+    return faults
+
+
+def _alone(inputs: Inputs, name: str, uses: tuple[Use, ...]) -> Inputs:
+    """Return what may be given for one parameter, as if there were no others."""
+    return replace(
+        inputs,
+        open={name: inputs.open[name]},
+        uses=uses,
+        shapes={},
+        known=(),
+        agreements=(),
+        for_complex=(),
+        computed=(),
+    )

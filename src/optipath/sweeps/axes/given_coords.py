@@ -1,0 +1,134 @@
+"""Axes that stand elsewhere: what ``coords=`` gives."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from os import PathLike
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.axes.labelled_values import has_coordinates
+from optipath.sweeps.labels.variable_names import is_variable
+from optipath.values.axis_texts import read_entries
+from optipath.values.text_tables import columns_of
+from optipath.values.units import USUAL_UNITS, dimension_of
+
+if TYPE_CHECKING:
+    from optipath.values.inputs import Inputs
+    from optipath.values.text_tables import TextColumn
+
+DETECTOR = "detector"
+"""The dimension of several detectors in what a sweep returns."""
+
+_ROWS = "point"
+"""The dimension along which the columns of a file vary together."""
+
+
+class GivenCoordinate(NamedTuple):
+    """What is given for a parameter, and along which dimension.
+
+    Attributes
+    ----------
+    value : Any
+        As `PathGraph.sweep` takes it, or read already.
+    dimension : str
+        ``""`` for one of its own.
+    """
+
+    value: Any
+    dimension: str = ""
+
+
+def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+    """Return what ``coords=`` gives, by name.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given.
+    coords : str, PathLike, xarray.Dataset, xarray.DataArray, mapping or None
+        A CSV file with a column for each parameter: several vary together along ``point``; columns
+        called as what a sweep finds are not looked at.
+        Coordinates of a Dataset: those along one dimension vary together, and its data are not
+        looked at. A mapping from names to what else is given by keyword.
+    faults : list of str
+        To which is added what is wrong.
+
+    Returns
+    -------
+    dict of str to GivenCoordinate
+    """
+    if coords is None:
+        return {}
+    try:
+        if isinstance(coords, (str, PathLike)):
+            return _of_file(inputs, coords, faults)
+        if has_coordinates(coords):
+            return _of_dataset(inputs, getattr(coords, "coords", coords), faults)
+    except OptipathError as fault:
+        about = f"{fault.about}: " if fault.about else ""
+        faults += [f"{about}{sentence}" for sentence in fault.faults]
+        return {}
+    if isinstance(coords, Mapping):
+        return {str(name): GivenCoordinate(value) for name, value in coords.items()}
+    faults.append(
+        f"coords is {shown(coords)}; give the name of a CSV file, a Dataset, or a mapping such as "
+        f"{{'delta': [...]}}"
+    )
+    return {}
+
+
+def _of_file(
+    inputs: Inputs, path: str | PathLike[str], faults: list[str]
+) -> dict[str, GivenCoordinate]:
+    # The table of a sweep has its axes, and what was found along them.
+    columns = [
+        column
+        for column in columns_of(path, inputs.open)
+        if column.name in inputs.open or not is_variable(column.name)
+    ]
+    dimension = _ROWS if len(columns) > 1 else ""
+    found = {}
+    for column in columns:
+        try:
+            found[column.name] = GivenCoordinate(_values(inputs, column), dimension)
+        except OptipathError as fault:
+            faults += [f"{path}: {sentence}" for sentence in fault.faults]
+    return found
+
+
+def _values(inputs: Inputs, column: TextColumn) -> Any:
+    """Return the values of a column."""
+    if column.name not in inputs.open:
+        raise ParameterError(inputs.unknown(column.name))
+    parameter = inputs.open[column.name]
+    if (dimension := dimension_of(parameter.unit)) and column.lacks_units:
+        raise ParameterError(
+            f"column '{column.name}' has no unit; write its name as "
+            f"'{column.name} ({USUAL_UNITS[dimension]})' if that is its unit"
+        )
+    return read_entries(column.texts, parameter, "", inputs.uses)
+
+
+def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+    found = {}
+    for name, array in coords.items():
+        if name not in inputs.open and (name == DETECTOR or _is_label(inputs, coords, name)):
+            continue
+        if name not in inputs.open:
+            faults.append(f"{inputs.unknown(str(name))}, or leave it out, .drop_vars('{name}')")
+        elif array.ndim > 1:
+            faults.append(
+                f"coordinate '{name}' is along {', '.join(map(str, array.dims))}, and an axis has "
+                f"one dimension; leave it out, .drop_vars('{name}'), or make it of one, .stack(...)"
+            )
+        else:
+            found[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
+    return found
+
+
+def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:
+    """Tell whether a coordinate says what the points of a dimension are called, and no more."""
+    return coords[name].dims == (name,) and any(
+        other in inputs.open and array.dims == (name,) for other, array in coords.items()
+    )

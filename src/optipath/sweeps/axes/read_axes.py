@@ -1,0 +1,133 @@
+"""The axes of a sweep, out of what is given for it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import OptipathError, ParameterError
+from optipath.sweeps.axes.axis_values import read_values
+from optipath.sweeps.axes.checked_axes import axis_faults, computed_faults, unnamed_arrays
+from optipath.sweeps.axes.given_coords import GivenCoordinate, given_coords
+from optipath.sweeps.axes.labelled_values import has_coordinates, is_labelled
+from optipath.sweeps.axes.sweep_axis import SweepAxis
+from optipath.sweeps.axes.sweep_grid import SweepGrid
+from optipath.sweeps.axes.zipped_axes import shared_dimensions, zipped_dimensions
+from optipath.values.axis_texts import AxisValues
+from optipath.values.large_angles import LargeAngles
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.values.inputs import Inputs
+
+_SHORT = 16
+"""How many times the values of all axes a grid has at least beside which they are few."""
+
+
+def grid_of(
+    inputs: Inputs,
+    given: Mapping[str, Any],
+    zip: Any = (),  # noqa: A002 - as `path.sweep` has it
+    coords: Any = None,
+    *,
+    ranges: bool = True,
+) -> SweepGrid:
+    """Return the grid of a sweep.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        What may be given.
+    given : mapping of str to Any
+        What is, by name.
+    zip, coords
+        As `PathGraph.sweep` takes them.
+    ranges : bool, optional
+        Whether values are looked at that a run looks at as well; they are where others are wrong,
+        and where the axes are short beside the grid.
+
+    Returns
+    -------
+    SweepGrid
+        The dimensions of `given` in its order, and those of `coords` behind.
+
+    Raises
+    ------
+    ParameterError
+        With all that is wrong: with names, units, lengths, and with each axis by itself.
+
+    Warns
+    -----
+    AngleWarning
+        Once for each parameter of which a plain number is beyond a whole turn.
+    """
+    faults: list[str] = []
+    besides = given_coords(inputs, coords, faults)
+    twice = [name for name in given if name in besides]
+    drop = f", such as coords.drop_vars({twice})" if has_coordinates(coords) else ""
+    faults += [
+        f"'{name}' is given by its name, and in coords as well; leave one of them out{drop}"
+        for name in twice
+    ]
+    several = {name: GivenCoordinate(value) for name, value in given.items()} | besides
+    values = _read(inputs, several, faults)
+    dimensions = {name: several[name].dimension or name for name in values}
+    own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
+    dimensions |= zipped_dimensions(zip, own, inputs.open, faults)
+    along = {name: value.dims[0] for name, value in given.items() if is_labelled(value, axes=1)}
+    faults += shared_dimensions(along, dimensions)
+    faults += _named_as_others(dimensions, values, inputs)
+    faults += unnamed_arrays(inputs, several)
+    axes: list[SweepAxis] = []
+    fixed: dict[str, Any] = {}
+    for name, (shown, unit, numbers) in values.items():
+        if numbers.ndim:
+            told = inputs.open[name].help
+            axes.append(SweepAxis(name, dimensions[name], shown, unit, numbers, told))
+        else:
+            fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
+    grid = SweepGrid(tuple(axes), fixed)
+    ranges = ranges or bool(faults) or _SHORT * sum(map(len, axes)) < grid.points
+    faults += axis_faults(inputs, grid, ranges=ranges)
+    if not faults and ranges:
+        faults = computed_faults(inputs, grid)
+    if faults:
+        raise ParameterError(*dict.fromkeys(faults))
+    LargeAngles(inputs).look({n: g.value for n, g in several.items() if _is_plain(g.value)})
+    return grid
+
+
+def _read(
+    inputs: Inputs, several: Mapping[str, GivenCoordinate], faults: list[str]
+) -> dict[str, AxisValues]:
+    """Return the values of each parameter that there is, and that nothing is wrong with."""
+    found = {}
+    for name, (value, _) in several.items():
+        if name not in inputs.open:
+            faults.append(inputs.unknown(name))
+            continue
+        try:
+            found[name] = (
+                value if isinstance(value, AxisValues) else read_values(inputs, name, value)
+            )
+        except OptipathError as fault:
+            faults += fault.faults
+    return found
+
+
+def _named_as_others(
+    dimensions: Mapping[str, str], values: Mapping[str, AxisValues], inputs: Inputs
+) -> list[str]:
+    """Return what is wrong with dimensions that are called as parameters of other axes."""
+    along = {dimensions[name]: name for name, value in values.items() if value.given.ndim}
+    return [
+        f"'{name}' is along the dimension '{dimension}', which is the name of a parameter with "
+        f"another axis; rename the dimension, such as coords.rename_dims({dimension}='point')"
+        for dimension, name in along.items()
+        if dimension in inputs.open and dimensions.get(dimension) != dimension
+    ]
+
+
+def _is_plain(value: Any) -> bool:
+    """Tell whether a value may have plain numbers, without a unit beside them."""
+    return not (isinstance(value, AxisValues) or is_labelled(value))

@@ -1,0 +1,88 @@
+"""The grid of a sweep: the outer product of its axes, whole or a part of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from optipath.sweeps.axes.sweep_axis import SweepAxis
+
+
+@dataclass(frozen=True)
+class SweepGrid:
+    """The outer product of some axes; those of one dimension vary together.
+
+    Attributes
+    ----------
+    axes : tuple of SweepAxis
+        In the order in which they were given.
+    fixed : mapping of str to Any
+        What is given besides, a single value each.
+    """
+
+    axes: tuple[SweepAxis, ...]
+    fixed: Mapping[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def sizes(self) -> dict[str, int]:
+        """How many values each dimension has, in order."""
+        return {axis.dimension: len(axis) for axis in self.axes}
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Of the grid."""
+        return tuple(self.sizes.values())
+
+    @property
+    def points(self) -> int:
+        """How many paths it has."""
+        return prod(self.shape)
+
+    def part(self, region: Sequence[slice]) -> SweepGrid:
+        """Return a part of the grid.
+
+        Parameters
+        ----------
+        region : sequence of slice
+            One for each dimension.
+
+        Returns
+        -------
+        SweepGrid
+            Its arrays are views.
+        """
+        cuts = dict(zip(self.sizes, region, strict=True))
+        axes = [
+            replace(
+                axis, shown=axis.shown[cuts[axis.dimension]], given=axis.given[cuts[axis.dimension]]
+            )
+            for axis in self.axes
+        ]
+        return SweepGrid(tuple(axes), self.fixed)
+
+    def given(self, region: Sequence[slice] | None = None) -> dict[str, Any]:
+        """Return what `Plan.run` is given for the grid, or for a part of it.
+
+        Parameters
+        ----------
+        region : sequence of slice, optional
+            One for each dimension; by default all of it.
+
+        Returns
+        -------
+        dict of str to Any
+            Arrays that broadcast to the shape of the part: nothing is laid out.
+        """
+        places = list(self.sizes)
+        found = dict(self.fixed)
+        for axis in self.axes:
+            place = places.index(axis.dimension)
+            cut = slice(None) if region is None else region[place]
+            behind = len(places) - 1 - place
+            found[axis.name] = axis.given[cut].reshape(-1, *(1,) * behind)
+        return found

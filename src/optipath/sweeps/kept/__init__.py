@@ -1,0 +1,1 @@
+"""Sweeps that are kept: stores of Zarr and files of NetCDF, written block by block."""

@@ -1,0 +1,1 @@
+"""What a Dataset of light says: variables, coordinates, units and attributes."""

@@ -1,0 +1,1 @@
+"""Sweeps in memory: one run of the whole grid, with views of its light."""

@@ -1,0 +1,118 @@
+"""The light of a sweep in memory: whole, and what variables are computed of part by part."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import prod
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.light.frames import Frame
+from optipath.light.light import Light
+from optipath.plan.light_noise import noise_at
+from optipath.plan.running.pieces import pieces
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.axes.sweep_grid import SweepGrid
+    from optipath.sweeps.labels.light_quantities import LightQuantity
+
+    Array = np.ndarray[Any, Any]
+
+_AT_ONCE = 1 << 17
+"""Of how many lights something is computed at a time: what is made on the way stays small."""
+
+
+@dataclass(frozen=True, eq=False)
+class SweptLight:
+    """The light of a run at one detector, as it was computed.
+
+    Attributes
+    ----------
+    plan : Plan
+        What was run.
+    grid : SweepGrid
+        With what.
+    detector : str
+        Where the light is.
+    stokes : tuple or ndarray
+        Stokes vectors of shape (..., 4), or the four components, each by itself.
+    exponent : int or ndarray, shape (...)
+        Of the power of two times these.
+    """
+
+    plan: Plan
+    grid: SweepGrid
+    detector: str
+    stokes: Any
+    exponent: Any
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The precision of the plan."""
+        return np.dtype(self.plan.dtype)
+
+    @property
+    def is_faint(self) -> bool:
+        """Whether intensities may be too small for a float."""
+        return bool(np.any(self.exponent))
+
+    @property
+    def components(self) -> tuple[Array, ...]:
+        """S0 to S3, of the shape of the grid: views that cannot be written to."""
+        stokes = self.stokes
+        if self.is_faint:
+            stokes = Light.of(stokes, Frame(), self.exponent).stokes
+        parts = stokes if type(stokes) is tuple else np.moveaxis(np.asarray(stokes), -1, 0)
+        return tuple(np.broadcast_to(part, self.grid.shape) for part in parts)
+
+    def part(self, region: Sequence[slice]) -> Light:
+        """Return the light of a part of the grid, which knows what of it is noise."""
+        # Values of the part alone, so that nothing of the whole is looked at for its noise.
+        given = self.grid.given(region)
+        noise = (noise_at, self.plan.answers, self.detector, given, ())
+
+        def cut(numbers: Any) -> Array:
+            return np.broadcast_to(numbers, self.grid.shape)[tuple(region)]
+
+        stokes = self.stokes
+        parts = tuple(map(cut, stokes)) if type(stokes) is tuple else np.asarray(stokes)[*region, :]
+        return Light.of(parts, Frame(), cut(self.exponent) if self.is_faint else 0, noise)
+
+    def computed(self, quantity: LightQuantity, key: Sequence[int | slice]) -> Array:
+        """Return a quantity of a part of the grid.
+
+        Parameters
+        ----------
+        quantity : LightQuantity
+            What is computed.
+        key : sequence of int or slice
+            The part, an index for each axis.
+
+        Returns
+        -------
+        ndarray
+        """
+        axes = [
+            _places(range(size), index) for size, index in zip(self.grid.shape, key, strict=True)
+        ]
+        shape = tuple(map(len, axes))
+        found = np.empty(prod(shape), self.dtype)
+        for piece in pieces(shape, _AT_ONCE) if found.size else ():
+            where = (*piece.where, *[slice(None)] * (len(axes) - len(piece.where)))
+            several = [_places(axis, index) for axis, index in zip(axes, where, strict=True)]
+            light = self.part([slice(axis.start, axis.stop, axis.step) for axis in several])
+            found[piece.start : piece.stop] = np.ravel(quantity.of(light))
+        ends = tuple(slice(None) if isinstance(index, slice) else 0 for index in key)
+        return found.reshape(shape)[ends]
+
+
+def _places(axis: range, index: int | slice) -> range:
+    """Return the places of an axis that an index takes."""
+    if isinstance(index, slice):
+        return axis[index]
+    place = axis[index]
+    return range(place, place + 1)

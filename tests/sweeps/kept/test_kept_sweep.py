@@ -1,0 +1,205 @@
+"""Sweeps that are kept in a Zarr store or a file of NetCDF, and go on where they stopped."""
+
+import shutil
+
+import numpy as np
+import pytest
+
+pytest.importorskip("zarr")
+pytest.importorskip("h5netcdf")
+
+import xarray as xr
+
+import optipath as op
+from optipath.errors import JobError
+from optipath.sweeps.kept.sweep_job import SweepJob
+
+ANGLES = np.linspace(0.0, 1.5, 11)
+DELTAS = np.linspace(0.1, 1.4, 4)
+
+
+def swept(**given):
+    path = (
+        op.Source(3.0)
+        >> op.Interface(op.Parameter("n"), op.Parameter("delta"))
+        >> op.Polarizer(op.Parameter("angle"))
+        >> op.Detector()
+    )
+    return path.sweep(**{"delta": DELTAS, "angle": ANGLES, "n": 1.5, **given})
+
+
+def kept(store, **given):
+    return swept(**{"store": store, "chunks": {"delta": 2, "angle": 5}, **given})
+
+
+@pytest.fixture(params=["sweep.zarr", "sweep.nc"])
+def store(request, tmp_path):
+    return tmp_path / request.param
+
+
+@pytest.fixture
+def computed(monkeypatch):
+    """The numbers of the blocks that are computed."""
+    numbers, compute = [], SweepJob.compute
+
+    def counted(job, number):
+        numbers.append(number)
+        return compute(job, number)
+
+    monkeypatch.setattr(SweepJob, "compute", counted)
+    return numbers
+
+
+def assert_same_bits(found, expected):
+    assert {*found.variables} == {*expected.variables}
+    assert found.attrs == expected.attrs
+    for name, each in expected.variables.items():
+        assert (found[name].dims, found[name].attrs) == (each.dims, each.attrs)
+        assert found[name].to_numpy().tobytes() == each.to_numpy().tobytes()
+
+
+@pytest.mark.parametrize("scheduler", [None, "synchronous", "threads"])
+def test_what_is_kept_is_the_sweep_in_memory(store, scheduler):
+    assert_same_bits(kept(store, scheduler=scheduler), swept())
+
+
+@pytest.mark.skipif(np.longdouble == np.float64, reason="longdouble is float64 here")
+def test_a_precision_that_stores_do_not_have_is_refused(store):
+    with pytest.raises(op.ParameterError, match="stores have no numbers of dtype 'longdouble'"):
+        kept(store, composer=op.Composer(dtype="longdouble"))
+    assert not store.exists()
+
+
+def test_what_is_kept_is_read_block_by_block(store):
+    assert kept(store).S0.chunks == ((2, 2), (5, 5, 1))
+
+
+def test_a_name_may_be_a_text(tmp_path):
+    assert_same_bits(kept(str(tmp_path / "sweep.zarr")), swept())
+
+
+def test_a_sweep_that_is_there_is_opened_and_not_computed(store, computed):
+    kept(store)
+    assert sorted(computed) == list(range(6))
+    assert_same_bits(kept(store), swept())
+    assert len(computed) == 6
+
+
+def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, computed):
+    compute = SweepJob.compute
+
+    def interrupted(job, number):
+        if number == 4:
+            raise KeyboardInterrupt
+        return compute(job, number)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(SweepJob, "compute", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            kept(store, scheduler="synchronous")
+    assert sorted(computed) == [0, 1, 2, 3]
+    assert_same_bits(kept(store), swept())
+    assert sorted(computed) == list(range(6))
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"n": 1.6},
+        {"delta": DELTAS + 1e-15},
+        {"chunks": 3},
+        {"composer": op.Composer(dtype="float32")},
+    ],
+)
+def test_another_sweep_at_the_same_place_is_refused_and_nothing_is_changed(store, other):
+    kept(store)
+    with pytest.raises((JobError, op.ParameterError), match=store.name):
+        kept(store, **other)
+    assert_same_bits(kept(store), swept())
+
+
+def test_what_is_no_sweep_is_refused_and_left_alone(store):
+    store.write_text("mine")
+    with pytest.raises((JobError, op.ParameterError), match="is there"):
+        kept(store)
+    assert store.read_text() == "mine"
+
+
+def test_the_store_beside_a_file_is_gone_when_the_file_is_there(tmp_path):
+    kept(tmp_path / "sweep.nc")
+    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
+
+
+def test_a_file_that_cannot_be_written_whole_is_not_there(tmp_path, monkeypatch):
+    def fails(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", fails)
+    with pytest.raises(OSError, match="No space"):
+        kept(tmp_path / "sweep.nc")
+    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc.zarr"]
+
+
+def test_a_file_that_came_to_be_there_meanwhile_is_left_alone(tmp_path, monkeypatch):
+    file, compute = tmp_path / "sweep.nc", SweepJob.compute
+
+    def beside(job, number):
+        file.write_text("mine")
+        return compute(job, number)
+
+    monkeypatch.setattr(SweepJob, "compute", beside)
+    with pytest.raises(op.ParameterError, match="is there already"):
+        kept(file)
+    assert file.read_text() == "mine"
+    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
+
+
+@pytest.mark.parametrize("store", ["sweep.csv", "sweep", "", 3, True])
+def test_a_store_of_no_known_form_is_refused_with_one_that_is(store):
+    with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
+        kept(store)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({"scheduler": "threads"}, "scheduler= is for"),
+        ({"progress": True}, "progress= is for"),
+        ({"scheduler": "threads", "progress": True, "chunks": 2}, "scheduler= and progress= are"),
+    ],
+)
+def test_what_is_for_stores_is_not_ignored_without_one(given, told):
+    with pytest.raises(op.ParameterError, match=told):
+        swept(**given)
+
+
+def test_a_bar_ends_with_all_blocks(store, capsys):
+    kept(store, progress=True, scheduler="synchronous")
+    shown = capsys.readouterr().err
+    assert shown.startswith(f"[{' ' * 40}] 0 of 6 blocks\r")
+    assert shown.endswith(f"[{'#' * 40}] 6 of 6 blocks\n")
+
+
+def test_numbers_of_numpy_and_of_python_are_one_sweep(tmp_path, computed):
+    kept(tmp_path / "a.zarr")
+    kept(tmp_path / "a.zarr", n=np.float64(1.5), delta=DELTAS.tolist())
+    assert len(computed) == 6
+
+
+def test_several_detectors_are_kept(store):
+    path = op.PathGraph()
+    path.add("lamp", op.Source(2.0)) >> path.add("half", op.BeamSplitter(op.Parameter("share")))
+    for port in ("reflected", "transmitted"):
+        path.add(port, op.Detector())
+        path.connect(f"half.{port}", f"{port}.in")
+    found = path.sweep(share=[0.1, 0.2, 0.3], store=store, chunks=2)
+    assert found.detector.values.tolist() == ["reflected", "transmitted"]
+    assert found.S0.dims == ("detector", "share")
+    assert np.array_equal(found.S0, path.sweep(share=[0.1, 0.2, 0.3]).S0)
+
+
+def test_a_store_that_was_moved_is_still_the_sweep(tmp_path, computed):
+    kept(tmp_path / "a.zarr")
+    shutil.move(tmp_path / "a.zarr", tmp_path / "b.zarr")
+    assert_same_bits(kept(tmp_path / "b.zarr"), swept())
+    assert len(computed) == 6
