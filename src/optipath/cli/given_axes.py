@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, shown
-from optipath.sweeps.axes.sweep_axis import SweepAxis
+from optipath.sweeps.axes.sweep_axis import sweep_axis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
 from optipath.values.axis_texts import read_axis_text
 from optipath.values.wavelength import Wavelength
@@ -104,9 +104,7 @@ def grid_of_axes(path: PathGraph, axes: Mapping[str, AxisValues]) -> SweepGrid:
     SweepGrid
     """
     known = path.parameters if axes else {}
-    return SweepGrid(
-        tuple([SweepAxis(name, name, *values, known[name].help) for name, values in axes.items()])
-    )
+    return SweepGrid(tuple([sweep_axis(known, name, values) for name, values in axes.items()]))
 
 
 def refuse_axes(command: str, texts: Mapping[str, Sequence[str]], axes: Iterable[str]) -> None:

@@ -8,7 +8,7 @@ import click
 
 from optipath.cli.plain_json import plain
 from optipath.errors import OptipathError, ParameterError, printable, shown
-from optipath.values.axis_texts import AxisValues
+from optipath.values.axis_texts import AxisValues, IdleValues
 from optipath.values.cures import of_options
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.database.named_pages import VACUUM
@@ -120,7 +120,9 @@ def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
 
 
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
-    """Take a wavelength out of some values where nothing depends on it, and say so.
+    """Say where nothing depends on a wavelength that is among some values.
+
+    A single one is taken out of them; of several, all is the same along them.
 
     Parameters
     ----------
@@ -145,9 +147,15 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
     except OptipathError:
         return  # Which is told of the material.
     if not needed:
-        given = values.pop(name)
-        WAVELENGTH.resolve(given.given if isinstance(given, AxisValues) else given)
-        told = f"optipath: nothing in '{preset}' depends on the wavelength; --{name} is not used"
+        given = values[name]
+        several = isinstance(given, AxisValues)
+        WAVELENGTH.resolve(given.given if several else given)
+        if several:
+            values[name] = IdleValues(*given)
+        else:
+            del values[name]
+        told = "all is the same along it" if several else f"--{name} is not used"
+        told = f"optipath: nothing in '{preset}' depends on the wavelength; {told}"
         click.echo(printable(told), err=True)
 
 

@@ -91,15 +91,17 @@ class Outcome:
         """The largest errors that the certificates leave, where some are allowed."""
         approximation = self.plan.answers.approximation
         assert approximation is not None  # noqa: S101 - asked for by who knows
-        return approximation.errors_for(self.grid.given())
+        return _laid_out(approximation.errors_for(self.grid.given()), self.grid)
 
     @property
     def materials(self) -> dict[str, Any]:
-        """The materials that were given, with their n and k at the wavelength; {} without any."""
+        """The materials that were given, with n and k at each wavelength; {} without any."""
         if not (given := list(materials_among(self.chosen.values))):
             return {}
         known = self.path.parameters
         wavelength = known[WAVELENGTH.name].default if WAVELENGTH.name in known else None
+        along = [axis.given for axis in self.grid.axes if axis.name == WAVELENGTH.name]
+        wavelength = along[0] if along else wavelength
         found = {name: material_as_json(label, one, wavelength) for name, label, one in given}
         return {"materials": found}
 
@@ -137,8 +139,17 @@ def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> 
     """
     if grid.axes:
         refuse_more_than_free(plan, grid)
-    lights = plan.run_all(**grid.given())
+    found = plan.run_all(**grid.given())
+    lights = {name: _laid_out(light, grid) for name, light in found.items()}
     return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by), grid)
+
+
+def _laid_out(found: Any, grid: SweepGrid) -> Any:
+    """Return what a run has found, repeated along dimensions on which nothing depends."""
+    if (ran := grid.varied) is grid:
+        return found
+    each = zip(grid.shape, ran.shape, strict=True)
+    return found.reshape(ran.shape)[np.ix_(*[np.arange(size) % own for size, own in each])]
 
 
 def outcome_as_json(outcome: Outcome) -> dict[str, Any]:

@@ -132,7 +132,8 @@ def _texts(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Seq
         for quantity in QUANTITIES:
             numbers = quantity.of(lights[end])
             numbers = np.degrees(numbers) if quantity.unit == "rad" else numbers
-            yield [repr(number) for number in np.ravel(numbers + 0.0).tolist()]
+            each = np.broadcast_to(numbers + 0.0, shape)  # It may be the same along an axis.
+            yield [repr(number) for number in each.ravel().tolist()]
 
 
 def _text(value: Any) -> str:

@@ -49,6 +49,10 @@ class AxisValues(NamedTuple):
         return AxisValues(self.shown.reshape(shape), self.unit, self.given.reshape(shape))
 
 
+class IdleValues(AxisValues):
+    """The values of an axis on which nothing depends: all is the same along it."""
+
+
 class _Entry(NamedTuple):
     """One value: what was written, its number in its unit, and that in base units."""
 

@@ -43,7 +43,7 @@ def axis_faults(inputs: Inputs, grid: SweepGrid, *, ranges: bool = True) -> list
         A sentence each, with the place along the axis.
     """
     faults = broadcast_fault({"a sweep": grid.shape})
-    given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes}}
+    given = {**grid.fixed, **{axis.name: axis.given for axis in grid.axes if not axis.idle}}
     for name, value in given.items():
         uses = tuple([use for use in inputs.uses if use.value.name == name])
         try:

@@ -9,10 +9,10 @@ from optipath.sweeps.axes.axis_values import read_values
 from optipath.sweeps.axes.checked_axes import axis_faults, computed_faults, unnamed_arrays
 from optipath.sweeps.axes.given_coords import GivenCoordinate, given_coords
 from optipath.sweeps.axes.labelled_values import has_coordinates, is_labelled
-from optipath.sweeps.axes.sweep_axis import SweepAxis
+from optipath.sweeps.axes.sweep_axis import SweepAxis, sweep_axis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
 from optipath.sweeps.axes.zipped_axes import shared_dimensions, zipped_dimensions
-from optipath.values.axis_texts import AxisValues
+from optipath.values.axis_texts import AxisValues, IdleValues
 from optipath.values.large_angles import LargeAngles
 
 if TYPE_CHECKING:
@@ -73,17 +73,17 @@ def grid_of(
     values = _read(inputs, several, faults)
     dimensions = {name: several[name].dimension or name for name in values}
     own = {n: len(v.given) for n, v in values.items() if v.given.ndim and dimensions[n] == n}
-    dimensions |= zipped_dimensions(zip, own, inputs.open, faults)
+    dimensions |= zipped_dimensions(zip, own, {*inputs.open, *values}, faults)
     along = {name: value.dims[0] for name, value in given.items() if is_labelled(value, axes=1)}
     faults += shared_dimensions(along, dimensions)
     faults += _named_as_others(dimensions, values, inputs)
     faults += unnamed_arrays(inputs, several)
     axes: list[SweepAxis] = []
     fixed: dict[str, Any] = {}
-    for name, (shown, unit, numbers) in values.items():
+    for name, value in values.items():
+        numbers = value.given
         if numbers.ndim:
-            told = inputs.open[name].help
-            axes.append(SweepAxis(name, dimensions[name], shown, unit, numbers, told))
+            axes.append(sweep_axis(inputs.open, name, value, dimensions[name]))
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
     grid = SweepGrid(tuple(axes), fixed)
@@ -103,7 +103,7 @@ def _read(
     """Return the values of each parameter that there is, and that nothing is wrong with."""
     found = {}
     for name, (value, _) in several.items():
-        if name not in inputs.open:
+        if name not in inputs.open and not isinstance(value, IdleValues):
             faults.append(inputs.unknown(name))
             continue
         try:

@@ -43,6 +43,14 @@ class SweepGrid:
         """How many paths it has."""
         return prod(self.shape)
 
+    @property
+    def varied(self) -> SweepGrid:
+        """The same grid with one value along each dimension on which nothing depends."""
+        held = {axis.dimension for axis in self.axes if not axis.idle}
+        if len(held) == len(self.sizes):
+            return self
+        return self.part([slice(0, None if name in held else 1) for name in self.sizes])
+
     def part(self, region: Sequence[slice]) -> SweepGrid:
         """Return a part of the grid.
 
@@ -76,13 +84,17 @@ class SweepGrid:
         Returns
         -------
         dict of str to Any
-            Arrays that broadcast to the shape of the part: nothing is laid out.
+            Arrays that broadcast to the shape of the part: nothing is laid out. Axes on which
+            nothing depends are not among them, so that the part has one value along them.
         """
         places = list(self.sizes)
         found = dict(self.fixed)
-        for axis in self.axes:
+        used = [axis for axis in self.axes if not axis.idle]
+        is_whole = len(used) == len(self.axes)
+        for axis in used:
             place = places.index(axis.dimension)
             cut = slice(None) if region is None else region[place]
             behind = len(places) - 1 - place
-            found[axis.name] = axis.given[cut].reshape(-1, *(1,) * behind)
+            ahead = 0 if is_whole else place  # Dimensions in front may have no other array.
+            found[axis.name] = axis.given[cut].reshape(*(1,) * ahead, -1, *(1,) * behind)
         return found

@@ -33,6 +33,9 @@ class BlockLight:
         Of the block.
     lights : tuple of (tuple of Light)
         For each detector, that of the pieces of the block, which follow each other in memory.
+    ran : tuple of int, optional
+        The shape of what was run, 1 along dimensions on which nothing depends; that of the block
+        by default.
 
     Examples
     --------
@@ -47,6 +50,7 @@ class BlockLight:
 
     shape: tuple[int, ...]
     lights: tuple[tuple[Light, ...], ...]
+    ran: tuple[int, ...] | None = None
 
     def of(self, quantity: LightQuantity) -> npt.NDArray[Any]:
         """Return the numbers of a quantity; of several detectors, along the first axis.
@@ -58,7 +62,8 @@ class BlockLight:
             for several in self.lights
         ]
         front = (len(numbers),) if len(numbers) > 1 else ()
-        return np.concatenate(numbers).reshape(*front, *self.shape)
+        found = np.concatenate(numbers).reshape(*front, *(self.ran or self.shape))
+        return found if self.ran is None else np.broadcast_to(found, (*front, *self.shape))
 
     def __sizeof__(self) -> int:
         # What Dask takes for its memory: Stokes vectors and, once it is asked for, their noise.
@@ -79,14 +84,14 @@ def run_block(recipe: PlanRecipe, block: SweepGrid) -> BlockLight:
     -------
     BlockLight
     """
-    plan = recipe.plan
+    plan, varied = recipe.plan, block.varied
     with units_are_written():  # Who reads the axes has told of degrees among them.
         found = [
-            plan.run_all(**block.given(_region(piece.where, block.shape)))
-            for piece in pieces(block.shape, _AT_ONCE)
+            plan.run_all(**varied.given(_region(piece.where, varied.shape)))
+            for piece in pieces(varied.shape, _AT_ONCE)
         ]
     lights = [tuple([light[name] for light in found]) for name in detectors_of(plan)]
-    return BlockLight(block.shape, tuple(lights))
+    return BlockLight(block.shape, tuple(lights), None if varied is block else varied.shape)
 
 
 def _region(where: tuple[int | slice, ...], shape: tuple[int, ...]) -> list[slice]:

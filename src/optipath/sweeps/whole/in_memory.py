@@ -52,7 +52,7 @@ def swept_in_memory(
     """
     names, dims = variable_names(grid, plan), dimensions_of(grid, plan)
     coords = coordinates_of(grid, plan)
-    refuse_more_than_free(plan, grid)
+    refuse_more_than_free(plan, grid.varied)
     with units_are_written():  # Who reads the axes has told of degrees among them.
         found = plan.answers.lights(grid.given())
     lights = tuple([SweptLight(plan, grid, name, *found[name]) for name in detectors_of(plan)])

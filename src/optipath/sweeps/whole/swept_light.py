@@ -70,16 +70,19 @@ class SweptLight:
         return tuple(np.broadcast_to(part, self.grid.shape) for part in parts)
 
     def part(self, region: Sequence[slice]) -> Light:
-        """Return the light of a part of the grid, which knows what of it is noise."""
+        """Return the light of a part of what was run, which knows what of it is noise."""
+        ran = self.grid.varied
         # Values of the part alone, so that nothing of the whole is looked at for its noise.
-        given = self.grid.given(region)
+        given = ran.given(region)
         noise = (noise_at, self.plan.answers, self.detector, given, ())
 
         def cut(numbers: Any) -> Array:
-            return np.broadcast_to(numbers, self.grid.shape)[tuple(region)]
+            return np.broadcast_to(numbers, ran.shape)[tuple(region)]
 
-        stokes = self.stokes
-        parts = tuple(map(cut, stokes)) if type(stokes) is tuple else np.asarray(stokes)[*region, :]
+        if type(self.stokes) is tuple:
+            parts: Any = tuple(map(cut, self.stokes))
+        else:
+            parts = np.broadcast_to(self.stokes, (*ran.shape, 4))[*region, :]
         return Light.of(parts, Frame(), cut(self.exponent) if self.is_faint else 0, noise)
 
     def computed(self, quantity: LightQuantity, key: Sequence[int | slice]) -> Array:
@@ -99,6 +102,10 @@ class SweptLight:
         axes = [
             _places(range(size), index) for size, index in zip(self.grid.shape, key, strict=True)
         ]
+        whole = tuple(map(len, axes))
+        for place, size in enumerate(self.grid.varied.shape):
+            if size < self.grid.shape[place]:
+                axes[place] = range(min(len(axes[place]), 1))
         shape = tuple(map(len, axes))
         found = np.empty(prod(shape), self.dtype)
         for piece in pieces(shape, _AT_ONCE) if found.size else ():
@@ -107,7 +114,7 @@ class SweptLight:
             light = self.part([slice(axis.start, axis.stop, axis.step) for axis in several])
             found[piece.start : piece.stop] = np.ravel(quantity.of(light))
         ends = tuple(slice(None) if isinstance(index, slice) else 0 for index in key)
-        return found.reshape(shape)[ends]
+        return np.broadcast_to(found.reshape(shape), whole)[ends]
 
 
 def _places(axis: range, index: int | slice) -> range:
