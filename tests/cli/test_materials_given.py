@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import optipath as op
@@ -187,3 +188,29 @@ def test_what_is_no_wavelength_is_told_with_the_parameter(capsys):
 def test_help_writes_a_wavelength_as_it_may_be_typed(capsys):
     shown = run(capsys, "run", "npgr026", "--help")[1]
     assert "--wavelength '516 nm'" in shown
+
+
+@pytest.mark.usefixtures("database")
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["run", "npgr026", "--wavelength", "500 nm, 600 nm"],
+        ["sweep", "npgr026", "--delta", "0:90:3", "--wavelength", "500 nm:600 nm:2"],
+    ],
+)
+def test_json_has_n_and_k_of_a_material_along_an_axis_of_wavelengths(command, capsys):
+    status, out, err = run(capsys, *command, "--n1", "gold", "--json")
+    assert (status, err) == (0, "")
+    found = json.loads(out)["materials"]["n1"]
+    gold = op.Material.named("gold")
+    where = np.array([500e-9, 600e-9])
+    assert found["n"] == gold.n.at(where).tolist()
+    assert found["k"] == gold.k.at(where).tolist()
+
+
+@pytest.mark.usefixtures("database")
+def test_json_of_several_cases_has_them_too(capsys):
+    command = ["run", "npgr026", "--case", "all", "--wavelength", "500 nm, 600 nm"]
+    status, out, err = run(capsys, *command, "--n1", "gold", "--delta", "10,20,30", "--json")
+    assert (status, err) == (0, "")
+    assert all(len(each["materials"]["n1"]["k"]) == 2 for each in json.loads(out)["cases"].values())

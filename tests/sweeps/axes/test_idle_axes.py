@@ -136,7 +136,7 @@ def test_a_single_wavelength_is_no_axis(capsys):
 
 
 def test_a_command_that_takes_one_value_says_so(capsys):
-    assert main(["show", "malus", *GIVEN]) == 2
+    assert main(["explain", "malus", *GIVEN]) == 2
     assert "--wavelength is given several values" in capsys.readouterr().err
 
 
