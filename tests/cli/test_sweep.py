@@ -219,6 +219,9 @@ def test_a_fault_is_one_sentence(given, sentence, capsys):
 def test_a_missing_extra_is_told_with_its_cure(missing, capsys, monkeypatch):
     # As if nothing of it had been imported by another test.
     for name in [name for name in sys.modules if name.startswith("optipath.sweeps.")]:
+        parent, _, own = name.rpartition(".")
+        monkeypatch.setattr(sys.modules[parent], own, sys.modules[name])  # As it was, afterwards.
+    for name in [name for name in sys.modules if name.startswith("optipath.sweeps.")]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, missing, None)
     status, _, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", "a.zarr")

@@ -15,7 +15,7 @@ from large_jobs import Powers, computed, marked, powers
 from optipath.errors import JobError
 from optipath.sweeps.blocks.block_store import BlockStore
 from optipath.sweeps.blocks.executors import AtOnce
-from optipath.sweeps.blocks.keep_blocks import _handed_out, keep_blocks
+from optipath.sweeps.blocks.keep_blocks import _handed_out, _keep_block, keep_blocks
 from optipath.sweeps.blocks.workers import Workers
 
 
@@ -65,6 +65,13 @@ def test_an_error_of_a_block_comes_out_as_it_is_and_finished_blocks_stay(store, 
     assert marked(store) == {0, 1, 2, 3}
     keep_blocks(Powers(7, str(log)), store, "synchronous")
     assert computed(log) == [0, 1, 2, 3, 4, 4, 5, 6]
+
+
+def test_an_error_of_a_block_travels_as_a_value_since_clusters_log_what_is_raised(store):
+    job = Powers(2, fails_at=1)
+    fault = _keep_block(job, BlockStore.of(job, store), 1)
+    assert isinstance(fault, op.ValueFault)
+    assert str(fault) == "block 1 is dark"
 
 
 def test_an_error_in_a_thread_ends_the_job(store, log):

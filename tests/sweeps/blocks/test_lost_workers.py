@@ -5,6 +5,8 @@ import signal
 import subprocess
 import sys
 import time
+from multiprocessing import resource_tracker
+from multiprocessing.resource_tracker import ResourceTracker
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +22,7 @@ import xarray as xr
 import optipath as op
 from large_jobs import Powers, WhoComputes, computed, marked, powers
 from optipath.errors import JobError
+from optipath.sweeps.blocks.cluster import _interrupts_put_off
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
 
 TESTS = Path(__file__).parents[2]
@@ -168,6 +171,18 @@ def test_processes_are_of_this_machine_and_gone_afterwards(store, log):
     assert seen == {"127.0.0.1"}
     left = [each for each in psutil.Process().children(recursive=True) if each.pid not in before]
     assert [each for each in left if "resource_tracker" not in " ".join(each.cmdline())] == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no masks of signals")
+def test_processes_that_are_started_never_hear_ctrl_c(monkeypatch):
+    tracker = ResourceTracker()  # As if none had been started, which lets signals through.
+    monkeypatch.setattr(resource_tracker, "ensure_running", tracker.ensure_running)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    with _interrupts_put_off():
+        tracker.ensure_running()
+        assert signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    assert signal.pthread_sigmask(signal.SIG_BLOCK, []) == before
+    tracker._stop()
 
 
 RUN = """

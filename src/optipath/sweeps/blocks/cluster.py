@@ -7,7 +7,8 @@ import logging
 import signal
 import sys
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from multiprocessing import resource_tracker
 from typing import TYPE_CHECKING
 
 from dask.system import CPU_COUNT
@@ -62,11 +63,7 @@ def client_of(given: str | Client, blocks: int) -> Iterator[Client]:
         If it is closed, or nothing answers.
     """
     if given == "processes":
-        with (
-            _processes(min(CPU_COUNT, blocks)) as cluster,
-            Client(cluster, set_as_default=False) as client,
-        ):
-            client.run(_ignore_interrupts)
+        with _processes(min(CPU_COUNT, blocks)) as client:
             yield client
     elif isinstance(given, str):
         with _reached(given) as client:
@@ -98,43 +95,59 @@ def _reached(address: str) -> Client:
         ) from None
 
 
-def _ignore_interrupts() -> None:
-    # Ctrl-C comes to all processes of a terminal, and who made these ends them.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 async def _knock(address: str) -> None:
     comm = await connect(address, timeout=_PATIENCE)
     await comm.close()
 
 
 @contextmanager
-def _interrupts_put_off() -> Iterator[None]:
-    """Let Ctrl-C wait while processes start, which never hear it: it is for who started them."""
-    if sys.platform == "win32":
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+def _processes(count: int) -> Iterator[Client]:
+    """Have processes of this machine, which never hear Ctrl-C: who made them ends them."""
     try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def _processes(count: int) -> LocalCluster:
-    try:
-        with _interrupts_put_off():
-            return LocalCluster(
-                n_workers=count,
-                threads_per_worker=1,
-                host="127.0.0.1",
-                dashboard_address=None,
-                # It has an HTTP server all the same, by default at one port for all.
-                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
-                silence_logs=logging.ERROR,
-            )
+        with ExitStack() as stack:
+            with _interrupts_put_off():
+                cluster = stack.enter_context(_local_cluster(count))
+                client = stack.enter_context(Client(cluster, set_as_default=False))
+                client.run(_ignore_interrupts)
+                # What was put off is raised where all that is made here is closed in good order.
+            closing = stack.pop_all()
     except (RuntimeError, OSError) as fault:
         raise JobError(
             f"no processes can be started ({fault}); in a script, put what is run under if "
             f"__name__ == '__main__':, since each process imports it, or give scheduler='threads'"
         ) from None
+    with closing:
+        yield client
+
+
+def _local_cluster(count: int) -> LocalCluster:
+    return LocalCluster(
+        n_workers=count,
+        threads_per_worker=1,
+        host="127.0.0.1",
+        dashboard_address=None,
+        # It has an HTTP server all the same, by default at one port for all.
+        scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+        # What goes wrong with a block comes back, and is told by who waits for it.
+        silence_logs=logging.CRITICAL,
+    )
+
+
+def _ignore_interrupts() -> None:
+    # Ctrl-C comes to all processes of a terminal.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def _interrupts_put_off() -> Iterator[None]:
+    """Let Ctrl-C wait inside, and never come to processes that are started there."""
+    if sys.platform == "win32":
+        yield
+        return
+    # Were it started inside, it would let Ctrl-C through again.
+    resource_tracker.ensure_running()
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

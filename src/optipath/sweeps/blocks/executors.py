@@ -54,7 +54,7 @@ class Travelling(Executor):
         self._executor = executor
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Have it done by a worker, and return what will come of it.
+        """Have it done by a worker, and return what will come of it, or a `JobError`.
 
         Parameters
         ----------
@@ -74,8 +74,8 @@ def _unpacked(packed: bytes) -> Any:
     try:
         work = cloudpickle.loads(packed)
     except (ImportError, AttributeError) as fault:
-        raise JobError(
+        return JobError(
             f"a worker cannot load the job: {fault}; see that what defines it is a module that "
             f"the workers can import, too"
-        ) from None
+        )
     return work()

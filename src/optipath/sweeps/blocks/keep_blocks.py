@@ -7,7 +7,7 @@ from contextlib import closing
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import JobError
+from optipath.errors import JobError, OptipathError
 from optipath.sweeps.blocks.block_store import BlockStore
 from optipath.sweeps.blocks.workers import check_scheduler, workers_of
 from optipath.values.given_files import given_file
@@ -109,7 +109,7 @@ def _handed_out(
 ) -> Generator[int]:
     """Yield the numbers of blocks as they are done, of which a few at a time are handed out."""
     ahead = iter(numbers)
-    pending: dict[Future[None], int] = {}
+    pending: dict[Future[OptipathError | None], int] = {}
     try:
         while True:
             for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
@@ -125,16 +125,21 @@ def _handed_out(
             each.cancel()
 
 
-def _keep_block(job: BlockJob, kept: BlockStore, number: int) -> None:
-    # Another run, or a worker that was thought lost, may have done it.
-    if not kept.holds(number):
-        kept.keep(job, number, job.compute(number))
+def _keep_block(job: BlockJob, kept: BlockStore, number: int) -> OptipathError | None:
+    """Compute a block and keep it; return what is wrong, which clusters log where it is raised."""
+    try:
+        # Another run, or a worker that was thought lost, may have done it.
+        if not kept.holds(number):
+            kept.keep(job, number, job.compute(number))
+    except OptipathError as fault:
+        return fault
+    return None
 
 
-def _raise_fault(finished: Future[None], number: int) -> None:
+def _raise_fault(finished: Future[OptipathError | None], number: int) -> None:
     """Raise what went wrong with a block, as it is or, where its worker was lost, in a sentence."""
     try:
-        finished.result()
+        told = finished.result()
     except CancelledError:
         raise JobError(
             f"the cluster was lost while block {number} was computed; start again when it is "
@@ -148,3 +153,5 @@ def _raise_fault(finished: Future[None], number: int) -> None:
             f"memory perhaps; make blocks smaller or workers fewer and start again, and what is "
             f"done is not computed again"
         ) from None
+    if told is not None:
+        raise told
