@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from optipath.cli.progress_bar import progress_bar
+from optipath.cli.sweep_options import ending_of
 from optipath.errors import printable
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
     Parameters
     ----------
     store : str
-        Where blocks are kept.
+        Where the sweep is written.
 
     Yields
     ------
@@ -29,19 +30,21 @@ def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
         Takes how many blocks are done, and of how many.
     """
     counts: list[tuple[int, int]] = []
+    # The file is written once all are there.
+    kept = f"{store.rstrip('/')}.zarr" if ending_of(store) == ".nc" else store
     try:
         with progress_bar(1.0) as show:
 
             def tell(done: int, total: int) -> None:
                 if not counts and done:
-                    _say(f"{_counted(done, total)} in {store} already")
+                    _say(f"{_counted(done, total)} in {kept} already")
                 counts.append((done, total))
                 show(f"{done} of {total} blocks", completed=done / total)
 
             yield tell
     except KeyboardInterrupt:
         if counts and counts[-1][0]:
-            _say(f"{_counted(*counts[-1])} in {store}; the same command goes on from there")
+            _say(f"{_counted(*counts[-1])} in {kept}; the same command goes on from there")
         raise
 
 

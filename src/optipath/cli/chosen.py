@@ -15,7 +15,7 @@ from optipath.cli.given_light import (
     take_wavelength,
 )
 from optipath.composer.path_values import Values
-from optipath.errors import OptipathError, ParameterError, listed, there_are
+from optipath.errors import OptipathError, ParameterError, listed, shown, there_are
 from optipath.paths.presets.loader import bound_preset
 from optipath.values.axis_texts import AxisValues
 from optipath.values.cases import ALL
@@ -265,6 +265,13 @@ def _value(
     """Return what the text of an option stands for; None where it is faulty."""
     text = given[name]
     if name in path.choices:
+        words = path.choices[name].behind
+        if text not in words and any(each in text for each in ",:@"):
+            faults.append(
+                f"--{_flag(name)} takes one word of {listed([*words])}, and {shown(text)} is "
+                f"several; give one, and write a command for each"
+            )
+            return None
         return text
     parameter = path.parameters.get(name, WAVELENGTH)
     try:

@@ -16,6 +16,7 @@ from optipath.cli.sweep_options import (
     SWEEPING,
     chunks_of,
     coords_names,
+    ending_of,
     is_of_blocks,
     option_faults,
     zip_groups,
@@ -68,7 +69,7 @@ def _sweep(
                 composer=composer,
                 **chosen.axes,
             )
-    elif out is not None and out.endswith(".csv"):
+    elif out is not None and ending_of(out) == ".csv":
         write_csv(Path(out), plan, grid)
     else:
         outcome = outcome_of(chosen, path, plan, grid)

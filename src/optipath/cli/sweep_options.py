@@ -48,9 +48,20 @@ TEXTS, BLOCKS = (".csv", ".json"), (".nc", ".zarr")
 _SCHEDULERS = ("threads", "processes", "synchronous")
 
 
+def ending_of(out: str) -> str:
+    """Return the ending of a file, which says in which form it is written.
+
+    Examples
+    --------
+    >>> ending_of("result.csv"), ending_of("result.zarr/")
+    ('.csv', '.zarr')
+    """
+    return Path(out).suffix
+
+
 def is_of_blocks(out: str | None) -> bool:
     """Tell whether a file is written block by block, by its ending."""
-    return out is not None and Path(out).suffix in BLOCKS
+    return out is not None and ending_of(out) in BLOCKS
 
 
 def chunks_of(chunks: str | None) -> int | str | None:
@@ -61,10 +72,19 @@ def chunks_of(chunks: str | None) -> int | str | None:
 def zip_groups(
     zip: Sequence[str],  # noqa: A002 - as `path.sweep` has it
 ) -> dict[str, tuple[str, ...]]:
-    """Return the parameters of each group that varies together, by what was written."""
-    return {
-        names: tuple(name.strip() for name in names.split(",") if name.strip()) for names in zip
-    }
+    """Return the parameters of each group that varies together, by what was written.
+
+    Examples
+    --------
+    >>> zip_groups(["sky-angle, theta"])
+    {'sky-angle, theta': ('sky_angle', 'theta')}
+    """
+    return {names: tuple(filter(None, map(_parameter, names.split(",")))) for names in zip}
+
+
+def _parameter(option: str) -> str:
+    """Return the parameter of an option, with hyphens before and within it or without."""
+    return option.strip().lstrip("-").replace("-", "_")
 
 
 def coords_names(coords: str | None) -> list[str]:
@@ -144,7 +164,7 @@ def out_faults(out: str) -> list[str]:
     file = Path(out)
     if not out or "\0" in out:
         return [f"--out {shown(out)} is no name of a file; write one such as 'result.csv'"]
-    suffix = file.suffix
+    suffix = ending_of(out)
     if suffix not in (*TEXTS, *BLOCKS):
         meant = shown(str(file.with_suffix(".csv"))) if file.name else "'result.csv'"
         return [f"--out {shown(out)} has no ending of a sweep; write {meant}, .json, .nc or .zarr"]

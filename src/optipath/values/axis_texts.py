@@ -13,7 +13,7 @@ from optipath.values.curves.csv_lines import first_of
 from optipath.values.domains.axis import axes_for
 from optipath.values.parameters import ABSENT
 from optipath.values.ratios import NUMBER
-from optipath.values.several_texts import several_texts
+from optipath.values.several_texts import file_of, several_texts
 from optipath.values.units import BASE_UNITS, UNITS, dimension_of, in_unit, unit_of
 
 if TYPE_CHECKING:
@@ -102,7 +102,12 @@ def read_axis_text(
     parts = [part.strip() for part in text.split(":")]
     if len(parts) == 3 and [parts[0], parts[1]] == [texts[0], texts[-1]]:
         _check_ends(parts, parameter, unit)
-    return read_entries(texts, parameter, unit, uses)
+    try:
+        return read_entries(texts, parameter, unit, uses)
+    except OptipathError as fault:
+        if (file := file_of(text)) is None:
+            raise
+        raise ParameterError(*[f"{file}: {sentence}" for sentence in fault.faults]) from None
 
 
 def _check_ends(parts: Sequence[str], parameter: Parameter, unit: str) -> None:

@@ -50,9 +50,9 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     >>> several_texts(delta, "30 deg")
     """
     text = text.strip()
-    if text.startswith(_FILE):
+    if (file := file_of(text)) is not None:
         try:
-            return column_for(parameter, text.removeprefix(_FILE).strip())
+            return column_for(parameter, file)
         except OptipathError as fault:
             about = f"{fault.about}: " if fault.about else ""
             raise ParameterError(*[f"{about}{sentence}" for sentence in fault.faults]) from None
@@ -63,6 +63,18 @@ def several_texts(parameter: Parameter, text: str) -> list[str] | None:
     except UnitError as fault:
         told = [f"parameter '{parameter.name}': {sentence}" for sentence in fault.faults]
         raise ParameterError(*told) from None
+
+
+def file_of(text: str) -> str | None:
+    """Return the file of which a text means a column; None where it means none.
+
+    Examples
+    --------
+    >>> file_of("@angles.csv"), file_of("30 deg")
+    ('angles.csv', None)
+    """
+    text = text.strip()
+    return text.removeprefix(_FILE).strip() if text.startswith(_FILE) else None
 
 
 def _is_range(parameter: Parameter, text: str) -> bool:

@@ -9,7 +9,7 @@ from optipath.errors import OptipathError, ParameterError, did_you_mean, listed
 from optipath.values.curves.csv_header import split_heading
 from optipath.values.curves.csv_lines import first_of, lines_of
 from optipath.values.given_files import given_file
-from optipath.values.units import unit_of
+from optipath.values.units import USUAL_UNITS, dimension_of, unit_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -122,7 +122,7 @@ def column_for(parameter: Parameter, path: str) -> list[str]:
     columns = columns_of(path, [name])
     for column in columns:
         if column.name == name:
-            return [*column.texts]
+            return _with_units(column, parameter, path)
     names = [column.name for column in columns]
     if len(columns) > 1:
         why = f"of the columns {listed(names)}, none is called '{name}'{did_you_mean(name, names)}"
@@ -130,7 +130,36 @@ def column_for(parameter: Parameter, path: str) -> list[str]:
     if _is_value(parameter, names[0]):
         why = f"'{names[0]}' is the first line, which is a name; begin with the line '{name}'"
         raise ParameterError(why, about=path)
-    return [*columns[0].texts]
+    return _with_units(columns[0], parameter, path)
+
+
+def missing_unit(column: TextColumn, parameter: Parameter) -> str:
+    """Return what is wrong with a column whose numbers need a unit and have none; else nothing.
+
+    Parameters
+    ----------
+    column : TextColumn
+        Of a file.
+    parameter : Parameter
+        What it is for.
+
+    Returns
+    -------
+    str
+    """
+    if not (dimension := dimension_of(parameter.unit)) or not column.lacks_units:
+        return ""
+    return (
+        f"column '{column.name}' has no unit; write its name as "
+        f"'{column.name} ({USUAL_UNITS[dimension]})' if that is its unit"
+    )
+
+
+def _with_units(column: TextColumn, parameter: Parameter, path: str) -> list[str]:
+    """Return the texts of a column, numbers with units where they need them."""
+    if fault := missing_unit(column, parameter):
+        raise ParameterError(fault, about=path)
+    return [*column.texts]
 
 
 def _is_value(parameter: Parameter, text: str) -> bool:

@@ -47,7 +47,7 @@ def unknown_parameter(name: str, known: Iterable[str]) -> str:
 
 
 def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = "") -> str:
-    """Return the sentence for a word that a parameter does not know.
+    """Return the sentence for a word that a parameter does not know, or that is no number.
 
     Parameters
     ----------
@@ -69,6 +69,9 @@ def unknown_word(name: str, word: str, known: Iterable[str], dimension: str = ""
     >>> unknown_word("t", "half", [])
     "parameter 't' knows no word 'half'; give a number"
     """
+    if word.lower() == "nan":
+        wanted = _number(dimension)
+        return f"parameter '{name}' cannot be '{word}', which is not finite; give {wanted}"
     return f"parameter '{name}' knows no word '{word}'{word_meant(word, known, dimension)}"
 
 
@@ -106,5 +109,11 @@ def word_meant(word: str, known: Iterable[str], dimension: str) -> str:
         return f"; did you mean '{near}'?"
     if near is not None:
         return f"; write '{format_quantity(AXES[near], unit)}' for the axis '{near}'"
-    number = f"{with_article(dimension)} such as '45 {unit}'" if dimension else "a number"
+    number = _number(dimension)
     return f"{there_are(words)}, or give {number}" if words else f"; give {number}"
+
+
+def _number(dimension: str) -> str:
+    """Return what a number of a dimension is, with an example."""
+    unit = USUAL_UNITS[dimension]
+    return f"{with_article(dimension)} such as '45 {unit}'" if dimension else "a number"

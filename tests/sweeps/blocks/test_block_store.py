@@ -13,6 +13,7 @@ pytest.importorskip("zarr")
 
 import zarr
 
+import optipath as op
 from large_jobs import Powers, marked, powers
 from optipath.errors import JobError
 from optipath.sweeps.blocks import block_store
@@ -206,7 +207,7 @@ WHOLE = np.zeros((4, 3))
 def test_what_a_block_gives_is_what_its_job_says(store, gives, told):
     with pytest.raises(JobError, match=told):
         keep_blocks(Careless(2, gives=gives), store, "synchronous")
-    assert marked(store) == set()
+    assert not store.exists()  # Nothing is done of it.
 
 
 def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):
@@ -222,3 +223,24 @@ def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):
     assert np.isnan(found[:4]).all()
     assert np.signbit(found[4:]).all()
     assert powers(2).shape == found.shape
+
+
+@pytest.mark.parametrize("stood", [True, False])
+def test_a_new_store_without_blocks_goes_where_its_job_fails(store, stood):
+    if stood:
+        store.mkdir()
+    with pytest.raises(op.ValueFault):
+        keep_blocks(Powers(3, fails_at=0), store, "synchronous")
+    assert store.exists() == stood
+    keep_blocks(Powers(2, title="mended"), store, "synchronous")
+    assert marked(store) == {0, 1}
+
+
+def test_a_store_that_was_there_before_or_has_a_block_stays(store):
+    with pytest.raises(op.ValueFault):
+        keep_blocks(Powers(3, fails_at=1), store, "synchronous")
+    assert marked(store) == {0}
+    (store / "blocks" / "done" / "0").unlink()
+    with pytest.raises(op.ValueFault):
+        keep_blocks(Powers(3, fails_at=0), store, "synchronous")
+    assert store.exists()

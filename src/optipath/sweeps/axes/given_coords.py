@@ -10,8 +10,7 @@ from optipath.errors import OptipathError, ParameterError, shown
 from optipath.sweeps.axes.labelled_values import has_coordinates
 from optipath.sweeps.labels.variable_names import is_variable
 from optipath.values.axis_texts import read_entries
-from optipath.values.text_tables import columns_of
-from optipath.values.units import USUAL_UNITS, dimension_of
+from optipath.values.text_tables import columns_of, missing_unit
 
 if TYPE_CHECKING:
     from optipath.values.inputs import Inputs
@@ -102,11 +101,8 @@ def _values(inputs: Inputs, column: TextColumn) -> Any:
     if column.name not in inputs.open:
         raise ParameterError(inputs.unknown(column.name))
     parameter = inputs.open[column.name]
-    if (dimension := dimension_of(parameter.unit)) and column.lacks_units:
-        raise ParameterError(
-            f"column '{column.name}' has no unit; write its name as "
-            f"'{column.name} ({USUAL_UNITS[dimension]})' if that is its unit"
-        )
+    if fault := missing_unit(column, parameter):
+        raise ParameterError(fault)
     return read_entries(column.texts, parameter, "", inputs.uses)
 
 

@@ -37,9 +37,15 @@ class BlockStore:
     ----------
     folder : Path
         Where it is.
+    is_new : bool
+        Whether this run has made it.
+    stood : bool
+        Whether an empty folder was there.
     """
 
     folder: Path
+    is_new: bool = False
+    stood: bool = False
 
     @classmethod
     def of(cls, job: BlockJob, folder: Path) -> BlockStore:
@@ -65,8 +71,9 @@ class BlockStore:
         if not store.folder.parent.is_dir():
             raise JobError(f"there is no folder '{store.folder.parent}' for a store; make it first")
         with store._writing():
-            if not store.folder.exists() or _is_empty(store.folder):
-                store._make(job)
+            stood = store.folder.exists()
+            if not stood or _is_empty(store.folder):
+                store = cls(store.folder, store._make(job), stood)
             check_record(store.folder, store.folder / "blocks" / ".zattrs", job)
         return store
 
@@ -127,8 +134,18 @@ class BlockStore:
                     write_file(self.folder / name / file, content)
             write_file(self._marks / str(number), _MARK)
 
-    def _make(self, job: BlockJob) -> None:
-        """Make it beside its place and move it there: nobody finds half of it."""
+    def discard_unused(self) -> None:
+        """Remove it if this run has made it and no block of it is done."""
+        if self.is_new and not any(self._marks.glob("[0-9]*")):
+            shutil.rmtree(self.folder, ignore_errors=True)
+            if self.stood:
+                self.folder.mkdir()
+
+    def _make(self, job: BlockJob) -> bool:
+        """Make it beside its place and move it there: nobody finds half of it.
+
+        False if another run was faster.
+        """
         draft = self.folder.with_name(f".{self.folder.name}.{secrets.token_hex(4)}.draft")
         try:
             make_group(job, draft)
@@ -136,9 +153,11 @@ class BlockStore:
                 self.folder.rmdir()
             draft.rename(self.folder)
         except OSError as fault:
-            # Another run may have been faster.
             if fault.errno not in (errno.ENOTEMPTY, errno.EEXIST):
                 raise
+            return False
+        else:
+            return True
         finally:
             shutil.rmtree(draft, ignore_errors=True)
 
