@@ -137,7 +137,9 @@ class BlockStore:
     def discard_unused(self) -> None:
         """Remove it if this run has made it and no block of it is done."""
         if self.is_new and not any(self._marks.glob("[0-9]*")):
-            shutil.rmtree(self.folder, ignore_errors=True)
+            draft = self._draft()
+            self.folder.rename(draft)
+            shutil.rmtree(draft, ignore_errors=True)
             if self.stood:
                 self.folder.mkdir()
 
@@ -146,7 +148,7 @@ class BlockStore:
 
         False if another run was faster.
         """
-        draft = self.folder.with_name(f".{self.folder.name}.{secrets.token_hex(4)}.draft")
+        draft = self._draft()
         try:
             make_group(job, draft)
             with suppress(OSError):
@@ -160,6 +162,9 @@ class BlockStore:
             return True
         finally:
             shutil.rmtree(draft, ignore_errors=True)
+
+    def _draft(self) -> Path:
+        return self.folder.with_name(f".{self.folder.name}.{secrets.token_hex(4)}.draft")
 
     @contextmanager
     def _writing(self) -> Iterator[None]:

@@ -56,7 +56,8 @@ def keep_blocks(
 
     Notes
     -----
-    A store that was made and has no block yet goes again where an error comes out. Every block that
+    A store that was made and has no block yet goes again where an error comes out, so that the job
+    can be mended; but not where workers of a cluster may still be at it. Every block that
     is done stays, whatever ends the rest: an error of a block, which comes out as
     it is, Ctrl-C, or a process that is killed. Results go from the workers to the store, and do
     not come back here. Sums over blocks are made of what the store holds, in the order of blocks,
@@ -91,15 +92,18 @@ def keep_blocks(
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
     if missing:
+        are_at_work = False
         try:
             with (
                 workers_of(scheduler, len(missing)) as workers,
                 closing(_handed_out(job, kept, missing, workers)) as found,
             ):
+                are_at_work = workers.stay
                 for finished, _ in enumerate(found, len(done) + 1):
                     _tell(progress, finished, job)
         except OptipathError:
-            kept.discard_unused()  # It would refuse the job that is mended.
+            if not are_at_work:  # They might write into another job's store of the same name.
+                kept.discard_unused()
             raise
     return kept.folder
 

@@ -34,10 +34,13 @@ class Workers(NamedTuple):
         Who hands out what is to be done.
     handed_out : callable
         How many blocks are given to them at a time, which bounds what waits; a cluster may grow.
+    stay : bool
+        Whether they are there afterwards, at work perhaps on blocks that nobody waits for.
     """
 
     executor: Executor
     handed_out: Callable[[], int]
+    stay: bool = False
 
 
 def check_scheduler(scheduler: Any) -> None:
@@ -96,6 +99,7 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
             yield Workers(
                 Travelling(client.get_executor(pure=False)),
                 lambda: _AHEAD * threads_of(client),
+                stay=given != "processes",
             )
 
 
