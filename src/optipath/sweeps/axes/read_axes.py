@@ -23,6 +23,9 @@ if TYPE_CHECKING:
 _SHORT = 16
 """How many times the values of all axes a grid has at least beside which they are few."""
 
+_LARGE = 1 << 22
+"""How many points a grid has at least whose run takes longer than to look at short axes twice."""
+
 
 def grid_of(
     inputs: Inputs,
@@ -44,7 +47,7 @@ def grid_of(
         As `PathGraph.sweep` takes them.
     ranges : bool, optional
         Whether values are looked at that a run looks at as well; they are where others are wrong,
-        and where the axes are short beside the grid.
+        and where the axes are short beside a large grid.
 
     Returns
     -------
@@ -80,14 +83,17 @@ def grid_of(
     faults += unnamed_arrays(inputs, several)
     axes: list[SweepAxis] = []
     fixed: dict[str, Any] = {}
+    labels: dict[str, tuple[Any, str]] = {}
     for name, (shown, unit, numbers) in values.items():
         if numbers.ndim:
             told = inputs.open[name].help
             axes.append(SweepAxis(name, dimensions[name], shown, unit, numbers, told))
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
-    grid = SweepGrid(tuple(axes), fixed)
-    ranges = ranges or bool(faults) or _SHORT * sum(map(len, axes)) < grid.points
+            labels[name] = shown, unit
+    grid = SweepGrid(tuple(axes), fixed, labels)
+    is_short = max(_LARGE, _SHORT * sum(map(len, axes))) < grid.points
+    ranges = ranges or bool(faults) or is_short
     faults += axis_faults(inputs, grid, ranges=ranges)
     if not faults and ranges:
         faults = computed_faults(inputs, grid)
