@@ -12,6 +12,7 @@ from optipath.sweeps.axes.labelled_values import has_coordinates, is_labelled
 from optipath.sweeps.axes.sweep_axis import SweepAxis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
 from optipath.sweeps.axes.zipped_axes import shared_dimensions, zipped_dimensions
+from optipath.sweeps.unknown_names import unknown_names
 from optipath.values.axis_texts import AxisValues
 from optipath.values.large_angles import LargeAngles
 
@@ -108,9 +109,9 @@ def _read(
 ) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
     found = {}
+    faults += unknown_names(inputs, {name: given.value for name, given in several.items()})
     for name, (value, _) in several.items():
         if name not in inputs.open:
-            faults.append(inputs.unknown(name))
             continue
         try:
             found[name] = (
