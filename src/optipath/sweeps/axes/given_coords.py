@@ -6,16 +6,13 @@ from collections.abc import Mapping
 from os import PathLike
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import OptipathError, ParameterError, shown
+from optipath.errors import OptipathError, shown
 from optipath.sweeps.axes.labelled_values import has_coordinates
 from optipath.sweeps.labels.variable_names import is_variable
-from optipath.values.axis_texts import read_entries
 from optipath.values.text_tables import columns_of
-from optipath.values.units import USUAL_UNITS, dimension_of
 
 if TYPE_CHECKING:
     from optipath.values.inputs import Inputs
-    from optipath.values.text_tables import TextColumn
 
 DETECTOR = "detector"
 """The dimension of several detectors in what a sweep returns."""
@@ -30,7 +27,7 @@ class GivenCoordinate(NamedTuple):
     Attributes
     ----------
     value : Any
-        As `PathGraph.sweep` takes it, or read already.
+        As `PathGraph.sweep` takes it, or read already; a column of a file.
     dimension : str
         ``""`` for one of its own.
     """
@@ -88,26 +85,10 @@ def _of_file(
         if column.name in inputs.open or not is_variable(column.name)
     ]
     dimension = _ROWS if len(columns) > 1 else ""
-    found = {}
-    for column in columns:
-        try:
-            found[column.name] = GivenCoordinate(_values(inputs, column), dimension)
-        except OptipathError as fault:
-            faults += [f"{path}: {sentence}" for sentence in fault.faults]
-    return found
-
-
-def _values(inputs: Inputs, column: TextColumn) -> Any:
-    """Return the values of a column."""
-    if column.name not in inputs.open:
-        raise ParameterError(inputs.unknown(column.name))
-    parameter = inputs.open[column.name]
-    if (dimension := dimension_of(parameter.unit)) and column.lacks_units:
-        raise ParameterError(
-            f"column '{column.name}' has no unit; write its name as "
-            f"'{column.name} ({USUAL_UNITS[dimension]})' if that is its unit"
-        )
-    return read_entries(column.texts, parameter, "", inputs.uses)
+    names = [column.name for column in columns]
+    faults += [f"{path}: {inputs.unknown(name)}" for name in names if name not in inputs.open]
+    known = [column for column in columns if column.name in inputs.open]
+    return {column.name: GivenCoordinate(column, dimension) for column in known}
 
 
 def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:

@@ -10,6 +10,7 @@ import numpy as np
 from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.axis_texts import AxisValues, read_entries
+from optipath.values.text_tables import NO_UNIT
 from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
 
 if TYPE_CHECKING:
@@ -21,8 +22,7 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 
-_NO_UNIT = ("", "1", "dimensionless")
-"""What stands for no unit, as the conventions for NetCDF (CF) write it."""
+_NO_UNIT = ("", NO_UNIT, "dimensionless")
 
 
 def is_labelled(value: Any, axes: int | None = None) -> bool:

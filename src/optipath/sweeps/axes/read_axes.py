@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axes.axis_values import read_values
 from optipath.sweeps.axes.checked_axes import axis_faults, computed_faults, unnamed_arrays
+from optipath.sweeps.axes.file_columns import read_column
 from optipath.sweeps.axes.given_coords import GivenCoordinate, given_coords
 from optipath.sweeps.axes.labelled_values import has_coordinates, is_labelled
 from optipath.sweeps.axes.sweep_axis import SweepAxis
@@ -15,6 +16,7 @@ from optipath.sweeps.axes.zipped_axes import shared_dimensions, zipped_dimension
 from optipath.sweeps.unknown_names import unknown_names
 from optipath.values.axis_texts import AxisValues
 from optipath.values.large_angles import LargeAngles
+from optipath.values.text_tables import TextColumn
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -114,9 +116,11 @@ def _read(
         if name not in inputs.open:
             continue
         try:
-            found[name] = (
-                value if isinstance(value, AxisValues) else read_values(inputs, name, value)
-            )
+            if isinstance(value, TextColumn):
+                found[name] = read_column(inputs, value)
+            else:
+                is_read = isinstance(value, AxisValues)
+                found[name] = value if is_read else read_values(inputs, name, value)
         except OptipathError as fault:
             faults += fault.faults
     return found
@@ -137,4 +141,4 @@ def _named_as_others(
 
 def _is_plain(value: Any) -> bool:
     """Tell whether a value may have plain numbers, without a unit beside them."""
-    return not (isinstance(value, AxisValues) or is_labelled(value))
+    return not (isinstance(value, TextColumn | AxisValues) or is_labelled(value))
