@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import OptipathError, shown
-from optipath.sweeps.axes.labelled_values import has_coordinates
+from optipath.errors import OptipathError, ParameterError, shown
+from optipath.sweeps.axes.labelled_values import cure_of_table, has_coordinates
 from optipath.sweeps.labels.variable_names import is_variable
 from optipath.values.text_tables import columns_of
 
@@ -19,6 +20,14 @@ DETECTOR = "detector"
 
 _ROWS = "point"
 """The dimension along which the columns of a file vary together."""
+
+
+_OPENED = {
+    ".nc": "xr.open_dataset",
+    ".h5": "xr.open_dataset",
+    ".zarr": "xr.open_zarr",
+}
+"""What reads the coordinates of files that are no tables."""
 
 
 class GivenCoordinate(NamedTuple):
@@ -68,6 +77,13 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
         return {}
     if isinstance(coords, Mapping):
         return {str(name): GivenCoordinate(value) for name, value in coords.items()}
+    name = next(iter(inputs.open), "delta")
+    if cure_of_table(name, coords):
+        faults.append(
+            f"coords is a {type(coords).__name__}; give a CSV file, a Dataset, or columns by name: "
+            f"{{'{name}': df['{name}'].to_numpy()}}, and zip= where they vary together"
+        )
+        return {}
     faults.append(
         f"coords is {shown(coords)}; give the name of a CSV file, a Dataset, or a mapping such as "
         f"{{'delta': [...]}}"
@@ -78,6 +94,10 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
 def _of_file(
     inputs: Inputs, path: str | PathLike[str], faults: list[str]
 ) -> dict[str, GivenCoordinate]:
+    if (opened := _OPENED.get(PurePath(path).suffix)) is not None:
+        raise ParameterError(
+            f"coords='{path}' is no CSV file; give what it holds, coords={opened}('{path}')"
+        )
     # The table of a sweep has its axes, and what was found along them.
     columns = [
         column

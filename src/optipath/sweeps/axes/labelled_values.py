@@ -63,6 +63,33 @@ def has_coordinates(value: Any) -> bool:
     )
 
 
+def cure_of_table(name: str, value: Any) -> str:
+    """Return what of a table is an axis; ``""`` for what is no table of several.
+
+    Parameters
+    ----------
+    name : str
+        A parameter.
+    value : Any
+        What is given: perhaps a `Dataset`, or a `DataFrame` of pandas or polars.
+
+    Returns
+    -------
+    str
+        A part of a sentence.
+
+    Examples
+    --------
+    >>> cure_of_table("delta", [0.5])
+    ''
+    """
+    if has_coordinates(value) and not is_labelled(value):
+        return f"one of its coordinates, such as ds['{name}']"
+    if hasattr(value, "columns") and hasattr(value, "to_numpy"):
+        return f"one of its columns, such as df['{name}'].to_numpy()"
+    return ""
+
+
 def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:
     """Return the values of an array with a unit.
 
