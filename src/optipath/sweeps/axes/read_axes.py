@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axes.axis_values import read_values
 from optipath.sweeps.axes.checked_axes import axis_faults, computed_faults, unnamed_arrays
@@ -87,7 +89,9 @@ def grid_of(
     axes: list[SweepAxis] = []
     fixed: dict[str, Any] = {}
     labels: dict[str, tuple[Any, str]] = {}
-    for name, (shown, unit, numbers) in values.items():
+    for name, (written, unit, numbers) in values.items():
+        # Labels of half precision are none of pandas.
+        shown = written.astype(np.float32) if written.dtype == np.float16 else written
         if numbers.ndim:
             told = inputs.open[name].help
             axes.append(SweepAxis(name, dimensions[name], shown, unit, numbers, told))
