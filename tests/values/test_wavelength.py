@@ -41,3 +41,12 @@ def test_what_is_no_wavelength_is_refused(given, said):
 def test_one_by_another_name_is_given_by_that():
     path = op.Source() >> op.Waveplate(1e-5, 0.009, op.Wavelength("probe")) >> op.Detector()
     assert path.trace(probe="516 nm").stokes[0] == 1.0
+
+
+@pytest.mark.parametrize(
+    ("most", "written"), [("700 nm", "700 nm"), ("20 um", "20 um"), ("1 mm", "1 mm")]
+)
+def test_the_ends_of_a_range_are_told_in_units_of_their_size(most, written):
+    wavelength = op.Wavelength(minimum="380 nm", maximum=most)
+    with pytest.raises(op.ParameterError, match=f"light goes from 380 nm to {written}$"):
+        wavelength.resolve(400)

@@ -61,8 +61,8 @@ class Sweeping:
             How the path is composed.
         **axes : array_like
             The values of parameters, in radians and metres, texts with units, a range
-            ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value is no
-            axis.
+            ``"0 deg:90 deg:91"``, or a DataArray with ``attrs["units"]``; a single value that
+            stands in no list is no axis.
 
         Returns
         -------

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from optipath.errors import OptipathError, ParameterError, did_you_mean, listed
+from optipath.values.commas import without_comma
 from optipath.values.curves.csv_header import split_heading
 from optipath.values.curves.csv_lines import first_of, lines_of
 from optipath.values.given_files import given_file
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 _NUMBER = re.compile(r"[-+]?\.?\d")
 
+NO_UNIT = "1"
+"""What stands for no unit, as the conventions for NetCDF (CF) write it."""
+
 
 class TextColumn(NamedTuple):
     """A column of a file.
@@ -29,11 +33,17 @@ class TextColumn(NamedTuple):
         As the first line says; ``""`` for no unit.
     texts : tuple of str
         What stands below, numbers with the unit behind them.
+    lines : tuple of int
+        Where each of these stands.
+    file : str
+        That of the column.
     """
 
     name: str
     unit: str
     texts: tuple[str, ...]
+    lines: tuple[int, ...]
+    file: str
 
     @property
     def lacks_units(self) -> bool:
@@ -45,8 +55,9 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
     """Return the columns of a file.
 
     The first line has their names, a unit in parentheses or behind a line: ``delta (deg)``,
-    ``delta [deg]``, ``delta_deg``; or each number has one. Values are separated by commas,
-    semicolons or tabulators; empty lines and those that begin with ``#`` are comments.
+    ``delta [deg]``, ``delta_deg``; or each number has one. The unit ``(1)`` is none.
+    Values are separated by commas, semicolons or tabulators; empty lines and those that begin with
+    ``#`` are comments.
 
     Parameters
     ----------
@@ -78,13 +89,13 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
     elif not rows:
         faults.append(f"line {number} is the only one; write a line for each value behind it")
     faults += [
-        f"line {line} has {len(cells)} values, and line {number} has {len(header)} names; write "
-        f"one for each"
+        f"line {line} has {len(cells)} values, and line {number} has {len(header)} names; "
+        f"{_cure_of_count(cells, header)}"
         for line, cells in rows
         if len(cells) != len(header)
     ]
     faults += [f"line {line} has an empty cell; write a value" for line, c in rows if "" in c]
-    heads = [(head, "") if head in known else split_heading(head) for head in header]
+    heads = [(head, "") if head in known else _heading(head) for head in header]
     names = [name for name, _ in heads]
     twice = sorted({name for name in names if names.count(name) > 1})
     faults += [f"line {number} names '{name}' twice; keep one column" for name in twice]
@@ -93,7 +104,8 @@ def columns_of(path: str | PathLike[str], known: Collection[str] = ()) -> list[T
     found = []
     for place, (name, unit) in enumerate(heads):
         texts = [_text(line, cells[place], unit, faults) for line, cells in rows]
-        found.append(TextColumn(name, unit, tuple(texts)))
+        numbers = tuple([line for line, _ in rows])
+        found.append(TextColumn(name, unit, tuple(texts), numbers, str(file)))
     if faults:
         raise ParameterError(*first_of(faults), about=str(file))
     return found
@@ -170,8 +182,26 @@ def _is_value(parameter: Parameter, text: str) -> bool:
     return True
 
 
+def _heading(head: str) -> tuple[str, str]:
+    name, unit = split_heading(head)
+    return name, "" if unit == NO_UNIT else unit
+
+
+def _cure_of_count(cells: list[str], header: list[str]) -> str:
+    """Return the cure for a line with too many values, or too few."""
+    if len(cells) == 2 * len(header) and all(map(_NUMBER.match, cells)):
+        pairs = zip(cells[::2], cells[1::2], strict=True)
+        written = ",".join(f"{whole}.{behind}" for whole, behind in pairs)
+        return f"write one for each, and points where commas are decimal: '{written}'"
+    return "write one for each"
+
+
 def _text(line: int, cell: str, unit: str, faults: list[str]) -> str:
     """Return what stands in a cell, a number with its unit."""
+    if _NUMBER.match(cell) and "," in cell:
+        cure = " or ".join(f"'{number}'" for number in without_comma(cell))
+        faults.append(f"line {line}: '{cell}' has a comma; write {cure or 'a point alone'}")
+        return cell
     own = unit_of(cell)
     if own and unit and own != unit:
         faults.append(f"line {line}: '{cell}' is not in {unit}, as the first line says; keep one")

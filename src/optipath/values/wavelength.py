@@ -16,6 +16,7 @@ from optipath.values.spectral_units import (
 )
 from optipath.values.units import format_quantity, unit_of
 
+_MICROMETRES, _MILLIMETRES = 1e-5, 1e-3
 _MOST_NANOMETRES = 1e6
 
 
@@ -101,6 +102,11 @@ class Wavelength(Parameter):
             raise ParameterError(
                 f"parameter '{self.name}' is {first:g} metres, which is no wavelength of light; "
                 f"for nanometres write '{first:g} nm'{cure(f', or {first:g}e-9', '')}; light "
-                f"goes from {format_quantity(self.minimum, 'nm')} to "
-                f"{format_quantity(self.maximum, 'mm')}"
+                f"goes from {_written(self.minimum)} to {_written(self.maximum)}"
             ) from error
+
+
+def _written(length: float) -> str:
+    """Return a wavelength in the unit in which it is usually written."""
+    unit = "nm" if length < _MICROMETRES else "um" if length < _MILLIMETRES else "mm"
+    return format_quantity(length, unit)

@@ -289,3 +289,13 @@ def test_axes_are_read_without_xarray():
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
+
+
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+def test_numbers_of_half_precision_are_labels_of_single():
+    pytest.importorskip("xarray")
+    half = np.array([0.1, 0.2], np.float16)
+    found = op.load_preset("malus").sweep(angle=half)
+    assert found.angle.dtype == np.float32
+    assert (found.angle.values == half).all()
+    assert (found.S0.values == op.load_preset("malus").compose().run(angle=half).S0).all()

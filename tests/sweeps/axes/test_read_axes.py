@@ -288,3 +288,23 @@ def test_the_dataset_of_a_sweep_gives_the_same_axes_again():
         assert (axis.name, axis.dimension, axis.unit) == (other.name, other.dimension, other.unit)
         assert axis.given.tolist() == other.given.tolist()
     assert again.fixed["n1"] == 1.2
+
+
+def test_tables_are_no_axes_and_no_coords_and_what_to_give_is_told():
+    pandas, xarray = pytest.importorskip("pandas"), pytest.importorskip("xarray")
+    df, ds = pandas.DataFrame(TWO), xarray.Dataset(coords=TWO)
+    (fault,) = refused({"delta": df})
+    assert "is a DataFrame; give one of its columns, such as df['delta'].to_numpy()" in fault
+    (fault,) = refused({"delta": ds})
+    assert "is a Dataset; give one of its coordinates, such as ds['delta']" in fault
+    (fault,) = refused(coords=df)
+    assert fault.startswith("coords is a DataFrame; give a CSV file, a Dataset, or columns by name")
+    assert "{'delta': df['delta'].to_numpy()}, and zip=" in fault
+    assert grid(coords={"delta": df["delta"].to_numpy()}).sizes == {"delta": 2}
+
+
+def test_files_that_are_no_tables_are_opened_and_given():
+    (fault,) = refused(coords="before.nc")
+    assert fault.endswith("give what it holds, coords=xr.open_dataset('before.nc')")
+    (fault,) = refused(coords="before.zarr")
+    assert fault.endswith("coords=xr.open_zarr('before.zarr')")

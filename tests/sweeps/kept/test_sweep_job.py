@@ -66,6 +66,11 @@ def test_whatever_changes_the_bits_is_another_identity(other):
     assert job_of(**{"n1": 0.2, **other}).identity != job_of(n1=0.2).identity
 
 
+def test_one_value_in_two_units_is_two_sweeps():
+    assert job_of(rho="10 deg").identity != job_of(rho=np.radians(10.0)).identity
+    assert job_of(rho=0.5).identity == job_of(rho=np.array(0.5)).identity
+
+
 def test_the_first_line_that_differs_says_what_is_another():
     lines = zip(*(job_of(n1=n).identity.splitlines() for n in (0.2, 0.3)), strict=True)
     assert [pair for pair in lines if pair[0] != pair[1]] == [("fixed n1: 0.2", "fixed n1: 0.3")]

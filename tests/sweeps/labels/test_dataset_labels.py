@@ -24,13 +24,28 @@ def test_long_names_are_the_help_of_parameters():
     assert told == {name: parameter.help for name, parameter in path.parameters.items()}
 
 
-def test_what_is_fixed_is_a_coordinate_in_base_units_be_it_given_or_not():
-    found = op.load_preset("npgr026").sweep(delta=[0.1, 0.2], phi="30 deg")
+def test_what_is_fixed_is_a_coordinate_as_it_was_given_or_is_by_default():
+    found = op.load_preset("npgr026").sweep(delta=[0.1, 0.2], phi="30 deg", rho=0.5)
     assert found.phi.shape == ()
-    assert found.phi == np.radians(30.0)
-    assert found.phi.attrs["units"] == "rad"
+    assert found.phi == 30.0
+    assert {name: found[name].units for name in ("phi", "rho")} == {"phi": "deg", "rho": "rad"}
     assert found.n2 == 1.5
     assert found["filter"] == "none"
+
+
+@pytest.mark.parametrize("word", ["horizontal", "none", "30 deg", 0.3])
+def test_a_single_value_is_labelled_as_an_axis_of_that_value(word):
+    path, given = op.load_preset("npgr026"), {"delta": ["10 deg", "20 deg"], "n1": 1}
+    fixed, axis = path.sweep(**given, filter=word), path.sweep(**given, filter=[word])
+    assert axis.isel(filter=0).identical(fixed)
+    assert path.sweep(coords=fixed).identical(fixed)
+
+
+def test_one_value_in_two_units_is_one_in_two_datasets():
+    path = op.load_preset("malus")
+    found = path.sweep(angle="30 deg"), path.sweep(angle=np.radians(30.0))
+    assert [each.angle.units for each in found] == ["deg", "rad"]
+    assert found[0].S0.values == found[1].S0.values
 
 
 def test_a_fixed_complex_value_is_a_text_that_files_take():

@@ -198,3 +198,14 @@ def test_light_on_every_link_is_no_sweep():
 def test_a_composer_is_a_composer():
     with pytest.raises(op.ParameterError, match="composer= takes a Composer, not 'numba'"):
         op.load_preset("malus").sweep(angle=[0.1], composer="numba")
+
+
+def test_a_deep_copy_can_be_written_to_as_the_docs_say():
+    found = op.load_preset("malus").sweep(angle=[0.1, 0.2])
+    with pytest.raises(ValueError, match="read-only"):
+        found.S0.values[0] = 0.0
+    copied = found.copy(deep=True)
+    for name in copied.data_vars:
+        copied[name].values[0] = 0.0
+        assert copied[name].values[0] == 0.0
+    assert found.S0.values[0] > 0.0

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import ParameterError
-from optipath.sweeps.axes.labelled_values import is_labelled, read_labelled
+from optipath.sweeps.axes.labelled_values import cure_of_table, is_labelled, read_labelled
 from optipath.values.angles import CosSin
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.arrays.jax_values import check_known, known
@@ -53,6 +53,10 @@ def read_values(inputs: Inputs, name: str, value: Any) -> AxisValues:
     if isinstance(value, CosSin):
         raise ParameterError(
             f"parameter '{name}' is a cosine and a sine, which no axis shows; give the angle"
+        )
+    if cure := cure_of_table(name, value):
+        raise ParameterError(
+            f"parameter '{name}' is a {type(value).__name__}; give {cure}, or all by coords="
         )
     check_known(f"parameter '{name}' of a sweep", value)
     parameter = inputs.open[name]

@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from os import PathLike
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import OptipathError, ParameterError, shown
-from optipath.sweeps.axes.labelled_values import has_coordinates
+from optipath.sweeps.axes.labelled_values import cure_of_table, has_coordinates
 from optipath.sweeps.labels.variable_names import is_variable
-from optipath.values.axis_texts import read_entries
-from optipath.values.text_tables import columns_of, missing_unit
+from optipath.values.text_tables import columns_of
 
 if TYPE_CHECKING:
     from optipath.values.inputs import Inputs
-    from optipath.values.text_tables import TextColumn
 
 DETECTOR = "detector"
 """The dimension of several detectors in what a sweep returns."""
@@ -23,13 +22,21 @@ _ROWS = "point"
 """The dimension along which the columns of a file vary together."""
 
 
+_OPENED = {
+    ".nc": "xr.open_dataset",
+    ".h5": "xr.open_dataset",
+    ".zarr": "xr.open_zarr",
+}
+"""What reads the coordinates of files that are no tables."""
+
+
 class GivenCoordinate(NamedTuple):
     """What is given for a parameter, and along which dimension.
 
     Attributes
     ----------
     value : Any
-        As `PathGraph.sweep` takes it, or read already.
+        As `PathGraph.sweep` takes it, or read already; a column of a file.
     dimension : str
         ``""`` for one of its own.
     """
@@ -70,6 +77,13 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
         return {}
     if isinstance(coords, Mapping):
         return {str(name): GivenCoordinate(value) for name, value in coords.items()}
+    name = next(iter(inputs.open), "delta")
+    if cure_of_table(name, coords):
+        faults.append(
+            f"coords is a {type(coords).__name__}; give a CSV file, a Dataset, or columns by name: "
+            f"{{'{name}': df['{name}'].to_numpy()}}, and zip= where they vary together"
+        )
+        return {}
     faults.append(
         f"coords is {shown(coords)}; give the name of a CSV file, a Dataset, or a mapping such as "
         f"{{'delta': [...]}}"
@@ -80,6 +94,10 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
 def _of_file(
     inputs: Inputs, path: str | PathLike[str], faults: list[str]
 ) -> dict[str, GivenCoordinate]:
+    if (opened := _OPENED.get(PurePath(path).suffix)) is not None:
+        raise ParameterError(
+            f"coords='{path}' is no CSV file; give what it holds, coords={opened}('{path}')"
+        )
     # The table of a sweep has its axes, and what was found along them.
     columns = [
         column
@@ -87,23 +105,10 @@ def _of_file(
         if column.name in inputs.open or not is_variable(column.name)
     ]
     dimension = _ROWS if len(columns) > 1 else ""
-    found = {}
-    for column in columns:
-        try:
-            found[column.name] = GivenCoordinate(_values(inputs, column), dimension)
-        except OptipathError as fault:
-            faults += [f"{path}: {sentence}" for sentence in fault.faults]
-    return found
-
-
-def _values(inputs: Inputs, column: TextColumn) -> Any:
-    """Return the values of a column."""
-    if column.name not in inputs.open:
-        raise ParameterError(inputs.unknown(column.name))
-    parameter = inputs.open[column.name]
-    if fault := missing_unit(column, parameter):
-        raise ParameterError(fault)
-    return read_entries(column.texts, parameter, "", inputs.uses)
+    names = [column.name for column in columns]
+    faults += [f"{path}: {inputs.unknown(name)}" for name in names if name not in inputs.open]
+    known = [column for column in columns if column.name in inputs.open]
+    return {column.name: GivenCoordinate(column, dimension) for column in known}
 
 
 def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:

@@ -10,6 +10,7 @@ import numpy as np
 from optipath.errors import ParameterError, shown
 from optipath.values.arrays.array_likes import as_given
 from optipath.values.axis_texts import AxisValues, read_entries
+from optipath.values.text_tables import NO_UNIT
 from optipath.values.units import BASE_UNITS, UNITS, dimension_of, units_of
 
 if TYPE_CHECKING:
@@ -21,8 +22,7 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
     from optipath.values.use import Use
 
-_NO_UNIT = ("", "1", "dimensionless")
-"""What stands for no unit, as the conventions for NetCDF (CF) write it."""
+_NO_UNIT = ("", NO_UNIT, "dimensionless")
 
 
 def is_labelled(value: Any, axes: int | None = None) -> bool:
@@ -61,6 +61,33 @@ def has_coordinates(value: Any) -> bool:
     return xarray is not None and isinstance(
         value, (xarray.DataArray, xarray.Dataset, xarray.Coordinates)
     )
+
+
+def cure_of_table(name: str, value: Any) -> str:
+    """Return what of a table is an axis; ``""`` for what is no table of several.
+
+    Parameters
+    ----------
+    name : str
+        A parameter.
+    value : Any
+        What is given: perhaps a `Dataset`, or a `DataFrame` of pandas or polars.
+
+    Returns
+    -------
+    str
+        A part of a sentence.
+
+    Examples
+    --------
+    >>> cure_of_table("delta", [0.5])
+    ''
+    """
+    if has_coordinates(value) and not is_labelled(value):
+        return f"one of its coordinates, such as ds['{name}']"
+    if hasattr(value, "columns") and hasattr(value, "to_numpy"):
+        return f"one of its columns, such as df['{name}'].to_numpy()"
+    return ""
 
 
 def read_labelled(parameter: Parameter, array: xr.DataArray, uses: Iterable[Use]) -> AxisValues:

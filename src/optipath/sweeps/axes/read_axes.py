@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.errors import OptipathError, ParameterError
 from optipath.sweeps.axes.axis_values import read_values
 from optipath.sweeps.axes.checked_axes import axis_faults, computed_faults, unnamed_arrays
+from optipath.sweeps.axes.file_columns import read_column
 from optipath.sweeps.axes.given_coords import GivenCoordinate, given_coords
 from optipath.sweeps.axes.labelled_values import has_coordinates, is_labelled
 from optipath.sweeps.axes.sweep_axis import SweepAxis, sweep_axis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
 from optipath.sweeps.axes.zipped_axes import shared_dimensions, zipped_dimensions
+from optipath.sweeps.unknown_names import unknown_names
 from optipath.values.axis_texts import AxisValues, IdleValues
 from optipath.values.large_angles import LargeAngles
+from optipath.values.text_tables import TextColumn
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,6 +27,9 @@ if TYPE_CHECKING:
 
 _SHORT = 16
 """How many times the values of all axes a grid has at least beside which they are few."""
+
+_LARGE = 1 << 22
+"""How many points a grid has at least whose run takes longer than to look at short axes twice."""
 
 
 def grid_of(
@@ -44,7 +52,7 @@ def grid_of(
         As `PathGraph.sweep` takes them.
     ranges : bool, optional
         Whether values are looked at that a run looks at as well; they are where others are wrong,
-        and where the axes are short beside the grid.
+        and where the axes are short beside a large grid.
 
     Returns
     -------
@@ -80,14 +88,21 @@ def grid_of(
     faults += unnamed_arrays(inputs, several)
     axes: list[SweepAxis] = []
     fixed: dict[str, Any] = {}
+    labels: dict[str, tuple[Any, str]] = {}
     for name, value in values.items():
         numbers = value.given
+        # Labels of half precision are none of pandas.
+        half = value.shown.dtype == np.float16
+        shown = value.shown.astype(np.float32) if half else value.shown
         if numbers.ndim:
-            axes.append(sweep_axis(inputs.open, name, value, dimensions[name]))
+            told = value._replace(shown=shown)
+            axes.append(sweep_axis(inputs.open, name, told, dimensions[name]))
         else:
             fixed[name] = numbers.item() if numbers.dtype.char in "dDUO" else numbers[()]
-    grid = SweepGrid(tuple(axes), fixed)
-    ranges = ranges or bool(faults) or _SHORT * sum(map(len, axes)) < grid.points
+            labels[name] = shown, value.unit
+    grid = SweepGrid(tuple(axes), fixed, labels)
+    is_short = max(_LARGE, _SHORT * sum(map(len, axes))) < grid.points
+    ranges = ranges or bool(faults) or is_short
     faults += axis_faults(inputs, grid, ranges=ranges)
     if not faults and ranges:
         faults = computed_faults(inputs, grid)
@@ -102,14 +117,17 @@ def _read(
 ) -> dict[str, AxisValues]:
     """Return the values of each parameter that there is, and that nothing is wrong with."""
     found = {}
+    told = {n: g.value for n, g in several.items() if not isinstance(g.value, IdleValues)}
+    faults += unknown_names(inputs, told)
     for name, (value, _) in several.items():
         if name not in inputs.open and not isinstance(value, IdleValues):
-            faults.append(inputs.unknown(name))
             continue
         try:
-            found[name] = (
-                value if isinstance(value, AxisValues) else read_values(inputs, name, value)
-            )
+            if isinstance(value, TextColumn):
+                found[name] = read_column(inputs, value)
+            else:
+                is_read = isinstance(value, AxisValues)
+                found[name] = value if is_read else read_values(inputs, name, value)
         except OptipathError as fault:
             faults += fault.faults
     return found
@@ -130,4 +148,4 @@ def _named_as_others(
 
 def _is_plain(value: Any) -> bool:
     """Tell whether a value may have plain numbers, without a unit beside them."""
-    return not (isinstance(value, AxisValues) or is_labelled(value))
+    return not (isinstance(value, TextColumn | AxisValues) or is_labelled(value))

@@ -23,10 +23,13 @@ class SweepGrid:
         In the order in which they were given.
     fixed : mapping of str to Any
         What is given besides, a single value each.
+    labels : mapping of str to (value, unit)
+        How coordinates have what is fixed: as it was given. What has none is in base units.
     """
 
     axes: tuple[SweepAxis, ...]
     fixed: Mapping[str, Any] = field(default_factory=dict)
+    labels: Mapping[str, tuple[Any, str]] = field(default_factory=dict)
 
     @cached_property
     def sizes(self) -> dict[str, int]:
@@ -71,7 +74,7 @@ class SweepGrid:
             )
             for axis in self.axes
         ]
-        return SweepGrid(tuple(axes), self.fixed)
+        return replace(self, axes=tuple(axes))
 
     def given(self, region: Sequence[slice] | None = None) -> dict[str, Any]:
         """Return what `Plan.run` is given for the grid, or for a part of it.

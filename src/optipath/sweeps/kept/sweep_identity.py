@@ -42,11 +42,19 @@ def sweep_identity(
     """
     lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
     lines += [f"option {name}: {value!r}" for name, value in recipe.options]
-    lines += [f"fixed {name}: {_plain(value)!r}" for name, value in grid.fixed.items()]
+    lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
     lines += [f"axis {axis.name}: {_told(axis)}" for axis in grid.axes]
     lines += [f"chunks of {name}: {size}" for name, size in sizes.items()]
     lines += [f"variable {name}: {each}" for name, each in types.items()]
     return "\n".join([*lines, recipe.text])
+
+
+def _single(grid: SweepGrid, name: str) -> str:
+    """Return what tells a fixed value from others: what is run, and how it was given."""
+    value = repr(_plain(grid.fixed[name]))
+    shown, unit = grid.labels.get(name, (grid.fixed[name], ""))
+    label = f"{_plain(shown)} {unit}".rstrip()
+    return value if label in (value, value.strip("'")) else f"{value}, given as {label}"
 
 
 def _plain(value: Any) -> Any:

@@ -63,10 +63,10 @@ def coordinates_of(grid: SweepGrid, plan: Plan) -> dict[str, tuple[Any, Any, dic
         found[axis.name] = axis.dimension, _labels(axis), attrs
     for name, parameter in plan.inputs.open.items():
         if name not in found:
-            value = _single(parameter, grid.fixed.get(name, parameter.default))
-            unit = BASE_UNITS.get(plan.inputs.dimensions.get(name, ""), "")
-            attrs = _attrs(parameter.help, unit, value)
-            found[name] = (), value, attrs
+            base = BASE_UNITS.get(plan.inputs.dimensions.get(name, ""), "")
+            given, unit = grid.labels.get(name, (grid.fixed.get(name, parameter.default), base))
+            value = _single(parameter, given)
+            found[name] = (), value, _attrs(parameter.help, unit, value)
     return found
 
 
@@ -97,10 +97,10 @@ def _attrs(name: str, unit: str, value: Any) -> dict[str, str]:
 
 
 def _single(parameter: Parameter, value: Any) -> Any:
-    """Return a value that is fixed: a number in base units, or a text."""
-    if isinstance(value, str) and value[:1].isalpha():
-        return _for_files(value)  # A word.
-    numbers = np.asarray(parameter.resolve(value).value)
+    """Return a value that is fixed as an array without axes: a number, or a text."""
+    if isinstance(value, str) and not value[:1].isalpha():
+        value = parameter.resolve(value).value
+    numbers = np.asarray(float(value) if type(value) is int else value)
     is_number = numbers.dtype.kind in "fiu" and not numbers.ndim
     return numbers if is_number else _for_files(str(value))
 

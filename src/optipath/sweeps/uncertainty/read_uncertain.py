@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import OptipathError, ParameterError, shown
 from optipath.sweeps.uncertainty.uncertain_value import UncertainValue
+from optipath.sweeps.unknown_names import unknown_names
 from optipath.values.arrays.array_likes import array_of
 from optipath.values.arrays.jax_values import check_known
 from optipath.values.arrays.shapes import broadcast_fault, first_place
@@ -45,10 +46,11 @@ def read_uncertain(
     faults : list of str
         A sentence each.
     """
-    exact = {n: v for n, v in given.items() if not isinstance(v, tuple) or n not in inputs.open}
+    faults = unknown_names(inputs, given)
+    known = {name: value for name, value in given.items() if name in inputs.open}
+    exact = {name: value for name, value in known.items() if not isinstance(value, tuple)}
     uncertain: list[UncertainValue] = []
-    faults: list[str] = []
-    for name, value in given.items():
+    for name, value in known.items():
         if name not in exact:
             try:
                 uncertain.append(_read(inputs, name, value))

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from optipath.sweeps.labels.dataset_attributes import dataset_attributes
 from optipath.sweeps.labels.dataset_labels import attributes_of, coordinates_of, dimensions_of
 from optipath.sweeps.labels.light_quantities import COMPONENTS, DERIVED, FAINT
 from optipath.sweeps.labels.variable_names import detectors_of, variable_names
 from optipath.sweeps.whole.derived_variable import derived
 from optipath.sweeps.whole.free_memory import refuse_more_than_free
+from optipath.sweeps.whole.quick_dataset import quick_dataset
 from optipath.sweeps.whole.stacked_views import stacked
 from optipath.sweeps.whole.swept_light import SweptLight
 from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from optipath.composer.composer import Composer
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
@@ -65,4 +66,4 @@ def swept_in_memory(
     for quantity in (*DERIVED, *faint):
         name = names[quantity.variable]
         variables[name] = dims, derived(quantity, lights), attributes_of(quantity)
-    return xr.Dataset(variables, coords, dataset_attributes(path, plan, composer))
+    return quick_dataset(variables, coords, dataset_attributes(path, plan, composer))

@@ -21,7 +21,12 @@ _NUMBER = 8
 """How many bytes a number takes."""
 _LABELS = ("to_numpy", "dims", "coords", "columns")
 _UNITS = ("unit", "units")
-_CURES = {"to_numpy": ".to_numpy()", "values": ".values"}
+_CURES = {
+    "columns": "those of one column, [...].to_numpy()",
+    "to_numpy": ".to_numpy()",
+    "data_vars": "those of one variable, [...].values",
+    "values": ".values",
+}
 _ANY_CURE = "numpy.asarray(...)"
 _OURS = {
     "Light": (
