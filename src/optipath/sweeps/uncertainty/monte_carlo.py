@@ -25,6 +25,17 @@ PATHS = 1 << 17
 """How many paths a block of samples has at most, if the batch itself has no more."""
 
 
+def samples_at_once(shape: tuple[int, ...]) -> int:
+    """Return how many samples of a batch of some shape run at once.
+
+    Examples
+    --------
+    >>> samples_at_once((1000,))
+    131
+    """
+    return max(1, PATHS // max(1, prod(shape)))
+
+
 def spread_of_samples(
     light_at: LightAt, light: Light, correlation: npt.NDArray[np.float64], count: int, seed: int
 ) -> tuple[Spread, npt.NDArray[np.float64], list[str]]:
@@ -53,7 +64,10 @@ def spread_of_samples(
     notes : list of str
         What was outside of its range.
     """
-    samples = DrawnSamples(light_at.uncertain, correlation, count, seed, len(light.shape))
+    order = [*light_at.plan.inputs.open]
+    places = [order.index(each.name) for each in light_at.uncertain]
+    axes = len(light.shape)
+    samples = DrawnSamples(light_at.uncertain, correlation, places, count, seed, axes)
     names = [each.name for each in light_at.uncertain]
     moments = _moments(light_at, light, samples, names)
     outside = dict(samples.outside)
@@ -81,10 +95,10 @@ def _moments(
 ) -> SampleMoments:
     """Return the moments of what samples differ by from the light at the best estimates."""
     center, found = figures_of(light), SampleMoments()
-    size = max(1, PATHS // max(1, prod(light.shape)))
+    size = samples_at_once(light.shape)
     for start in range(0, samples.count, size):
-        values = samples.within(slice(start, min(start + size, samples.count)))
-        some = light_at.beside({name: values[name] for name in names}, names)
+        values = samples.within(slice(start, min(start + size, samples.count)), names)
+        some = light_at.beside(values, names)
         with np.errstate(all="ignore"):
             found.add(difference(figures_of(some), center))
     return found

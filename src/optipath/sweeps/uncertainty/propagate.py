@@ -14,7 +14,7 @@ from optipath.sweeps.uncertainty.first_order import changes_of, spread_of
 from optipath.sweeps.uncertainty.light_at import LightAt
 from optipath.sweeps.uncertainty.light_figures import STOKES
 from optipath.sweeps.uncertainty.linearity import nonlinearity_of
-from optipath.sweeps.uncertainty.monte_carlo import spread_of_samples
+from optipath.sweeps.uncertainty.monte_carlo import samples_at_once, spread_of_samples
 from optipath.sweeps.uncertainty.notes import (
     notes_of_first_order,
     notes_of_lost_covariances,
@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 
 _BYTES = 1100
 """What a path takes for each value that is uncertain, with all that is made on the way."""
+
+_BYTES_OF_A_SAMPLE = 2600
+"""What a path takes in each sample that runs at once; those of other blocks take nothing."""
 
 
 def propagate(
@@ -81,9 +84,11 @@ def propagate(
     asked.answers.large_angles.look(values)
     light_at = LightAt(asked, detector, exact, tuple(uncertain))
     light = light_at({})
-    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
-        if options.draws:
+    if options.draws:
+        block = min(options.count, samples_at_once(light.shape)), *light.shape
+        with enough_for(block, _BYTES_OF_A_SAMPLE, error=ParameterError):
             return _by_samples(light_at, light, correlation, options)
+    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
         if composer is None:
             return _to_first_order(light_at, light, correlation, options)
         exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
