@@ -162,3 +162,11 @@ def test_a_block_that_the_memory_cannot_hold_is_refused_before(monkeypatch):
     with pytest.raises(op.ParameterError, match="GB of memory or more"):
         sampled(malus(), a=(0.3, 0.1), samples=1_000_000)
     assert sampled(malus(), a=(0.3, 0.1), samples=1_000).uncertainty_of("S0") > 0.0
+
+
+def test_light_of_jax_has_samples_without_a_warning():
+    pytest.importorskip("jax")
+    given = {"a": (0.2, 0.03), "samples": 100}
+    found = sampled(malus(), **given, composer=op.Composer(engine="jax"))
+    plain = sampled(malus(), **given)
+    np.testing.assert_allclose(found.uncertainties, plain.uncertainties, rtol=1e-9, atol=1e-12)
