@@ -69,11 +69,10 @@ def propagate(
     if clashes := options.clashes(plan.inputs):
         raise ParameterError(*clashes)
     exact, uncertain, faults = read_uncertain(plan.inputs, given)
-    names = [each.name for each in uncertain]
+    # A value whose uncertainty cannot be read is one of them all the same.
+    names = [n for n, value in given.items() if isinstance(value, tuple) and n not in exact]
     correlation, wrong = read_correlation(options.correlation, names)
-    faults += options.faults()
-    # Of a value that cannot be read, nobody knows whether it would be one of them.
-    faults += [] if faults else wrong
+    faults += options.faults() + wrong
     detector, no_detector = _detector(plan, options.detector)
     faults += no_detector
     if faults:
@@ -82,6 +81,7 @@ def propagate(
     asked = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in given.items()}
     asked.answers.large_angles.look(values)
+    asked.answers.large_angles.look_at_uncertainties({n: given[n][1] for n in names})
     light_at = LightAt(asked, detector, exact, tuple(uncertain))
     light = light_at({})
     if options.draws:
