@@ -62,10 +62,26 @@ class LargeAngles:
                 if name in self._looked_at and _looks_small(value, most):
                     continue
                 self._looked_at.add(name)
-            self._warn(name, value)
+            self._warn(f"parameter '{name}'", name, value)
 
-    def _warn(self, name: str, value: Any) -> None:
-        what, places = f"parameter '{name}'", self.places[name].values()
+    def look_at_uncertainties(self, given: Mapping[str, Any]) -> None:
+        """Warn of standard uncertainties that come to angles beyond a whole turn.
+
+        Parameters
+        ----------
+        given : mapping of str to Any
+            Those that are given, by the name of the parameter.
+
+        Warns
+        -----
+        AngleWarning
+            Once for each parameter.
+        """
+        for name in [name for name in given if name in self.places]:
+            self._warn(f"the standard uncertainty of parameter '{name}'", name, given[name])
+
+    def _warn(self, what: str, name: str, value: Any) -> None:
+        places = self.places[name].values()
         texts = may_hold_texts(value)
         for place in places:
             if texts and warn_of_two_factors(what, value, place):

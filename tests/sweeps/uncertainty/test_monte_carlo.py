@@ -3,6 +3,7 @@ import pytest
 
 import optipath as op
 from optipath.sweeps.uncertainty import monte_carlo
+from optipath.values.arrays import memory
 
 SPECTRAL = "copper-gold-spectrum"
 
@@ -131,3 +132,41 @@ def test_light_without_a_figure_in_some_sample_has_no_uncertainty_of_it():
     found = sampled(path, d=(1.0, 0.1), samples=100)
     assert np.isnan(found.uncertainty_of("aop"))
     assert 0.03 < found.uncertainty_of("dop") < 0.1
+
+
+def test_values_at_the_ends_of_their_ranges_have_samples():
+    path = op.load_preset("npgr026", case=7)
+    found = sampled(path, delta=(0, 1e-6), k1=(0, 1e-6), k2=(0, 1e-6), samples=1_000)
+    assert np.all(np.isfinite(found.uncertainty))
+
+
+def test_a_wide_uncertainty_of_a_wavelength_stays_within_its_table():
+    table = op.Material.tabulated([400e-9, 450e-9, 500e-9], [1.4, 1.5, 1.6])
+    path = lamp() >> op.Interface(table, op.Parameter("i")) >> op.Detector()
+    given = {"i": 0.5, "wavelength": ("450 nm", "500 nm"), "samples": 500}
+    assert 0.0 < sampled(path, **given).uncertainty_of("S0") < 0.1
+
+
+def test_the_order_of_values_changes_no_figure():
+    path = op.load_preset("npgr026")
+    given = {"delta": (0.8, 0.1), "n1": (1.1, 0.1), "k1": (2.2, 0.1), "samples": 100}
+    given["correlation"] = {("k1", "n1"): 0.3}
+    one, other = (sampled(path, **dict(items)) for items in (given.items(), [*given.items()][::-1]))
+    np.testing.assert_array_equal(one.uncertainties, other.uncertainties)
+    np.testing.assert_array_equal(one.covariance, other.covariance)
+    np.testing.assert_array_equal(one.shares, other.shares[:, ::-1])
+
+
+def test_a_block_that_the_memory_cannot_hold_is_refused_before(monkeypatch):
+    monkeypatch.setattr(memory, "memory", lambda: 2**27)
+    with pytest.raises(op.ParameterError, match="GB of memory or more"):
+        sampled(malus(), a=(0.3, 0.1), samples=1_000_000)
+    assert sampled(malus(), a=(0.3, 0.1), samples=1_000).uncertainty_of("S0") > 0.0
+
+
+def test_light_of_jax_has_samples_without_a_warning():
+    pytest.importorskip("jax")
+    given = {"a": (0.2, 0.03), "samples": 100}
+    found = sampled(malus(), **given, composer=op.Composer(engine="jax"))
+    plain = sampled(malus(), **given)
+    np.testing.assert_allclose(found.uncertainties, plain.uncertainties, rtol=1e-9, atol=1e-12)

@@ -144,3 +144,42 @@ def test_an_angle_beyond_a_turn_is_warned_of_once_and_with_a_unit_not_at_all():
     with pytest.warns(op.AngleWarning) as told:
         path.propagate(a=(45.0, 0.1), method="differences")
     assert len(told) == 1
+
+
+@pytest.mark.parametrize("method", ["differences", "monte-carlo"])
+@pytest.mark.parametrize("sigma", [10, [0.1, 10.0]])
+def test_an_uncertainty_beyond_a_whole_turn_is_warned_of_once_from_the_line_of_the_user(
+    method, sigma
+):
+    path = op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()
+    with pytest.warns(op.AngleWarning) as told:
+        path.propagate(a=("30 deg", sigma), method=method)
+    (warning,) = told
+    assert str(warning.message).startswith("the standard uncertainty of parameter 'a'")
+    assert warning.filename == __file__
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"seed": -1, "correlation": 2}, ["seed", "correlation must be a mapping"]),
+        ({"samples": 1, "correlation": 4}, ["samples", "correlation must be a mapping"]),
+        ({"samples": 1, "correlation": {("a", "b"): 2}}, ["samples", "names 'b'"]),
+    ],
+)
+def test_what_is_wrong_with_options_and_with_correlation_is_told_at_once(options, words):
+    path = op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Detector()
+    with pytest.raises(op.ParameterError) as fault:
+        path.propagate(a=(0.1, 0.1), method="monte-carlo", **options)
+    assert len(fault.value.faults) == len(words)
+    assert all(word in told for word, told in zip(words, fault.value.faults, strict=True))
+
+
+def test_a_correlation_of_a_value_that_cannot_be_read_is_not_told_of():
+    path = op.Source() >> op.Polarizer(op.Parameter("a")) >> op.Polarizer(op.Parameter("b"))
+    with pytest.raises(op.ParameterError) as fault:
+        (path >> op.Detector()).propagate(
+            a=(0.1, -0.1), b=(0.1, 0.1), correlation={("a", "b"): 0.3}
+        )
+    (told,) = fault.value.faults
+    assert "the standard uncertainty of parameter 'a' is" in told

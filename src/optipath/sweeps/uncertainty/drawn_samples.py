@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,31 +11,44 @@ from optipath.errors import ParameterError, listed
 from optipath.sweeps.uncertainty.correlation import root_of
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
     import numpy.typing as npt
 
     from optipath.sweeps.uncertainty.uncertain_value import UncertainValue
 
-_ROUNDS = 64
-"""How often samples outside are drawn again."""
+_CHUNK = 4096
+"""How many random numbers begin anew, whatever the blocks are that samples run in."""
+
+_LEAST = 0.05
+"""How much of a normal distribution must be within the range, or too much is drawn in vain."""
+
+_ROUNDS = 1000
+"""How often samples outside are drawn again: of 0.05 inside, 1e-22 are still outside then."""
+
+_ERF = np.frompyfunc(math.erf, 1, 1)
 
 
 class DrawnSamples:
     """Samples of some values, one set of random numbers for every path of a batch.
 
-    Where a value would leave its range, all values of that sample are drawn again, path by path:
-    what is left is the normal distribution cut off at the ends. The same seed gives the same
-    samples, however they are cut into blocks.
+    Where a value would leave its range, it is drawn again, path by path, and with it the values
+    that it is correlated with: what is left is the normal distribution cut off at the ends. The
+    same seed gives each value the same samples, however they are cut into blocks, in whatever
+    order values are given, and whatever else is uncertain that it is not correlated with.
 
     Parameters
     ----------
-    uncertain : tuple of UncertainValue
+    uncertain : sequence of UncertainValue
         What varies.
     correlation : ndarray, shape (k, k)
         The coefficients.
+    places : sequence of int
+        The place of each value among the parameters of the path.
     count : int
-        How many there are.
+        How many samples there are.
     seed : int
-        Of NumPy's generator PCG64.
+        Of NumPy's SeedSequence and PCG64, one for each parameter.
     axes : int
         How many axes the batch has.
 
@@ -42,29 +56,41 @@ class DrawnSamples:
     ----------
     outside : dict of str to int
         Of how many samples, drawn first, a value was outside its range for some path.
+
+    Raises
+    ------
+    ParameterError
+        If hardly any samples of a value are within its range.
     """
 
     def __init__(
         self,
-        uncertain: tuple[UncertainValue, ...],
+        uncertain: Sequence[UncertainValue],
         correlation: npt.NDArray[np.float64],
+        places: Sequence[int],
         count: int,
         seed: int,
         axes: int,
     ) -> None:
-        self._uncertain, self._root = uncertain, root_of(correlation)
-        self.count, self._axes = count, axes
-        self._generator = np.random.Generator(np.random.PCG64(seed))
-        self._rounds: list[npt.NDArray[np.float64]] = []
+        self.count, self._seed, self._axes = count, seed, axes
+        self._places = {each.name: place for each, place in zip(uncertain, places, strict=True)}
+        self._groups = [
+            ([uncertain[place] for place in group], root_of(correlation[np.ix_(group, group)]))
+            for group in _groups(correlation, places)
+        ]
         self.outside = dict.fromkeys([each.name for each in uncertain], 0)
+        if narrow := [each.name for each in uncertain if _least_share(each) < _LEAST]:
+            raise ParameterError(_hardly_any(narrow))
 
-    def within(self, block: slice) -> dict[str, npt.NDArray[np.float64]]:
-        """Return some samples of each value, an axis of them in front of the batch.
+    def within(self, block: slice, names: Collection[str]) -> dict[str, npt.NDArray[np.float64]]:
+        """Return some samples of some values, an axis of them in front of the batch.
 
         Parameters
         ----------
         block : slice
-            Which.
+            Which samples.
+        names : collection of str
+            Which values.
 
         Returns
         -------
@@ -73,39 +99,83 @@ class DrawnSamples:
         Raises
         ------
         ParameterError
-            If hardly any are within their range.
+            If hardly any of values that are correlated are within their ranges together.
         """
-        found = self._drawn(0, block)
-        inside = {each.name: each.allows(found[each.name]) for each in self._uncertain}
-        for name, allowed in inside.items():
-            outer = ~allowed.reshape(allowed.shape[0], -1).all(axis=1)
-            self.outside[name] += int(np.count_nonzero(outer))
+        found: dict[str, list[Any]] = {name: [] for name in names}
+        for chunk in range(block.start // _CHUNK, (block.stop - 1) // _CHUNK + 1):
+            first = chunk * _CHUNK
+            part = slice(max(block.start - first, 0), min(block.stop - first, _CHUNK))
+            for group, root in self._groups:
+                if any(each.name in found for each in group):
+                    drawn = self._within(group, root, chunk, part)
+                    for each in group:
+                        if each.name in found:
+                            found[each.name].append(drawn[each.name])
+        return {name: np.concatenate(parts) for name, parts in found.items()}
+
+    def _within(
+        self, group: Sequence[UncertainValue], root: Any, chunk: int, part: slice
+    ) -> dict[str, Any]:
+        found = self._drawn(group, root, chunk, part, 0)
+        for each in group:
+            outer = ~_inside(each, found[each.name])
+            outer = outer.reshape(len(outer), -1).any(axis=1)
+            self.outside[each.name] += int(np.count_nonzero(outer))
         for number in range(1, _ROUNDS):
-            bad = self._bad(found)
+            bad = ~np.logical_and.reduce(
+                np.broadcast_arrays(*[_inside(each, found[each.name]) for each in group])
+            )
             if not np.any(bad):
                 return found
-            again = self._drawn(number, block)
+            again = self._drawn(group, root, chunk, part, number)
             found = {name: np.where(bad, again[name], found[name]) for name in found}
-        if np.any(self._bad(found)):
-            narrow = [each.name for each in self._uncertain if each.leaves_its_range]
-            raise ParameterError(
-                f"hardly any sample of {listed(narrow)} is within the range; give a smaller "
-                f"uncertainty, or a value farther inside"
-            )
-        return found
+        raise ParameterError(_hardly_any([each.name for each in group]))
 
-    def _bad(self, found: dict[str, Any]) -> Any:
-        return ~np.logical_and.reduce(
-            np.broadcast_arrays(*[each.allows(found[each.name]) for each in self._uncertain])
-        )
-
-    def _drawn(self, number: int, block: slice) -> dict[str, Any]:
-        """Return what the samples are that are drawn for some round."""
-        while len(self._rounds) <= number:
-            shape = self.count, len(self._uncertain)
-            self._rounds.append(self._generator.standard_normal(shape) @ self._root)
+    def _drawn(
+        self, group: Sequence[UncertainValue], root: Any, chunk: int, part: slice, number: int
+    ) -> dict[str, Any]:
+        """Return the samples that are drawn in some round, be they inside or not."""
+        normal = [self._normal(self._places[each.name], chunk, number)[part] for each in group]
         found = {}
-        for place, each in enumerate(self._uncertain):
-            normal = self._rounds[number][block, place].reshape(-1, *(1,) * self._axes)
-            found[each.name] = each.value + each.sigma * normal
+        for each, row in zip(group, root, strict=True):
+            mixed = sum(weight * some for weight, some in zip(row, normal, strict=True))
+            mixed = np.reshape(mixed, (-1, *(1,) * self._axes))
+            with np.errstate(over="ignore"):
+                found[each.name] = each.value + each.sigma * mixed
         return found
+
+    def _normal(self, place: int, chunk: int, number: int) -> npt.NDArray[np.float64]:
+        own = np.random.SeedSequence(self._seed, spawn_key=(place, chunk, number))
+        return np.random.Generator(np.random.PCG64(own)).standard_normal(_CHUNK)
+
+
+def _groups(correlation: npt.NDArray[np.float64], places: Sequence[int]) -> list[list[int]]:
+    """Return which values are correlated, also by way of others, in the order of their places."""
+    together = correlation != 0.0
+    for _ in places:
+        together = together @ together
+    order = sorted(range(len(places)), key=places.__getitem__)
+    groups = [[other for other in order if together[one, other]] for one in order]
+    return [group for one, group in zip(order, groups, strict=True) if group[0] == one]
+
+
+def _least_share(each: UncertainValue) -> float:
+    """Return how much of a normal distribution is within the range, of the path of least."""
+    if not each.leaves_its_range:
+        return 1.0
+    with np.errstate(all="ignore"):
+        ends = [(end - each.value) / (math.sqrt(2.0) * each.sigma) for end in (each.low, each.high)]
+    low, high = (np.asarray(_ERF(end), np.float64) for end in ends)
+    share = np.where(each.sigma == 0.0, 1.0, 0.5 * (high - low))
+    return float(np.min(share, initial=1.0))
+
+
+def _inside(each: UncertainValue, samples: Any) -> Any:
+    return each.allows(samples) & np.isfinite(samples)
+
+
+def _hardly_any(names: list[str]) -> str:
+    return (
+        f"hardly any sample of {listed(names)} is within the range; give a smaller uncertainty, "
+        f"or a value farther inside"
+    )

@@ -55,7 +55,8 @@ def rounding_of(light: Light) -> npt.NDArray[np.float64]:
         slopes = np.sum(np.abs(np.nan_to_num(gradients_of(light))), axis=-1)
         noise = np.asarray(light.noise, np.float64)[..., np.newaxis]
         found = noise * slopes
-        found[..., STOKES:] = np.fmax(found[..., STOKES:], noise / light.stokes[..., :1])
+        of_one = noise / np.asarray(light.stokes)[..., :1]
+        found[..., STOKES:] = np.fmax(found[..., STOKES:], of_one)
     return np.asarray(_ROUNDINGS * found)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import prod
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from optipath.sweeps.uncertainty.drawn_samples import DrawnSamples
 from optipath.sweeps.uncertainty.first_order import Spread
 from optipath.sweeps.uncertainty.light_figures import STOKES, difference, figures_of, rounding_of
 from optipath.sweeps.uncertainty.notes import notes_of_lost_figures
+from optipath.sweeps.uncertainty.sample_moments import SampleMoments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,6 +23,17 @@ if TYPE_CHECKING:
 
 PATHS = 1 << 17
 """How many paths a block of samples has at most, if the batch itself has no more."""
+
+
+def samples_at_once(shape: tuple[int, ...]) -> int:
+    """Return how many samples of a batch of some shape run at once.
+
+    Examples
+    --------
+    >>> samples_at_once((1000,))
+    131
+    """
+    return max(1, PATHS // max(1, prod(shape)))
 
 
 def spread_of_samples(
@@ -52,15 +64,19 @@ def spread_of_samples(
     notes : list of str
         What was outside of its range.
     """
-    samples = DrawnSamples(light_at.uncertain, correlation, count, seed, len(light.shape))
+    order = [*light_at.plan.inputs.open]
+    places = [order.index(each.name) for each in light_at.uncertain]
+    axes = len(light.shape)
+    samples = DrawnSamples(light_at.uncertain, correlation, places, count, seed, axes)
     names = [each.name for each in light_at.uncertain]
-    mean, variance, covariance = _moments(light_at, light, samples, names)
+    moments = _moments(light_at, light, samples, names)
     outside = dict(samples.outside)
-    alone = [_moments(light_at, light, samples, [name])[1] for name in names]
-    still = variance <= rounding_of(light) ** 2
-    variance = np.where(still, 0.0, variance)
+    alone = [_moments(light_at, light, samples, [name]).deviation for name in names]
+    deviation = moments.deviation
+    still = deviation <= rounding_of(light)
+    deviation = np.where(still, 0.0, deviation)
     with np.errstate(all="ignore"):
-        shares = np.stack(alone, axis=-1) / variance[..., np.newaxis]
+        shares = (np.stack(alone, axis=-1) / deviation[..., np.newaxis]) ** 2
     shares = np.where(still[..., np.newaxis], 0.0, shares)
     notes = [
         f"{each.name}: {outside[each.name]:,} of {count:,} samples were outside its range, "
@@ -69,39 +85,20 @@ def spread_of_samples(
         if outside[each.name]
     ]
     figures = figures_of(light)
-    notes += notes_of_lost_figures(~np.isnan(figures) & np.isnan(variance))
-    spread = Spread(covariance, np.sqrt(variance), shares)
-    return spread, np.asarray(light.stokes) + mean[..., :STOKES], notes
+    notes += notes_of_lost_figures(~np.isnan(figures) & np.isnan(deviation))
+    spread = Spread(moments.covariance, deviation, shares)
+    return spread, np.asarray(light.stokes) + moments.mean[..., :STOKES], notes
 
 
 def _moments(
     light_at: LightAt, light: Light, samples: DrawnSamples, names: Sequence[str]
-) -> tuple[Any, Any, Any]:
-    """Return the mean change of the figures, their variance, and the covariance of four of them.
-
-    All are sums of what differs from the light at the best estimates, one sample after the other,
-    so that they are the same to the last bit in whatever blocks.
-    """
-    center = figures_of(light)
-    first: Any = 0.0
-    second: Any = 0.0
-    crossed: Any = 0.0
-    size = max(1, PATHS // max(1, prod(light.shape)))
+) -> SampleMoments:
+    """Return the moments of what samples differ by from the light at the best estimates."""
+    center, found = figures_of(light), SampleMoments()
+    size = samples_at_once(light.shape)
     for start in range(0, samples.count, size):
-        values = samples.within(slice(start, min(start + size, samples.count)))
-        some = light_at.beside({name: values[name] for name in names}, names)
-        apart = difference(figures_of(some), center)
-        stokes = apart[..., :STOKES]
-        first, second = _added(first, apart), _added(second, apart**2)
-        crossed = _added(crossed, stokes[..., np.newaxis] * stokes[..., np.newaxis, :])
-    count = samples.count
-    mean = first / count
-    variance = np.maximum(second - count * mean**2, 0.0) / (count - 1)
-    product = mean[..., :STOKES, np.newaxis] * mean[..., np.newaxis, :STOKES]
-    return mean, variance, (crossed - count * product) / (count - 1)
-
-
-def _added(total: Any, more: Any) -> Any:
-    """Return a sum with what is added to it, one after the other along the first axis."""
-    total = np.broadcast_to(total, more.shape[1:])
-    return np.cumsum(np.concatenate([total[np.newaxis], more]), axis=0)[-1]
+        values = samples.within(slice(start, min(start + size, samples.count)), names)
+        some = light_at.beside(values, names)
+        with np.errstate(all="ignore"):
+            found.add(difference(figures_of(some), center))
+    return found

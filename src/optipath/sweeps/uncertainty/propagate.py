@@ -12,9 +12,14 @@ from optipath.plan.choosing import only
 from optipath.sweeps.uncertainty.correlation import read_correlation
 from optipath.sweeps.uncertainty.first_order import changes_of, spread_of
 from optipath.sweeps.uncertainty.light_at import LightAt
+from optipath.sweeps.uncertainty.light_figures import STOKES
 from optipath.sweeps.uncertainty.linearity import nonlinearity_of
-from optipath.sweeps.uncertainty.monte_carlo import spread_of_samples
-from optipath.sweeps.uncertainty.notes import notes_of_first_order, notes_of_lost_light
+from optipath.sweeps.uncertainty.monte_carlo import samples_at_once, spread_of_samples
+from optipath.sweeps.uncertainty.notes import (
+    notes_of_first_order,
+    notes_of_lost_covariances,
+    notes_of_lost_light,
+)
 from optipath.sweeps.uncertainty.propagation import Propagation
 from optipath.sweeps.uncertainty.read_uncertain import read_uncertain
 from optipath.sweeps.uncertainty.stokes_slopes import slopes_of
@@ -31,6 +36,9 @@ if TYPE_CHECKING:
 
 _BYTES = 1100
 """What a path takes for each value that is uncertain, with all that is made on the way."""
+
+_BYTES_OF_A_SAMPLE = 2600
+"""What a path takes in each sample that runs at once; those of other blocks take nothing."""
 
 
 def propagate(
@@ -61,11 +69,10 @@ def propagate(
     if clashes := options.clashes(plan.inputs):
         raise ParameterError(*clashes)
     exact, uncertain, faults = read_uncertain(plan.inputs, given)
-    names = [each.name for each in uncertain]
+    # A value whose uncertainty cannot be read is one of them all the same.
+    names = [n for n, value in given.items() if isinstance(value, tuple) and n not in exact]
     correlation, wrong = read_correlation(options.correlation, names)
-    faults += options.faults()
-    # Of a value that cannot be read, nobody knows whether it would be one of them.
-    faults += [] if faults else wrong
+    faults += options.faults() + wrong
     detector, no_detector = _detector(plan, options.detector)
     faults += no_detector
     if faults:
@@ -74,11 +81,14 @@ def propagate(
     asked = plan if composer is None else path.plan_by(composer)
     values = {n: v[0] if isinstance(v, tuple) and n in names else v for n, v in given.items()}
     asked.answers.large_angles.look(values)
+    asked.answers.large_angles.look_at_uncertainties({n: given[n][1] for n in names})
     light_at = LightAt(asked, detector, exact, tuple(uncertain))
     light = light_at({})
-    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
-        if options.draws:
+    if options.draws:
+        block = min(options.count, samples_at_once(light.shape)), *light.shape
+        with enough_for(block, _BYTES_OF_A_SAMPLE, error=ParameterError):
             return _by_samples(light_at, light, correlation, options)
+    with enough_for(light.shape, _BYTES * len(uncertain), error=ParameterError):
         if composer is None:
             return _to_first_order(light_at, light, correlation, options)
         exactly = replace(composer, engine="auto", dtype="float64", tolerance=None, model="auto")
@@ -115,7 +125,11 @@ def _to_first_order(
         covariance=spread.covariance,
         uncertain=light_at.uncertain,
         method=method,
-        notes=(*notes_of_lost_light(_is_lost(light)), *notes),
+        notes=(
+            *notes_of_lost_light(_is_lost(light)),
+            *notes_of_lost_covariances(spread.covariance, spread.uncertainties[..., :STOKES]),
+            *notes,
+        ),
         uncertainties=spread.uncertainties,
         shares=spread.shares,
         left=left,
@@ -138,7 +152,11 @@ def _by_samples(
         covariance=np.where(lost[..., np.newaxis, np.newaxis], np.nan, spread.covariance),
         uncertain=light_at.uncertain,
         method=f"Monte Carlo, {count:,} samples, seed {seed}",
-        notes=(*notes_of_lost_light(lost), *notes),
+        notes=(
+            *notes_of_lost_light(lost),
+            *notes_of_lost_covariances(spread.covariance, uncertainties[..., :STOKES]),
+            *notes,
+        ),
         uncertainties=uncertainties,
         shares=spread.shares,
         left=np.zeros_like(spread.shares),

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.sweeps.uncertainty.light_figures import STOKES, place_of
 from optipath.sweeps.uncertainty.linearity import LARGEST
 from optipath.sweeps.uncertainty.propagation_text import text_of_propagation
+from optipath.values.arrays.read_only import Unchanging, locked, same
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -21,12 +22,13 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Propagation:
+class Propagation(Unchanging):
     """Light, its standard uncertainty, and what contributes how much.
 
     Quantities are named as attributes of `Light`, ``"intensity"``, ``"dop"``, ``"dolp"``,
     ``"aop"``, ``"ellipticity"``, ``"psi"`` and ``"delta"``, or ``"S0"`` to ``"S3"``; angles are in
-    radians. What is not defined is NaN, and `notes` say why.
+    radians. What is not defined is NaN, and `notes` say why. Arrays are read-only. Two are equal
+    if all fields are, of which NaN equals NaN.
 
     Attributes
     ----------
@@ -57,6 +59,19 @@ class Propagation:
     uncertainties: Array
     shares: Array
     left: Array
+
+    def __post_init__(self) -> None:
+        """Lock the arrays."""
+        for each in fields(self):
+            locked(getattr(self, each.name))
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        names = [each.name for each in fields(self)]
+        return all(_same(getattr(self, name), getattr(other, name)) for name in names)
+
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def uncertainty(self) -> Array:
@@ -136,3 +151,10 @@ class Propagation:
 
     def _by_name(self, numbers: Array) -> dict[str, Array]:
         return {each.name: numbers[..., place] for place, each in enumerate(self.uncertain)}
+
+
+def _same(first: Any, second: Any) -> bool:
+    """Tell whether two fields are equal; what is not defined is equal to itself."""
+    if isinstance(first, np.ndarray) and isinstance(second, np.ndarray):
+        return np.array_equal(first, second, equal_nan=True)
+    return same(first, second)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optipath.values.arrays.read_only import Unchanging, locked, same_fields
 from optipath.values.displayed import displayed, format_range
 from optipath.values.units import dimension_of
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class UncertainValue:
+class UncertainValue(Unchanging):
     """A value of a parameter, or a batch of them, with its standard uncertainty.
 
     Attributes
@@ -23,7 +24,7 @@ class UncertainValue:
     name : str
         The parameter.
     value, sigma : ndarray of float, of one shape
-        The best estimate and one standard deviation, in radians, metres, ...
+        Read-only copies: the best estimate and one standard deviation, in radians, metres, ...
     low, high : float
         The range of the parameter, where it stands.
     unit : str
@@ -41,6 +42,14 @@ class UncertainValue:
     low: float
     high: float
     unit: str
+
+    def __post_init__(self) -> None:
+        """Keep copies, which nobody can change."""
+        for name in ("value", "sigma"):
+            object.__setattr__(self, name, locked(np.array(getattr(self, name))))
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
 
     def allows(self, numbers: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
         """Return which numbers are within the range."""
