@@ -13,7 +13,7 @@ pytest.importorskip("zarr")
 
 import zarr
 
-from large_jobs import Powers, marked, powers
+from large_jobs import Powers, computed, marked, powers
 from optipath.errors import JobError
 from optipath.sweeps.blocks import block_store
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
@@ -78,12 +78,60 @@ def test_what_stands_in_the_place_is_told_and_left_as_it_is(store, put, told):
     assert content_of(store) == before
 
 
-@pytest.mark.parametrize(("name", "content"), [("1", b""), ("7", b"\1"), ("x", b"\1")])
+@pytest.mark.parametrize(("name", "content"), [("1.0", b""), ("7.0", b"\1"), ("x", b"")])
 def test_a_mark_that_is_none_is_told(store, name, content):
     keep_blocks(Powers(2), store)
     (store / "blocks" / "done" / name).write_bytes(content)
     with pytest.raises(JobError, match=rf"done/{name}' is no mark of a block; delete this file"):
         keep_blocks(Powers(2), store)
+
+
+def lose(file):
+    file.unlink()
+
+
+def empty(file):
+    file.write_bytes(b"")
+
+
+@pytest.mark.parametrize("harm", [lose, empty])
+def test_a_block_that_has_lost_a_file_is_computed_again_and_no_other(store, tmp_path, harm):
+    job = Powers(3, log=str(tmp_path / "log"))
+    keep_blocks(job, store, "synchronous")
+    before = content_of(store)
+    harm(store / "power" / "3.0")
+    keep_blocks(job, store, "synchronous")
+    assert computed(tmp_path / "log") == [0, 1, 2, 1]
+    assert content_of(store) == before
+
+
+@pytest.mark.parametrize(
+    "name",
+    [".zgroup", ".zmetadata", "power/.zarray", "number/.zarray", "called/.zattrs", "number/0"],
+)
+@pytest.mark.parametrize("harm", [lose, empty])
+def test_a_damaged_file_of_the_group_is_told_and_nothing_is_changed(store, name, harm):
+    keep_blocks(Powers(2), store)
+    harm(store / name)
+    before = content_of(store)
+    with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone; take another"):
+        keep_blocks(Powers(2), store)
+    assert content_of(store) == before
+
+
+@pytest.mark.parametrize("content", ["{", "[]", '{"shape": [3]}'])
+@pytest.mark.parametrize("name", [".zmetadata", "power/.zarray"])
+def test_metadata_that_are_garbage_are_told(store, name, content):
+    keep_blocks(Powers(2), store)
+    (store / name).write_text(content)
+    with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone"):
+        keep_blocks(Powers(2), store)
+
+
+def test_attributes_may_be_added_by_hand(store):
+    keep_blocks(Powers(2), store)
+    zarr.open_group(store, mode="r+").attrs["note"] = "mine"
+    keep_blocks(Powers(2), store)
 
 
 def test_a_record_without_marks_is_told(store):

@@ -124,7 +124,7 @@ def test_a_class_that_is_defined_anew_is_another_sweep(tmp_path):
         expected = np.cos(times * np.array(angles))
         for chosen in ({}, {"chunks": 1}, {"store": tmp_path / f"{name}.zarr"}):
             assert np.allclose(path.sweep(angle=angles, **chosen).S1, expected, rtol=0, atol=1e-15)
-    with pytest.raises(op.errors.JobError, match="another job: it has 'element class .*Turn"):
+    with pytest.raises(op.errors.JobError, match=r"another job: it has 'element class .*Turn"):
         paths[1].sweep(angle=angles, store=tmp_path / "a.zarr")
     paths[0].sweep(angle=angles, store=tmp_path / "a.zarr")
 

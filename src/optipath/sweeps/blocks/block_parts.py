@@ -87,12 +87,18 @@ def chunk_files(
     Yields
     ------
     tuple of (str, bytes)
-        The name and the content of a file. A chunk that is not there yet in all of its values has
-        none.
+        The name and the content of a file, for every chunk.
     """
     buffer = default_buffer_prototype().buffer
     held = {_METADATA: buffer.from_bytes(metadata)}
-    zarr.open_array(MemoryStore(held), zarr_format=2, mode="r+")[region] = values
+    array = zarr.open_array(
+        # Where a file is missing, it is lost.
+        MemoryStore(held),
+        zarr_format=2,
+        mode="r+",
+        config={"write_empty_chunks": True},
+    )
+    array[region] = values
     for name, content in held.items():
         if name != _METADATA:
             yield name, content.to_bytes()

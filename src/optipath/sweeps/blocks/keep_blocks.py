@@ -86,7 +86,7 @@ def keep_blocks(
     """
     check_scheduler(scheduler)
     kept = BlockStore.of(job, given_file(store, JobError))
-    done = kept.done(job.blocks)
+    done = kept.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
     if missing:
