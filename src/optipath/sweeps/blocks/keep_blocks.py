@@ -90,12 +90,17 @@ def keep_blocks(
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
     if missing:
-        with (
-            workers_of(scheduler, len(missing)) as workers,
-            closing(_handed_out(job, kept, missing, workers)) as found,
-        ):
-            for finished, _ in enumerate(found, len(done) + 1):
-                _tell(progress, finished, job)
+        try:
+            with (
+                workers_of(scheduler, len(missing)) as workers,
+                closing(_handed_out(job, kept, missing, workers)) as found,
+            ):
+                for finished, _ in enumerate(found, len(done) + 1):
+                    _tell(progress, finished, job)
+        except KeyboardInterrupt:
+            # Blocks that were in work have come to their end meanwhile.
+            _tell(progress, sum(map(kept.holds, range(job.blocks))), job)
+            raise
     return kept.folder
 
 
