@@ -63,7 +63,10 @@ def another_folder(store):
     ("put", "told"),
     [
         (other_job, "holds blocks of another job: it has 'other powers', where this one has 'po"),
-        (other_layout, "holds blocks of another job; take another name, or delete it"),
+        (
+            other_layout,
+            "another job: it has blocks 3, where this one has 2; take another name",
+        ),
         (newer_format, "has format 2, and this version of optipath knows 1; use the version"),
         (damaged_record, r"the record '.*\.zattrs' is damaged; take another name, or delete it"),
         (another_folder, "is there, and is no store of blocks; take another name, or delete it"),
@@ -255,6 +258,63 @@ def test_what_a_block_gives_is_what_its_job_says(store, gives, told):
     with pytest.raises(JobError, match=told):
         keep_blocks(Careless(2, gives=gives), store, "synchronous")
     assert marked(store) == set()
+
+
+ROWS = (slice(0, 4), slice(0, 3))
+
+
+@pytest.mark.parametrize(
+    ("gives", "told"),
+    [
+        (("power", WHOLE), r"gives 'power' as .*; give \(region, values\)"),
+        (("power", (ROWS, WHOLE.tolist())), r"gives 'power' as .*; give \(region, values\)"),
+        (("power", ((slice(None), slice(0, 3)), WHOLE)), "give a tuple of slices"),
+        (("power", ((0, slice(0, 3)), WHOLE)), "give a tuple of slices"),
+        (("power", ((slice(0, 4, 2), slice(0, 3)), WHOLE)), "give a tuple of slices"),
+        (("power", (slice(0, 4), WHOLE)), "give a tuple of slices"),
+    ],
+)
+def test_what_is_no_part_is_told(store, gives, told):
+    with pytest.raises(JobError, match=told):
+        keep_blocks(Careless(2, gives=gives), store, "synchronous")
+
+
+def test_a_block_of_nothing_is_told(store):
+    class Idle(Powers):
+        def compute(self, number):
+            del number
+
+    with pytest.raises(JobError, match="block 0 gives None; return what is in each array"):
+        keep_blocks(Idle(2), store, "synchronous")
+
+
+class Twice(Powers):
+    """Its second block is its first one."""
+
+    def compute(self, number):
+        return super().compute(0 * number)
+
+
+class Half(Powers):
+    """One block, and arrays of two."""
+
+    @property
+    def arrays(self):
+        return Powers(2).arrays
+
+    @property
+    def coords(self):
+        return Powers(2).coords
+
+
+def test_blocks_that_fill_one_part_are_told(store):
+    with pytest.raises(JobError, match="blocks 0 and 1 both fill the part"):
+        keep_blocks(Twice(2), store, "synchronous")
+
+
+def test_chunks_that_no_block_fills_are_told(store):
+    with pytest.raises(JobError, match="of the 4 chunks of 'power' 2 are filled by none"):
+        keep_blocks(Half(1), store, "synchronous")
 
 
 def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):

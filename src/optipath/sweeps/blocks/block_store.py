@@ -8,6 +8,7 @@ import secrets
 import shutil
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -104,6 +105,25 @@ class BlockStore:
             for number in lost:
                 (self._marks / name_of_mark(number)).unlink(missing_ok=True)
         return marks.keys() - lost
+
+    def check_whole(self, job: BlockJob) -> None:
+        """Refuse a store in which all blocks are done and have not filled all arrays.
+
+        Raises
+        ------
+        JobError
+            Naming an array that is not filled, or two blocks that have filled one part.
+        """
+        self.done(job)
+        for name, kept in job.arrays.items():
+            there = [each for each in _names_with_content(self.folder / name) if each[0] != "."]
+            sides = zip(kept.shape, kept.chunks, strict=True)
+            chunks = prod(-(-size // chunk) for size, chunk in sides)
+            if len(there) < chunks:
+                raise JobError(
+                    f"all blocks are done, and of the {chunks} chunks of '{name}' "
+                    f"{chunks - len(there)} are filled by none; let each be in one block"
+                )
 
     def _read_marks(self, job: BlockJob) -> dict[int, bytes]:
         size = 8 * marks_of(job.arrays, job.blocks).shape[1]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import JobError
 from optipath.sweeps.blocks.block_store import BlockStore
+from optipath.sweeps.blocks.checked_job import check_job
 from optipath.sweeps.blocks.workers import check_scheduler, workers_of
 from optipath.values.given_files import given_file
 
@@ -85,6 +86,7 @@ def keep_blocks(
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
+    check_job(job)
     kept = BlockStore.of(job, given_file(store, JobError))
     done = kept.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
@@ -101,6 +103,7 @@ def keep_blocks(
             # Blocks that were in work have come to their end meanwhile.
             _tell(progress, sum(map(kept.holds, range(job.blocks))), job)
             raise
+    kept.check_whole(job)
     return kept.folder
 
 
