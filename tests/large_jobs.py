@@ -95,4 +95,5 @@ def powers(blocks):
 
 def marked(store):
     """The numbers of the blocks that a store says it has."""
-    return {int(file.name) for file in (store / "blocks" / "done").iterdir() if file.name.isdigit()}
+    files = (store / "blocks" / "done").glob("*.0")
+    return {int(file.stem) for file in files}

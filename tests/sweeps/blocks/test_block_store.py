@@ -14,7 +14,7 @@ pytest.importorskip("zarr")
 import zarr
 
 import optipath as op
-from large_jobs import Powers, marked, powers
+from large_jobs import Powers, computed, marked, powers
 from optipath.errors import JobError
 from optipath.sweeps.blocks import block_store
 from optipath.sweeps.blocks.keep_blocks import keep_blocks
@@ -64,7 +64,10 @@ def another_folder(store):
     ("put", "told"),
     [
         (other_job, "holds blocks of another job: it has 'other powers', where this one has 'po"),
-        (other_layout, "holds blocks of another job; take another name, or delete it"),
+        (
+            other_layout,
+            "another job: it has blocks 3, where this one has 2; take another name",
+        ),
         (newer_format, "has format 2, and this version of optipath knows 1; use the version"),
         (damaged_record, r"the record '.*\.zattrs' is damaged; take another name, or delete it"),
         (another_folder, "is there, and is no store of blocks; take another name, or delete it"),
@@ -79,12 +82,60 @@ def test_what_stands_in_the_place_is_told_and_left_as_it_is(store, put, told):
     assert content_of(store) == before
 
 
-@pytest.mark.parametrize(("name", "content"), [("1", b""), ("7", b"\1"), ("x", b"\1")])
+@pytest.mark.parametrize(("name", "content"), [("1.0", b""), ("7.0", b"\1"), ("x", b"")])
 def test_a_mark_that_is_none_is_told(store, name, content):
     keep_blocks(Powers(2), store)
     (store / "blocks" / "done" / name).write_bytes(content)
     with pytest.raises(JobError, match=rf"done/{name}' is no mark of a block; delete this file"):
         keep_blocks(Powers(2), store)
+
+
+def lose(file):
+    file.unlink()
+
+
+def empty(file):
+    file.write_bytes(b"")
+
+
+@pytest.mark.parametrize("harm", [lose, empty])
+def test_a_block_that_has_lost_a_file_is_computed_again_and_no_other(store, tmp_path, harm):
+    job = Powers(3, log=str(tmp_path / "log"))
+    keep_blocks(job, store, "synchronous")
+    before = content_of(store)
+    harm(store / "power" / "3.0")
+    keep_blocks(job, store, "synchronous")
+    assert computed(tmp_path / "log") == [0, 1, 2, 1]
+    assert content_of(store) == before
+
+
+@pytest.mark.parametrize(
+    "name",
+    [".zgroup", ".zmetadata", "power/.zarray", "number/.zarray", "called/.zattrs", "number/0"],
+)
+@pytest.mark.parametrize("harm", [lose, empty])
+def test_a_damaged_file_of_the_group_is_told_and_nothing_is_changed(store, name, harm):
+    keep_blocks(Powers(2), store)
+    harm(store / name)
+    before = content_of(store)
+    with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone; take another"):
+        keep_blocks(Powers(2), store)
+    assert content_of(store) == before
+
+
+@pytest.mark.parametrize("content", ["{", "[]", '{"shape": [3]}'])
+@pytest.mark.parametrize("name", [".zmetadata", "power/.zarray"])
+def test_metadata_that_are_garbage_are_told(store, name, content):
+    keep_blocks(Powers(2), store)
+    (store / name).write_text(content)
+    with pytest.raises(JobError, match=rf"the file '.*{name}' is damaged or gone"):
+        keep_blocks(Powers(2), store)
+
+
+def test_attributes_may_be_added_by_hand(store):
+    keep_blocks(Powers(2), store)
+    zarr.open_group(store, mode="r+").attrs["note"] = "mine"
+    keep_blocks(Powers(2), store)
 
 
 def test_a_record_without_marks_is_told(store):
@@ -208,6 +259,63 @@ def test_what_a_block_gives_is_what_its_job_says(store, gives, told):
     with pytest.raises(JobError, match=told):
         keep_blocks(Careless(2, gives=gives), store, "synchronous")
     assert not store.exists()  # Nothing is done of it.
+
+
+ROWS = (slice(0, 4), slice(0, 3))
+
+
+@pytest.mark.parametrize(
+    ("gives", "told"),
+    [
+        (("power", WHOLE), r"gives 'power' as .*; give \(region, values\)"),
+        (("power", (ROWS, WHOLE.tolist())), r"gives 'power' as .*; give \(region, values\)"),
+        (("power", ((slice(None), slice(0, 3)), WHOLE)), "give a tuple of slices"),
+        (("power", ((0, slice(0, 3)), WHOLE)), "give a tuple of slices"),
+        (("power", ((slice(0, 4, 2), slice(0, 3)), WHOLE)), "give a tuple of slices"),
+        (("power", (slice(0, 4), WHOLE)), "give a tuple of slices"),
+    ],
+)
+def test_what_is_no_part_is_told(store, gives, told):
+    with pytest.raises(JobError, match=told):
+        keep_blocks(Careless(2, gives=gives), store, "synchronous")
+
+
+def test_a_block_of_nothing_is_told(store):
+    class Idle(Powers):
+        def compute(self, number):
+            del number
+
+    with pytest.raises(JobError, match="block 0 gives None; return what is in each array"):
+        keep_blocks(Idle(2), store, "synchronous")
+
+
+class Twice(Powers):
+    """Its second block is its first one."""
+
+    def compute(self, number):
+        return super().compute(0 * number)
+
+
+class Half(Powers):
+    """One block, and arrays of two."""
+
+    @property
+    def arrays(self):
+        return Powers(2).arrays
+
+    @property
+    def coords(self):
+        return Powers(2).coords
+
+
+def test_blocks_that_fill_one_part_are_told(store):
+    with pytest.raises(JobError, match="blocks 0 and 1 both fill the part"):
+        keep_blocks(Twice(2), store, "synchronous")
+
+
+def test_chunks_that_no_block_fills_are_told(store):
+    with pytest.raises(JobError, match="of the 4 chunks of 'power' 2 are filled by none"):
+        keep_blocks(Half(1), store, "synchronous")
 
 
 def test_dark_blocks_and_blocks_of_nan_are_kept_too(store):

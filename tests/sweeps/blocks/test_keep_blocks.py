@@ -156,3 +156,21 @@ def test_nobody_answers_at_a_dead_address(store, monkeypatch):
     monkeypatch.setattr("optipath.sweeps.blocks.cluster._PATIENCE", 0.2)
     with pytest.raises(JobError, match=r"no cluster answers at 'tcp://127.0.0.1:1'.*runs"):
         keep_blocks(Powers(2), store, "tcp://127.0.0.1:1")
+
+
+def test_after_an_interrupt_the_blocks_that_came_to_their_end_are_counted(tmp_path):
+    told, store = [], tmp_path / "powers.zarr"
+
+    def progress(done, _):
+        told.append(done)
+        if len(told) == 2:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        keep_blocks(Powers(40, slow=0.05), store, "threads", progress)
+    assert told[-1] == len(marked(store)) > told[-2]
+
+
+def test_an_address_that_wants_certificates_is_told(tmp_path):
+    with pytest.raises(JobError, match=r"tls://.* give a client that has the certificates"):
+        keep_blocks(Powers(2), tmp_path / "powers.zarr", "tls://127.0.0.1:9")

@@ -1,5 +1,6 @@
 """Sweeps that are kept in a Zarr store or a file of NetCDF, and go on where they stopped."""
 
+import contextlib
 import shutil
 
 import numpy as np
@@ -137,7 +138,7 @@ def test_a_file_that_cannot_be_written_whole_is_not_there(tmp_path, monkeypatch)
     monkeypatch.setattr(xr.Dataset, "to_netcdf", fails)
     with pytest.raises(OSError, match="No space"):
         kept(tmp_path / "sweep.nc")
-    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc.zarr"]
+    assert [each.name for each in tmp_path.iterdir()] == [".sweep.nc.blocks"]
 
 
 def test_a_file_that_came_to_be_there_meanwhile_is_left_alone(tmp_path, monkeypatch):
@@ -151,7 +152,42 @@ def test_a_file_that_came_to_be_there_meanwhile_is_left_alone(tmp_path, monkeypa
     with pytest.raises(op.ParameterError, match="is there already"):
         kept(file)
     assert file.read_text() == "mine"
-    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", "sweep.nc.zarr"}
+    assert {each.name for each in tmp_path.iterdir()} == {"sweep.nc", ".sweep.nc.blocks"}
+
+
+def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
+    file, compute = tmp_path / "sweep.nc", SweepJob.compute
+
+    def faster(job, number):
+        with monkeypatch.context() as patch:
+            patch.setattr(SweepJob, "compute", compute)
+            assert_same_bits(kept(file), swept())
+        return compute(job, number)
+
+    monkeypatch.setattr(SweepJob, "compute", faster)
+    assert_same_bits(kept(file, scheduler="synchronous"), swept())
+    assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
+
+
+def test_a_store_of_the_users_own_beside_a_file_stays(tmp_path):
+    kept(tmp_path / "sweep.nc.zarr")
+    kept(tmp_path / "sweep.nc")
+    assert_same_bits(kept(tmp_path / "sweep.nc.zarr"), swept())
+
+
+# What h5netcdf has opened by half, it cannot close.
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+@pytest.mark.parametrize("place", [0, 0.01, 0.05, 0.3])
+def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
+    file = tmp_path / "sweep.nc"
+    kept(file).close()
+    content = bytearray(file.read_bytes())
+    start = int(place * len(content))
+    content[start : start + 2000] = b"x" * 2000
+    file.write_bytes(content)
+    with contextlib.suppress(op.ParameterError):
+        kept(file).close()
+    assert file.read_bytes() == content
 
 
 @pytest.mark.parametrize("store", ["sweep.csv", "sweep", "", 3, True])

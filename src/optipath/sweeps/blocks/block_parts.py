@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,11 +11,13 @@ from zarr.core.buffer import default_buffer_prototype
 from zarr.storage import MemoryStore
 
 from optipath.errors import JobError, shown
+from optipath.values.whole_numbers import is_whole
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     import numpy.typing as npt
+    from zarr.core.buffer import Buffer
 
     from optipath.sweeps.blocks.block_job import KeptArray
 
@@ -39,14 +42,33 @@ def check_parts(number: int, arrays: Mapping[str, KeptArray], found: Mapping[str
         With all faults: a part is missing, of another shape or type, or no whole chunks, so that
         two blocks would write one file.
     """
+    if not isinstance(found, Mapping):
+        raise JobError(
+            f"block {number} gives {shown(found)}; return what is in each array by its name, "
+            f"{{name: (region, values)}}"
+        )
     faults = [f"gives no array '{name}'" for name in arrays if name not in found]
     faults += [f"gives {shown(name)}, which is not kept" for name in found if name not in arrays]
     for name in arrays.keys() & found.keys():
-        region, values = found[name]
-        fault = _fault(arrays[name], region, values)
+        fault = _form(found[name]) or _fault(arrays[name], *found[name])
         faults += [f"gives '{name}' {fault}"] if fault else []
     if faults:
         raise JobError(*(f"block {number} {fault}" for fault in sorted(faults)))
+
+
+def _form(part: Any) -> str:
+    """Say what is wrong where this is no part at all."""
+    if not isinstance(part, tuple) or len(part) != 2 or not isinstance(part[1], np.ndarray):
+        return f"as {shown(part)}; give (region, values), a tuple of slices and an array"
+    region = part[0]
+    is_plain = isinstance(region, tuple) and all(
+        isinstance(each, slice)
+        and each.step in (None, 1)
+        and is_whole(each.start, 0)
+        and is_whole(each.stop, 0)
+        for each in region
+    )
+    return "" if is_plain else f"for {shown(region)}; give a tuple of slices, slice(begin, end)"
 
 
 def _fault(kept: KeptArray, region: tuple[slice, ...], values: npt.NDArray[Any]) -> str:
@@ -87,12 +109,26 @@ def chunk_files(
     Yields
     ------
     tuple of (str, bytes)
-        The name and the content of a file. A chunk that is not there yet in all of its values has
-        none.
+        The name and the content of a file, for every chunk.
     """
     buffer = default_buffer_prototype().buffer
-    held = {_METADATA: buffer.from_bytes(metadata)}
-    zarr.open_array(MemoryStore(held), zarr_format=2, mode="r+")[region] = values
+    like = zarr.open_array(
+        MemoryStore({_METADATA: buffer.from_bytes(metadata)}), zarr_format=2, mode="r"
+    )
+    held: dict[str, Buffer] = {}
+    array = zarr.create_array(
+        MemoryStore(held),
+        shape=like.shape,
+        chunks=like.chunks,
+        dtype=like.dtype,
+        fill_value=like.fill_value,
+        compressors=like.compressors,
+        filters=like.filters,
+        zarr_format=2,
+        # Where a file is missing, it is lost. An array that is opened would leave this unheeded.
+        config={"write_empty_chunks": True},
+    )
+    array[region] = values
     for name, content in held.items():
-        if name != _METADATA:
+        if not name.startswith(".z"):
             yield name, content.to_bytes()

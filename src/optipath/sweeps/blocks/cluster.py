@@ -12,7 +12,7 @@ from multiprocessing import resource_tracker
 from typing import TYPE_CHECKING
 
 from dask.system import CPU_COUNT
-from distributed import Client, LocalCluster
+from distributed import Client, LocalCluster, Security
 from distributed.comm import connect
 
 from optipath.errors import JobError
@@ -88,6 +88,11 @@ def _reached(address: str) -> Client:
         with ThreadPoolExecutor(1) as elsewhere:
             elsewhere.submit(asyncio.run, _knock(address)).result()
         return Client(address, set_as_default=False)
+    except TypeError as fault:
+        raise JobError(
+            f"'{address}' cannot be reached ({fault}); give a client that has the certificates, "
+            f"distributed.Client('{address}', security=distributed.Security(...))"
+        ) from None
     except (OSError, ValueError, ImportError) as fault:
         raise JobError(
             f"no cluster answers at '{address}' ({fault}); see that its scheduler runs and that "
@@ -96,7 +101,8 @@ def _reached(address: str) -> Client:
 
 
 async def _knock(address: str) -> None:
-    comm = await connect(address, timeout=_PATIENCE)
+    certificates = Security().get_connection_args("client")
+    comm = await connect(address, timeout=_PATIENCE, **certificates)
     await comm.close()
 
 

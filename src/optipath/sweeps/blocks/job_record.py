@@ -59,7 +59,7 @@ def check_record(folder: Path, file: Path, job: BlockJob) -> None:
             f"use the version that made it, or {OTHER_PLACE}"
         )
     if found != record_of(job):
-        difference = _difference(str(identity), job.identity)
+        difference = _difference(str(identity), job.identity) or _layout(found, record_of(job))
         raise JobError(f"'{folder}' holds blocks of another job{difference}; {OTHER_PLACE}")
 
 
@@ -68,4 +68,12 @@ def _difference(there: str, here: str) -> str:
     for line_there, line_here in zip(there.splitlines(), here.splitlines(), strict=False):
         if line_there != line_here:
             return f": it has {shown(line_there)}, where this one has {shown(line_here)}"
+    return ""
+
+
+def _layout(there: dict[str, Any], here: dict[str, Any]) -> str:
+    """Return what else of two records differs, ready to be put behind a fault."""
+    for name, value in here.items():
+        if there.get(name) != value:
+            return f": it has {name} {shown(there.get(name))}, where this one has {shown(value)}"
     return ""

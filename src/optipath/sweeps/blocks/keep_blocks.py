@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import JobError, OptipathError
 from optipath.sweeps.blocks.block_store import BlockStore
+from optipath.sweeps.blocks.checked_job import check_job
 from optipath.sweeps.blocks.workers import check_scheduler, workers_of
 from optipath.values.given_files import given_file
 
@@ -87,8 +88,9 @@ def keep_blocks(
     [ 0.  1.  4.  9. 16. 25.]
     """
     check_scheduler(scheduler)
+    check_job(job)
     kept = BlockStore.of(job, given_file(store, JobError))
-    done = kept.done(job.blocks)
+    done = kept.done(job)
     missing = [number for number in range(job.blocks) if number not in done]
     _tell(progress, len(done), job)
     if missing:
@@ -101,10 +103,15 @@ def keep_blocks(
                 are_at_work = workers.stay
                 for finished, _ in enumerate(found, len(done) + 1):
                     _tell(progress, finished, job)
+        except KeyboardInterrupt:
+            # Blocks that were in work have come to their end meanwhile.
+            _tell(progress, sum(map(kept.holds, range(job.blocks))), job)
+            raise
         except OptipathError:
             if not are_at_work:  # They might write into another job's store of the same name.
                 kept.discard_unused()
             raise
+    kept.check_whole(job)
     return kept.folder
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import zarr
 
 from optipath.sweeps.blocks.block_job import KeptArray
+from optipath.sweeps.blocks.block_marks import marks_of
 from optipath.sweeps.blocks.job_record import record_of
 
 if TYPE_CHECKING:
@@ -41,8 +42,7 @@ def make_group(job: BlockJob, folder: Path) -> None:
     for name, whole in job.coords.items():
         _write(group, name, whole)
     record = group.create_group("blocks", attributes=record_of(job))
-    marks = KeptArray(("block",), (job.blocks,), (1,), "uint8")
-    _create(record, "done", marks, compressors=None, filters=None)
+    _create(record, "done", marks_of(job.arrays, job.blocks), compressors=None, filters=None)
     zarr.consolidate_metadata(str(folder), zarr_format=_VERSION)
 
 
@@ -55,6 +55,7 @@ def _create(group: zarr.Group, name: str, kept: KeptArray, **encoding: Any) -> z
         dtype=dtype,
         # xarray takes a fill value for one that is missing, which a number must not be.
         fill_value=np.nan if dtype.kind in "fc" else None,
+        config={"write_empty_chunks": True},
         attributes={**kept.attrs, _DIMENSIONS: list(kept.dims)},
         **encoding,
     )

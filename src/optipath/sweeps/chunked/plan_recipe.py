@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import lru_cache
 from importlib import import_module
 from threading import Lock
@@ -12,6 +12,7 @@ from optipath.composer.composer import Composer
 from optipath.elements.own_couplings import is_own
 from optipath.errors import PathError
 from optipath.paths.presets.preset_text import path_of_text
+from optipath.sweeps.chunked.own_class import OwnClass
 
 if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
@@ -30,8 +31,11 @@ class PlanRecipe:
         The path, as `PathGraph.to_toml` writes it.
     options : tuple of (str, Any)
         Those of the `Composer` that are not as they are by default.
-    modules : tuple of str
-        Where elements of a user's own are defined; they are imported first.
+    own : tuple of OwnClass
+        The classes of elements of a user's own; their modules are imported first.
+    made : Plan or None
+        The plan in the process that has it already, of the very classes of its path; it stays
+        there, and is nothing by which recipes differ.
 
     Examples
     --------
@@ -45,7 +49,8 @@ class PlanRecipe:
 
     text: str
     options: tuple[tuple[str, Any], ...] = ()
-    modules: tuple[str, ...] = ()
+    own: tuple[OwnClass, ...] = ()
+    made: Plan | None = field(default=None, compare=False, repr=False)
 
     @classmethod
     def of(cls, path: PathGraph, composer: Composer | None = None) -> PlanRecipe:
@@ -71,9 +76,18 @@ class PlanRecipe:
         options = ((each.name, getattr(chosen, each.name)) for each in fields(Composer))
         usual = Composer()
         told = tuple([(name, value) for name, value in options if value != getattr(usual, name)])
-        classes = {type(node["element"]) for node in path.graph.nodes.values()}
-        own = sorted({each.__module__ for each in classes if is_own(each)})
-        return cls(path.to_toml(), told, tuple(own))
+        own = _own_classes(path)
+        # Where a class was defined anew since, its kind stands for another one.
+        made = path.plan_by(chosen) if own else None
+        return cls(path.to_toml(), told, own, made)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave the plan where it was made."""
+        return {**self.__dict__, "made": None}
+
+    def __dask_tokenize__(self) -> tuple[Any, ...]:
+        """Return what tells it from others."""
+        return self.text, self.options, self.own
 
     @property
     def plan(self) -> Plan:
@@ -82,10 +96,17 @@ class PlanRecipe:
         Raises
         ------
         PathError
-            If an element of a user's own is not there in this process.
+            If an element of a user's own is not there in this process, or is another one.
         """
+        if self.made is not None:
+            return self.made
         with _making:
             return _plan_of(self)
+
+
+def _own_classes(path: PathGraph) -> tuple[OwnClass, ...]:
+    classes = {type(node["element"]) for node in path.graph.nodes.values()}
+    return tuple(sorted(OwnClass.of(each) for each in classes if is_own(each)))
 
 
 _making = Lock()
@@ -94,7 +115,8 @@ _making = Lock()
 
 @lru_cache(maxsize=8)
 def _plan_of(recipe: PlanRecipe) -> Plan:
-    for module in recipe.modules:
+    modules = sorted({each.module for each in recipe.own})
+    for module in modules:
         try:
             import_module(module)
         except ImportError as error:
@@ -105,11 +127,26 @@ def _plan_of(recipe: PlanRecipe) -> Plan:
     try:
         path = path_of_text(recipe.text, "the path of a sweep")
     except PathError as error:
-        if "__main__" not in recipe.modules:
+        if "__main__" not in modules:
             raise
         raise PathError(
             *error.faults,
             "elements that are defined in the script itself are not there in another process; put "
             "their classes into a module of its own and import it, or use threads",
         ) from None
+    _check_own(recipe.own, _own_classes(path))
     return Composer(**dict(recipe.options)).compose(path)
+
+
+def _check_own(there: tuple[OwnClass, ...], here: tuple[OwnClass, ...]) -> None:
+    """Refuse classes that are other ones than where the recipe was made."""
+    # What is a script in one process may have another name in the next.
+    known = {(each.name, each.digest) for each in here}
+    if faults := [
+        f"element class '{each.name}' of module '{each.module}' is another one on the worker than "
+        f"in the path that is swept; start workers anew when its code was edited, and put what was "
+        f"defined by hand, such as in a cell of a notebook, into a module"
+        for each in there
+        if (each.name, each.digest) not in known
+    ]:
+        raise PathError(*faults)

@@ -42,6 +42,7 @@ def sweep_identity(
     """
     lines = [f"a sweep by optipath {version('optipath')}, layout {LAYOUT}"]
     lines += [f"option {name}: {value!r}" for name, value in recipe.options]
+    lines += [f"element class {' '.join(each)}" for each in recipe.own]
     lines += [f"fixed {name}: {_single(grid, name)}" for name in grid.fixed]
     lines += [f"axis {axis.name}: {_told(axis)}" for axis in grid.axes]
     lines += [f"chunks of {name}: {size}" for name, size in sizes.items()]
