@@ -91,7 +91,9 @@ class Outcome:
         """The largest errors that the certificates leave, where some are allowed."""
         approximation = self.plan.answers.approximation
         assert approximation is not None  # noqa: S101 - asked for by who knows
-        return _laid_out(approximation.errors_for(self.grid.given()), self.grid)
+        found = approximation.errors_for(self.grid.given())
+        is_idle = self.grid.varied is not self.grid
+        return np.broadcast_to(found, self.grid.shape) if is_idle else found
 
     @property
     def materials(self) -> dict[str, Any]:
@@ -144,12 +146,12 @@ def outcome_of(chosen: Chosen, path: PathGraph, plan: Plan, grid: SweepGrid) -> 
     return Outcome(chosen, path, plan, lights, " and ".join(plan.answers.ran_by), grid)
 
 
-def _laid_out(found: Any, grid: SweepGrid) -> Any:
-    """Return what a run has found, repeated along dimensions on which nothing depends."""
+def _laid_out(light: Light, grid: SweepGrid) -> Light:
+    """Return the light of a run, repeated along dimensions on which nothing depends."""
     if (ran := grid.varied) is grid:
-        return found
+        return light
     each = zip(grid.shape, ran.shape, strict=True)
-    return found.reshape(ran.shape)[np.ix_(*[np.arange(size) % own for size, own in each])]
+    return light.reshape(ran.shape)[np.ix_(*[np.arange(size) % own for size, own in each])]
 
 
 def outcome_as_json(outcome: Outcome) -> dict[str, Any]:

@@ -143,3 +143,13 @@ def test_a_command_that_takes_one_value_says_so(capsys):
 def test_a_range_of_no_wavelengths_is_refused(capsys):
     assert main(["sweep", "malus", "--wavelength", "-400 nm:700 nm:4"]) == 2
     assert "wavelength" in capsys.readouterr().err
+
+
+def test_errors_that_are_allowed_are_the_same_along_it(capsys):
+    given = ["npgr026", "--tolerance", "0.1", "--reads", "intensity", "--rho", "0"]
+    given += ["--filter", "horizontal", "--json", "--delta"]
+    for angles, shape in (("10, 20", (2, 4)), ("10", (4,))):
+        assert main(["sweep", *given, angles, *GIVEN]) == 0
+        found = json.loads(capsys.readouterr().out)["tolerance"]["error"]
+        assert np.shape(found) == shape
+        assert np.ptp(found, axis=-1).max() == 0.0
