@@ -117,3 +117,35 @@ def test_an_angle_that_floats_cannot_tell_is_refused():
 @pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
 def test_the_largest_angles_give_numbers():
     assert np.all(np.isfinite(op.EllipticalRetarder(1e15, 1e15, -1e15).mueller().matrix))
+
+
+@pytest.mark.parametrize("vector", [[0.1, 0.2, 0.3], (0.1, 0.2, 0.3), ["6 deg", "12 deg", 0.3]])
+def test_three_numbers_of_the_first_component_are_asked_about(vector):
+    with pytest.raises(op.OptipathError, match="may be a rotation vector, or s1 of three paths"):
+        op.EllipticalRetarder(vector)
+    path = chain([op.EllipticalRetarder(op.Parameter("v"))], STATE)
+    with pytest.raises(op.ParameterError, match=r"'v'.* may be a rotation vector"):
+        path.trace(v=vector)
+
+
+def test_what_can_be_of_several_retarders_alone_is_not_asked_about():
+    several = [0.1, 0.2, 0.3]
+    wanted = chain([op.EllipticalRetarder(np.array(several), 0.2)], STATE).trace().stokes
+    path = chain([op.EllipticalRetarder(op.Parameter("v"), 0.2)], STATE)
+    for found in (
+        chain([op.EllipticalRetarder(several, 0.2)], STATE).trace(),
+        path.trace(v=several),
+        path.trace(v=np.array(several)),
+    ):
+        np.testing.assert_allclose(found.stokes, wanted)
+    op.EllipticalRetarder(s3=several)
+    op.EllipticalRetarder(several[:2])
+    path = chain([op.EllipticalRetarder(op.Parameter("v"))], STATE)
+    assert path.trace(v=np.array(several)).shape == (3,)
+
+
+def test_retarders_of_three_paths_are_read_back(tmp_path):
+    path = chain([op.EllipticalRetarder(np.array([0.1, 0.2, 0.3]))], STATE)
+    (tmp_path / "three.toml").write_text(path.to_toml())
+    again = op.load_preset(tmp_path / "three.toml")
+    np.testing.assert_array_equal(again.trace().stokes, path.trace().stokes)

@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from typing import ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from optipath.elements.coupling import Coupling, Operation
 from optipath.elements.element import Element
 from optipath.elements.known_sizes import vanishes
+from optipath.errors import ValueFault
 from optipath.kernels.catalogue import ELLIPTICAL_RETARDER, RETARDER, ROTATION_ALONG
-from optipath.values.domains.quantities import Angle, RotationAngle
+from optipath.values.domains.quantities import (
+    FIRST_ROTATION_ANGLE,
+    ROTATION_ANGLE,
+    Angle,
+    FirstRotationAngle,
+    RotationAngle,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from typing import Any
+
+    from optipath.values.domains.domain import Domain
 
 
 class EllipticalRetarder(Element, kind="elliptical-retarder"):
@@ -40,10 +53,30 @@ class EllipticalRetarder(Element, kind="elliptical-retarder"):
 
     mirrored: ClassVar[tuple[str, ...]] = ("s2",)
 
-    s1: RotationAngle = 0.0
+    s1: FirstRotationAngle = 0.0
     s2: RotationAngle = 0.0
     s3: RotationAngle = 0.0
     azimuth: Angle = 0.0
+
+    def __post_init__(self) -> None:
+        """Ask besides whether three numbers are the vector."""
+        given = self.s1
+        super().__post_init__()
+        asked = FIRST_ROTATION_ANGLE.doubt("EllipticalRetarder s1", given)
+        if asked and self._is_of_one_component:
+            raise ValueFault(asked)
+
+    def quantities(self) -> Iterator[tuple[str, Any, Domain]]:
+        """Yield every number; beside others, three of s1 are no vector."""
+        found = super().quantities()
+        if self._is_of_one_component:
+            return found
+        first = FIRST_ROTATION_ANGLE
+        return ((name, value, ROTATION_ANGLE if of is first else of) for name, value, of in found)
+
+    @property
+    def _is_of_one_component(self) -> bool:
+        return vanishes(self.s2) and vanishes(self.s3)
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the rotation, by the cheapest kernel that is right."""

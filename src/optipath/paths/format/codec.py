@@ -28,6 +28,7 @@ from optipath.values.domains.followed import Followed
 from optipath.values.domains.indices import INDEX, IndexDomain, OutsideDomain
 from optipath.values.domains.pair import is_pair, pair_in
 from optipath.values.domains.quantities import AMPLITUDE, ANGLE
+from optipath.values.domains.rotation_vector import FirstComponentDomain
 from optipath.values.domains.spectral import SpectralDomain
 from optipath.values.domains.states import IntensityDomain
 from optipath.values.follows import FOLLOWS
@@ -42,6 +43,9 @@ if TYPE_CHECKING:
 
 _AFFINE = ("parameter", "scale", "offset")
 """The keys of a multiple of a parameter with an offset."""
+
+_LISTED = (IntensityDomain, FirstComponentDomain)
+"""Domains whose lists are of several paths in a file, which has a key for each part."""
 
 
 def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any:
@@ -98,7 +102,7 @@ def decode(raw: Any, domain: Domain, parameters: Mapping[str, Parameter]) -> Any
         return named(raw, domain)
     if domain.complex_parts and pair_in(raw, domain):
         raise PresetError(which_pair(raw, domain.complex_parts))
-    number = _several if isinstance(domain, IntensityDomain) else _number
+    number = _several if isinstance(domain, _LISTED) else _number
     return domain.parse(raw) if isinstance(raw, str) else number(raw, domain.unit)
 
 
@@ -270,7 +274,7 @@ def _complex(parts: Mapping[str, Any]) -> Any:
 
 
 def _several(raw: Any, unit: str = "") -> Any:
-    """Return a number, or an array of several: a file has a key for a state, and asks of pairs."""
+    """Return a number, or an array of several: a file asks of pairs alone."""
     number = _number(raw, unit)
     return array_of("the value", number) if isinstance(number, list) else number
 

@@ -25,6 +25,7 @@ from optipath.values.domains.indices import (
     OPTIONAL_OUTSIDE,
 )
 from optipath.values.domains.optional import OptionalDomain
+from optipath.values.domains.rotation_vector import FirstComponentDomain
 from optipath.values.domains.spectral import SPECTRAL
 from optipath.values.domains.stack_indices import INDICES
 from optipath.values.domains.states import AmplitudeDomain, IntensityDomain, StokesDomain
@@ -42,9 +43,10 @@ REAL = Domain("number")
 
 ANGLE = Domain("angle", "angle")
 Angle: TypeAlias = Annotated[Quantity, ANGLE]
-RotationAngle: TypeAlias = Annotated[
-    Quantity, Domain("component of a rotation vector", "angle", -1e15, 1e15)
-]
+ROTATION_ANGLE = Domain("component of a rotation vector", "angle", -1e15, 1e15)
+RotationAngle: TypeAlias = Annotated[Quantity, ROTATION_ANGLE]
+FIRST_ROTATION_ANGLE = FirstComponentDomain(ROTATION_ANGLE.name, "angle", -1e15, 1e15)
+FirstRotationAngle: TypeAlias = Annotated[Quantity, FIRST_ROTATION_ANGLE]
 Axis: TypeAlias = Annotated[Quantity, AxisDomain("angle", "angle")]
 OptionalAxis: TypeAlias = Annotated[Quantity, OptionalAxisDomain("angle", "angle")]
 INCIDENCE = Domain("angle of incidence", "angle", minimum=0.0, maximum=np.pi / 2)
