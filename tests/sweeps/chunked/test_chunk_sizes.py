@@ -34,6 +34,10 @@ def test_a_dimension_is_kept_whole_by_minus_one():
     assert chunk_sizes(-1, SIZES) == SIZES
 
 
+def test_a_dimension_may_be_auto_itself():
+    assert chunk_sizes({"rho": "auto", "phi": 10}, SIZES) == chunk_sizes({"phi": 10}, SIZES)
+
+
 @pytest.mark.parametrize("chunks", [0, -2, 1.5, True, "big", None, [10]])
 def test_what_is_no_size_is_refused_with_what_would_be(chunks):
     with pytest.raises(op.ParameterError, match=r"give 'auto', a number .* or {'delta': 10}"):

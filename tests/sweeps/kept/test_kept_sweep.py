@@ -19,14 +19,17 @@ ANGLES = np.linspace(0.0, 1.5, 11)
 DELTAS = np.linspace(0.1, 1.4, 4)
 
 
-def swept(**given):
-    path = (
+def path():
+    return (
         op.Source(3.0)
         >> op.Interface(op.Parameter("n"), op.Parameter("delta"))
         >> op.Polarizer(op.Parameter("angle"))
         >> op.Detector()
     )
-    return path.sweep(**{"delta": DELTAS, "angle": ANGLES, "n": 1.5, **given})
+
+
+def swept(**given):
+    return path().sweep(**{"delta": DELTAS, "angle": ANGLES, "n": 1.5, **given})
 
 
 def kept(store, **given):
@@ -194,6 +197,30 @@ def test_a_file_with_other_bytes_within_is_told_and_left_alone(tmp_path, place):
 def test_a_store_of_no_known_form_is_refused_with_one_that_is(store):
     with pytest.raises(op.ParameterError, match=r"ends in \.zarr or \.nc, such as '.+\.zarr'"):
         kept(store)
+
+
+@pytest.mark.parametrize("store", [".zarr", ".nc"])
+def test_an_ending_alone_is_no_name(store):
+    with pytest.raises(op.ParameterError, match=r"such as 'sweep\.zarr'"):
+        kept(store)
+
+
+def test_what_was_kept_lends_its_axes_in_their_order(store):
+    kept(store)
+    opened = xr.open_zarr(store) if store.suffix == ".zarr" else xr.open_dataset(store)
+    with opened:
+        assert [*opened.coords] == ["angle", "delta", "n"] or store.suffix == ".nc"
+        for given in (opened, opened.S0):
+            assert path().sweep(coords=given).S0.dims == ("delta", "angle")
+
+
+@pytest.mark.filterwarnings("ignore:Consolidated metadata")
+def test_what_was_kept_can_be_written_elsewhere_in_any_version(tmp_path):
+    found = kept(tmp_path / "a.zarr")
+    for version in (2, 3):
+        copy = tmp_path / f"{version}.zarr"
+        found.to_zarr(copy, zarr_format=version)
+        assert_same_bits(xr.open_zarr(copy), swept())
 
 
 @pytest.mark.parametrize(

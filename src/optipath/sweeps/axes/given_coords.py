@@ -70,7 +70,7 @@ def given_coords(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Gi
         if isinstance(coords, (str, PathLike)):
             return _of_file(inputs, coords, faults)
         if has_coordinates(coords):
-            return _of_dataset(inputs, getattr(coords, "coords", coords), faults)
+            return _of_dataset(inputs, coords, faults)
     except OptipathError as fault:
         about = f"{fault.about}: " if fault.about else ""
         faults += [f"{about}{sentence}" for sentence in fault.faults]
@@ -111,9 +111,12 @@ def _of_file(
     return {column.name: GivenCoordinate(column, dimension) for column in known}
 
 
-def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
+def _of_dataset(inputs: Inputs, given: Any, faults: list[str]) -> dict[str, GivenCoordinate]:
     found = {}
-    for name, array in coords.items():
+    coords, order = getattr(given, "coords", given), _order_of_dimensions(given)
+    # Those of a store that was opened are in the order of the alphabet.
+    first = sorted(coords.items(), key=lambda each: min(map(order.index, each[1].dims), default=0))
+    for name, array in first:
         if name not in inputs.open and (name == DETECTOR or _is_label(inputs, coords, name)):
             continue
         if name not in inputs.open:
@@ -126,6 +129,16 @@ def _of_dataset(inputs: Inputs, coords: Any, faults: list[str]) -> dict[str, Giv
         else:
             found[str(name)] = GivenCoordinate(array, str(array.dims[0]) if array.dims else "")
     return found
+
+
+def _order_of_dimensions(given: Any) -> list[Any]:
+    """Return the dimensions, as data have them, and then as coordinates do."""
+    data = [*given.data_vars.values()] if hasattr(given, "data_vars") else [given]
+    data = sorted(
+        (each for each in data if hasattr(each, "dims")), key=lambda each: -len(each.dims)
+    )
+    several = [*data, *getattr(given, "coords", given).values()]
+    return list(dict.fromkeys(dimension for each in several for dimension in each.dims))
 
 
 def _is_label(inputs: Inputs, coords: Any, name: Any) -> bool:

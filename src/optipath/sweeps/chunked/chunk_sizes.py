@@ -18,8 +18,8 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
     Parameters
     ----------
     chunks : int, str or mapping of str to int
-        As `PathGraph.sweep` takes it. Dimensions that a mapping does not name are cut as by
-        ``"auto"``, in the room that the others leave.
+        As `PathGraph.sweep` takes it. Dimensions that a mapping does not name, or calls
+        ``"auto"``, are cut in the room that the others leave.
     sizes : mapping of str to int
         How many values each dimension has, in order.
     detectors : int, optional
@@ -61,14 +61,14 @@ def chunk_sizes(chunks: Any, sizes: Mapping[str, int], detectors: int = 1) -> di
 
 def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     """Return the sizes that somebody has chosen."""
-    if isinstance(chunks, str) and chunks == "auto":
+    if _auto(chunks):
         return {}
     forms = (
         f"give 'auto', a number of values along each dimension, or {{'{next(iter(sizes))}': 10}}"
     )
     if isinstance(chunks, Mapping):
         faults = [fault for name in chunks for fault in unknown("dimension", name, sizes)]
-        given = {name: size for name, size in chunks.items() if name in sizes}
+        given = {name: size for name, size in chunks.items() if name in sizes and not _auto(size)}
         wrong = [(f"chunks of '{name}'", size) for name, size in given.items()]
     else:
         faults, given, wrong = [], dict.fromkeys(sizes, chunks), [("chunks", chunks)]
@@ -80,6 +80,10 @@ def _told(chunks: Any, sizes: Mapping[str, int]) -> dict[str, int]:
     if faults:
         raise ParameterError(*faults)
     return {name: sizes[name] if size == -1 else int(size) for name, size in given.items()}
+
+
+def _auto(size: Any) -> bool:
+    return isinstance(size, str) and size == "auto"
 
 
 def _even(count: int, most: int) -> int:

@@ -49,7 +49,7 @@ give a name that ends in .zarr or .nc, such as 'sweep.zarr'
     is_path = isinstance(store, str | os.PathLike)
     place = Path(store) if is_path else Path()
     if place.suffix not in (".zarr", ".nc"):
-        stem = place.stem or "sweep"
+        stem = "sweep" if place.stem in ("", ".zarr", ".nc") else place.stem
         raise ParameterError(
             f"store {shown(str(store) if is_path else store)} is neither a Zarr store nor a NetCDF "
             f"file: give a name that ends in .zarr or .nc, such as '{stem}.zarr'"
@@ -83,4 +83,6 @@ def kept_sweep(job: SweepJob, place: Path, scheduler: Any, *, progress: bool | T
     if place.suffix == ".nc":
         return kept_in_netcdf(job, place, scheduler, tell)
     found: xr.Dataset = xr.open_zarr(keep_blocks(job, place, scheduler, tell))
+    for each in found.variables.values():
+        each.encoding = {}  # How it is packed here is for this version of Zarr alone.
     return found
