@@ -20,7 +20,7 @@ from optipath.values.written_files import write_file
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.sweeps.blocks.block_job import BlockJob
+    from optipath.sweeps.blocks.block_job import BlockJob, BlockPart
 
 _MARK = b"\1"
 
@@ -102,7 +102,7 @@ class BlockStore:
         """Tell whether a block is there."""
         return (self._marks / str(number)).exists()
 
-    def keep(self, job: BlockJob, number: int, found: Mapping[str, Any]) -> None:
+    def keep(self, job: BlockPart, number: int, found: Mapping[str, Any]) -> None:
         """Write a block, and then mark it as done.
 
         Parameters

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from os import PathLike
     from pathlib import Path
 
-    from optipath.sweeps.blocks.block_job import BlockJob
+    from optipath.sweeps.blocks.block_job import BlockJob, BlockPart
     from optipath.sweeps.blocks.workers import Workers
 
 
@@ -113,7 +113,8 @@ def _handed_out(
     try:
         while True:
             for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
-                pending[workers.executor.submit(_keep_block, job, kept, number)] = number
+                part = _sent(job, number)
+                pending[workers.executor.submit(_keep_block, part, kept, number)] = number
             if not pending:
                 return
             for each in wait(pending, return_when=FIRST_COMPLETED).done:
@@ -125,7 +126,13 @@ def _handed_out(
             each.cancel()
 
 
-def _keep_block(job: BlockJob, kept: BlockStore, number: int) -> None:
+def _sent(job: BlockJob, number: int) -> BlockPart:
+    """Return what of a job is sent for a block."""
+    part: Callable[[int], BlockPart] | None = getattr(job, "part", None)
+    return job if part is None else part(number)
+
+
+def _keep_block(job: BlockPart, kept: BlockStore, number: int) -> None:
     # Another run, or a worker that was thought lost, may have done it.
     if not kept.holds(number):
         kept.keep(job, number, job.compute(number))
