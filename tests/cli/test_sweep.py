@@ -136,9 +136,9 @@ def test_a_store_that_is_whole_is_not_computed_again(capsys):
 
 def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, monkeypatch):
     pytest.importorskip("xarray")
-    from optipath.sweeps.kept.sweep_job import SweepJob  # noqa: PLC0415 - an extra
+    from optipath.sweeps.kept.sweep_block import SweepBlock  # noqa: PLC0415 - an extra
 
-    compute = SweepJob.compute
+    compute = SweepBlock.compute
 
     def interrupted(job, number):
         if number == 2:
@@ -148,12 +148,12 @@ def test_an_interrupt_keeps_what_is_done_and_the_same_command_goes_on(capsys, mo
     given = ["malus", "--angle", "0:90:10", "--out", "a.zarr", "--chunks", "3"]
     given += ["--scheduler", "synchronous"]
     with monkeypatch.context() as patch:
-        patch.setattr(SweepJob, "compute", interrupted)
+        patch.setattr(SweepBlock, "compute", interrupted)
         status, _, err = sweep(capsys, *given)
     told = "optipath: 2 of 4 blocks are in a.zarr; the same command goes on from there\n"
     assert (status, err) == (130, f"{told}optipath: interrupted\n")
     numbers = []
-    monkeypatch.setattr(SweepJob, "compute", lambda *a: numbers.append(a[1]) or compute(*a))
+    monkeypatch.setattr(SweepBlock, "compute", lambda *a: numbers.append(a[1]) or compute(*a))
     assert sweep(capsys, *given)[2] == "optipath: 2 of 4 blocks are in a.zarr already\n"
     assert numbers == [2, 3]
 

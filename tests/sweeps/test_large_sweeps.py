@@ -13,7 +13,7 @@ pytest.importorskip("distributed")
 import distributed
 
 import optipath as op
-from optipath.sweeps.kept.sweep_job import SweepJob
+from optipath.sweeps.kept.sweep_block import SweepBlock
 
 GOLD = {"n1": 0.18, "k1": 3.4, "n2": 0.18, "k2": 3.4, "filter": "horizontal"}
 AXES = {
@@ -79,7 +79,7 @@ def test_a_worker_that_dies_takes_no_block_with_it(tmp_path, client, alone):
 
 
 def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, alone, monkeypatch):
-    store, computed, compute = tmp_path / "sweep.zarr", [], SweepJob.compute
+    store, computed, compute = tmp_path / "sweep.zarr", [], SweepBlock.compute
 
     def stopped(done, _):
         if done == 4:
@@ -93,7 +93,7 @@ def test_what_cluster_began_another_scheduler_goes_on_with(tmp_path, client, alo
         computed.append(str(number))
         return compute(job, number)
 
-    monkeypatch.setattr(SweepJob, "compute", counted)
+    monkeypatch.setattr(SweepBlock, "compute", counted)
     found = swept(store=store, chunks=CHUNKS, scheduler="synchronous")
     assert len(there) >= 4
     assert not there & {*computed}

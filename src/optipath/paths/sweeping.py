@@ -84,9 +84,10 @@ class Sweeping:
             sweep = import_module("optipath.sweeps.sweep").sweep
             return sweep(self, unnamed, axes, **own, **more)
         except ModuleNotFoundError as missing:
-            if missing.name is None or missing.name.partition(".")[0] not in _BROUGHT:
+            package = (missing.name or "").partition(".")[0]
+            if package not in _BROUGHT:
                 raise
-            raise MissingExtraError("sweeps", missing.name, "sweep") from None
+            raise MissingExtraError("sweeps", package, "sweep") from None
 
     def propagate(
         self,

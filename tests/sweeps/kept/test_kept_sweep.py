@@ -13,7 +13,7 @@ import xarray as xr
 
 import optipath as op
 from optipath.errors import JobError
-from optipath.sweeps.kept.sweep_job import SweepJob
+from optipath.sweeps.kept.sweep_block import SweepBlock
 
 ANGLES = np.linspace(0.0, 1.5, 11)
 DELTAS = np.linspace(0.1, 1.4, 4)
@@ -44,13 +44,13 @@ def store(request, tmp_path):
 @pytest.fixture
 def computed(monkeypatch):
     """The numbers of the blocks that are computed."""
-    numbers, compute = [], SweepJob.compute
+    numbers, compute = [], SweepBlock.compute
 
     def counted(job, number):
         numbers.append(number)
         return compute(job, number)
 
-    monkeypatch.setattr(SweepJob, "compute", counted)
+    monkeypatch.setattr(SweepBlock, "compute", counted)
     return numbers
 
 
@@ -90,7 +90,7 @@ def test_a_sweep_that_is_there_is_opened_and_not_computed(store, computed):
 
 
 def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, computed):
-    compute = SweepJob.compute
+    compute = SweepBlock.compute
 
     def interrupted(job, number):
         if number == 4:
@@ -98,7 +98,7 @@ def test_what_was_interrupted_goes_on_where_it_stopped(store, monkeypatch, compu
         return compute(job, number)
 
     with monkeypatch.context() as patch:
-        patch.setattr(SweepJob, "compute", interrupted)
+        patch.setattr(SweepBlock, "compute", interrupted)
         with pytest.raises(KeyboardInterrupt):
             kept(store, scheduler="synchronous")
     assert sorted(computed) == [0, 1, 2, 3]
@@ -145,13 +145,13 @@ def test_a_file_that_cannot_be_written_whole_is_not_there(tmp_path, monkeypatch)
 
 
 def test_a_file_that_came_to_be_there_meanwhile_is_left_alone(tmp_path, monkeypatch):
-    file, compute = tmp_path / "sweep.nc", SweepJob.compute
+    file, compute = tmp_path / "sweep.nc", SweepBlock.compute
 
     def beside(job, number):
         file.write_text("mine")
         return compute(job, number)
 
-    monkeypatch.setattr(SweepJob, "compute", beside)
+    monkeypatch.setattr(SweepBlock, "compute", beside)
     with pytest.raises(op.ParameterError, match="is there already"):
         kept(file)
     assert file.read_text() == "mine"

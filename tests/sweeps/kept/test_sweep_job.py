@@ -74,3 +74,17 @@ def test_one_value_in_two_units_is_two_sweeps():
 def test_the_first_line_that_differs_says_what_is_another():
     lines = zip(*(job_of(n1=n).identity.splitlines() for n in (0.2, 0.3)), strict=True)
     assert [pair for pair in lines if pair[0] != pair[1]] == [("fixed n1: 0.2", "fixed n1: 0.3")]
+
+
+def test_a_block_is_sent_without_the_axes_of_the_others():
+    angle = np.linspace(0.0, 1.0, 20_000)
+    path = op.load_preset("malus")
+    plan = path.compose()
+    grid = grid_of(plan.inputs, {"angle": angle})
+    job = SweepJob.of(swept_in_chunks(path, plan, grid, 100))
+    whole, part = (len(pickle.dumps(each)) for each in (job, job.part(7)))
+    assert whole > angle.nbytes
+    assert part < angle.nbytes / 10
+    (region,), numbers = job.part(7).compute(7)["S0"]
+    assert region == slice(700, 800)
+    assert numbers.tolist() == path.sweep(angle=angle[region]).S0.values.tolist()

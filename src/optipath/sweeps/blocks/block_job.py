@@ -50,31 +50,12 @@ class WholeArray(NamedTuple):
     attrs: Mapping[str, Any] = {}
 
 
-class BlockJob(Protocol):
-    """A large job, cut into blocks that are computed each by itself, in any order.
-
-    It is pickled to workers, so its fields are plain data; it stays as it is while it runs.
-    """
-
-    @property
-    def identity(self) -> str:
-        """All of what is computed: two jobs with one text come to the same bits."""
-
-    @property
-    def blocks(self) -> int:
-        """How many there are."""
+class BlockPart(Protocol):
+    """What a worker is sent of a job for one block."""
 
     @property
     def arrays(self) -> Mapping[str, KeptArray]:
         """What is kept, by name."""
-
-    @property
-    def coords(self) -> Mapping[str, WholeArray]:
-        """What is known before, by name: the coordinates of the arrays."""
-
-    @property
-    def attrs(self) -> Mapping[str, Any]:
-        """What the whole is, as JSON can hold it."""
 
     def compute(self, number: int) -> Mapping[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
         """Compute one block.
@@ -89,3 +70,28 @@ class BlockJob(Protocol):
         mapping of str to (tuple of slice, ndarray)
             For each of `arrays` the part that the block fills, and what is in it.
         """
+
+
+class BlockJob(BlockPart, Protocol):
+    """A large job, cut into blocks that are computed each by itself, in any order.
+
+    It is pickled to workers, so its fields are plain data; it stays as it is while it runs. One
+    that is large has a method ``part(number)`` besides, which returns the `BlockPart` that is sent
+    in its place.
+    """
+
+    @property
+    def identity(self) -> str:
+        """All of what is computed: two jobs with one text come to the same bits."""
+
+    @property
+    def blocks(self) -> int:
+        """How many there are."""
+
+    @property
+    def coords(self) -> Mapping[str, WholeArray]:
+        """What is known before, by name: the coordinates of the arrays."""
+
+    @property
+    def attrs(self) -> Mapping[str, Any]:
+        """What the whole is, as JSON can hold it."""

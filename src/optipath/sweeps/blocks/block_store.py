@@ -23,7 +23,7 @@ from optipath.values.written_files import write_file
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from optipath.sweeps.blocks.block_job import BlockJob
+    from optipath.sweeps.blocks.block_job import BlockJob, BlockPart
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ class BlockStore:
         """Tell whether a block is there."""
         return (self._marks / name_of_mark(number)).exists()
 
-    def keep(self, job: BlockJob, number: int, found: Mapping[str, Any]) -> None:
+    def keep(self, job: BlockPart, number: int, found: Mapping[str, Any]) -> None:
         """Write a block, and then mark it as done.
 
         Parameters

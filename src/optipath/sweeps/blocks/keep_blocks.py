@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from os import PathLike
     from pathlib import Path
 
-    from optipath.sweeps.blocks.block_job import BlockJob
+    from optipath.sweeps.blocks.block_job import BlockJob, BlockPart
     from optipath.sweeps.blocks.workers import Workers
 
 
@@ -129,7 +129,8 @@ def _handed_out(
     try:
         while True:
             for number in islice(ahead, max(workers.handed_out() - len(pending), 0)):
-                pending[workers.executor.submit(_keep_block, job, kept, number)] = number
+                part = _sent(job, number)
+                pending[workers.executor.submit(_keep_block, part, kept, number)] = number
             if not pending:
                 return
             for each in wait(pending, return_when=FIRST_COMPLETED).done:
@@ -141,7 +142,13 @@ def _handed_out(
             each.cancel()
 
 
-def _keep_block(job: BlockJob, kept: BlockStore, number: int) -> OptipathError | None:
+def _sent(job: BlockJob, number: int) -> BlockPart:
+    """Return what of a job is sent for a block."""
+    part: Callable[[int], BlockPart] | None = getattr(job, "part", None)
+    return job if part is None else part(number)
+
+
+def _keep_block(job: BlockPart, kept: BlockStore, number: int) -> OptipathError | None:
     """Compute a block and keep it; return what is wrong, which clusters log where it is raised."""
     try:
         # Another run, or a worker that was thought lost, may have done it.

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 SCHEDULERS = ("synchronous", "threads", "processes")
 
-# A job with long axes is what is sent; there is nothing that a user could do about it.
+# A block with long axes is what is sent; there is nothing that a user could do about it.
 _LARGE_JOBS = {"distributed.admin.large-graph-warning-threshold": "1 PiB"}
 
 _AHEAD = 2

@@ -10,7 +10,7 @@ import numpy as np
 
 from optipath.errors import ParameterError
 from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
-from optipath.sweeps.chunked.block_light import run_block
+from optipath.sweeps.kept.sweep_block import SweepBlock
 from optipath.sweeps.kept.sweep_identity import sweep_identity
 
 if TYPE_CHECKING:
@@ -127,6 +127,22 @@ class SweepJob:
             ]
         )
 
+    def part(self, number: int) -> SweepBlock:
+        """Return what a block alone is computed of: whole axes may be too large to be sent along.
+
+        Parameters
+        ----------
+        number : int
+            Which block, from 0.
+
+        Returns
+        -------
+        SweepBlock
+        """
+        region = self.region(number)
+        grid = self.grid.part(region)
+        return SweepBlock(self.recipe, grid, region, self.quantities, self.arrays)
+
     def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
         """Return the part of each variable that a block is, and what is in it.
 
@@ -139,10 +155,7 @@ class SweepJob:
         -------
         dict of str to (tuple of slice, ndarray)
         """
-        region = self.region(number)
-        light = run_block(self.recipe, self.grid.part(region))
-        front = (slice(0, len(light.lights)),) if len(light.lights) > 1 else ()
-        return {name: ((*front, *region), light.of(each)) for name, each in self.quantities.items()}
+        return self.part(number).compute(number)
 
 
 def _fixed(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
