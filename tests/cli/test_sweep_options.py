@@ -44,8 +44,8 @@ def test_an_interrupt_says_that_blocks_of_netcdf_are_beside_it(capsys):
     with pytest.raises(KeyboardInterrupt):
         interrupted()
     lines = capsys.readouterr().err.splitlines()
-    assert lines[0] == "optipath: 1 of 3 blocks is in x.nc.zarr already"
-    assert lines[1].startswith("optipath: 1 of 3 blocks is in x.nc.zarr; the same command")
+    assert lines[0] == "optipath: 1 of 3 blocks is in .x.nc.blocks already"
+    assert lines[1].startswith("optipath: 1 of 3 blocks is in .x.nc.blocks; the same command")
 
 
 @pytest.mark.parametrize("word", ["light,between,eye", "@places.csv", "light:eye:2"])

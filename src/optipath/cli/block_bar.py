@@ -10,6 +10,7 @@ import click
 from optipath.cli.progress_bar import progress_bar
 from optipath.cli.sweep_options import ending_of
 from optipath.errors import printable
+from optipath.sweeps.kept.block_place import place_of_blocks
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -30,8 +31,8 @@ def block_bar(store: str) -> Iterator[Callable[[int, int], None]]:
         Takes how many blocks are done, and of how many.
     """
     counts: list[tuple[int, int]] = []
-    # The file is written once all are there.
-    kept = f"{store.rstrip('/')}.zarr" if ending_of(store) == ".nc" else store
+    # A file is written once all are there.
+    kept = place_of_blocks(store) if ending_of(store) == ".nc" else store
     try:
         with progress_bar(1.0) as show:
 

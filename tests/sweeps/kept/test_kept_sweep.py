@@ -159,15 +159,15 @@ def test_a_file_that_came_to_be_there_meanwhile_is_left_alone(tmp_path, monkeypa
 
 
 def test_two_runs_of_one_sweep_come_to_one_file(tmp_path, monkeypatch):
-    file, compute = tmp_path / "sweep.nc", SweepJob.compute
+    file, compute = tmp_path / "sweep.nc", SweepBlock.compute
 
     def faster(job, number):
         with monkeypatch.context() as patch:
-            patch.setattr(SweepJob, "compute", compute)
+            patch.setattr(SweepBlock, "compute", compute)
             assert_same_bits(kept(file), swept())
         return compute(job, number)
 
-    monkeypatch.setattr(SweepJob, "compute", faster)
+    monkeypatch.setattr(SweepBlock, "compute", faster)
     assert_same_bits(kept(file, scheduler="synchronous"), swept())
     assert [each.name for each in tmp_path.iterdir()] == ["sweep.nc"]
 

@@ -114,7 +114,8 @@ class SweptLight:
             light = self.part([slice(axis.start, axis.stop, axis.step) for axis in several])
             found[piece.start : piece.stop] = np.ravel(quantity.of(light))
         ends = tuple(slice(None) if isinstance(index, slice) else 0 for index in key)
-        return np.broadcast_to(found.reshape(shape), whole)[ends]
+        found = found.reshape(shape)
+        return (found if shape == whole else np.broadcast_to(found, whole).copy())[ends]
 
 
 def _places(axis: range, index: int | slice) -> range:
