@@ -2,6 +2,10 @@
 
 from importlib.util import find_spec
 
-OF_JAX = ["src/optipath/engines/jax_path.py", "src/optipath/values/arrays/jax_primitives.py"]
+OF_JAX = [
+    "src/optipath/engines/jax_path.py",
+    "src/optipath/sweeps/uncertainty/slopes_by_jax.py",
+    "src/optipath/values/arrays/jax_primitives.py",
+]
 
 collect_ignore = [] if find_spec("jax") else OF_JAX

@@ -82,7 +82,7 @@ plan: op.Plan = op.Composer(method="textbook").compose(path)
 quick: op.Light = (
     op.Composer(engine="numpy", threads=2).compose(path).run(theta=op.CosSin(1.0, 0.0), angle=0.2)
 )
-swept: Any = path.sweep(theta=[0.1, 0.2], angle="0 deg:90 deg:91", composer=op.Composer())
+swept: Any = op.load_preset("malus").sweep(angle="0 deg:90 deg:91", composer=op.Composer())
 parts: list[op.Light] = [part.light for part in plan.stream(9, theta=0.1, angle=0.2)]
 engines: tuple[str, str] = plan.engine, plan.engine_for(1_000)
 text: str = plan.explain() + path.to_toml()
