@@ -18,9 +18,10 @@ def progress_bar(total: float) -> Iterator[Callable[..., None]]:
     """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
     columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
     console = PlainConsole(stderr=True)
-    with Progress(
-        *columns, console=console, transient=True, disable=not console.is_terminal
-    ) as bar:
+    if not console.is_terminal:  # Older versions of rich end even a bar that is not shown.
+        yield lambda *_, **_change: None
+        return
+    with Progress(*columns, console=console, transient=True) as bar:
         task = bar.add_task("", total=total)
 
         def tell(what: str, **change: Any) -> None:
