@@ -334,3 +334,10 @@ def test_a_parameter_called_keep_is_given_by_that_name():
     assert path.trace(keep=3.0).intensity == 3.0
     assert path.trace().intensity == 2.0
     assert set(path.bind(keep=5.0).trace(keep="all")) == {"eye", "lamp.out -> eye.in"}
+
+
+def test_a_plan_is_kept_by_its_composer():
+    path = op.load_preset("malus")
+    assert path.plan_by(op.Composer(dtype="float32")) is path.plan_by(op.Composer(dtype="float32"))
+    with pytest.raises(op.ComposerError, match=r"a plan is made by a Composer, not \[1\]; write"):
+        path.plan_by([1])

@@ -8,7 +8,7 @@ from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEPT
 from optipath.elements.chaining import NamedElement, chains_begin_with
 from optipath.elements.element import Element
-from optipath.errors import ParameterError, PathError, shown, unknown
+from optipath.errors import ComposerError, ParameterError, PathError, shown, unknown
 from optipath.paths.described_graph import DescribedGraph
 from optipath.paths.joining import name_by_kind
 from optipath.paths.sweeping import Sweeping
@@ -63,7 +63,16 @@ class PathGraph(Sweeping, DescribedGraph):
         return self._plans["usual"]
 
     def plan_by(self, composer: Composer) -> Plan:
-        """Return the plan that a composer makes of the path, composed once and kept."""
+        """Return the plan that a composer makes of the path, composed once and kept.
+
+        Raises
+        ------
+        ComposerError
+            If it is none.
+        """
+        if not isinstance(composer, Composer):
+            given, example = shown(composer), "op.Composer(engine='numpy')"
+            raise ComposerError(f"a plan is made by a Composer, not {given}; write {example}")
         if composer not in self._plans:
             self._plans[composer] = composer.compose(self._graph)
         return self._plans[composer]
