@@ -225,6 +225,8 @@ def test_a_missing_extra_is_told_with_its_cure(missing, capsys, monkeypatch):
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, missing, None)
     status, _, err = sweep(capsys, "malus", "--angle", "0:90:3", "--out", "a.zarr")
+    for name in [name for name in sys.modules if name.startswith("optipath.sweeps.")]:
+        del sys.modules[name]  # What was imported here; what was there before comes back.
     assert status == 2
     assert err.endswith("is not installed; pip install 'optipath[sweep]'\n")
 
