@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 if TYPE_CHECKING:
-    import numpy as np
     import numpy.typing as npt
 
     from optipath.light.light import Light
@@ -34,7 +35,7 @@ class LightQuantity(NamedTuple):
     def of(self, light: Light) -> npt.NDArray[np.float64]:
         """Return the numbers that it has for some light, of the shape of the batch."""
         if self.attribute.isdigit():
-            return light.stokes[..., int(self.attribute)]
+            return np.asarray(light.stokes)[..., int(self.attribute)]
         return getattr(light, self.attribute)  # type: ignore[no-any-return]
 
 

@@ -165,6 +165,6 @@ def _by_samples(
 
 def _is_lost(light: Light) -> npt.NDArray[np.bool_]:
     """Return which light is too faint, or too bright, for a float."""
-    s0 = np.asarray(light.stokes[..., 0])
+    s0 = np.asarray(light.stokes)[..., 0]
     lost = (np.abs(s0) < np.finfo(np.float64).tiny) | np.isinf(s0)
     return np.asarray(lost & (light.exponent != 0))
