@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from optipath.errors import OptipathError, ParameterError
 from optipath.values.axis_texts import read_entries
 from optipath.values.curves.csv_lines import first_of
-from optipath.values.units import USUAL_UNITS, dimension_of
+from optipath.values.text_tables import missing_unit
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -40,12 +40,8 @@ def read_column(inputs: Inputs, column: TextColumn) -> AxisValues:
         With the file, and the line of each cell that something is wrong with.
     """
     name = column.name
-    parameter = inputs.open[name]
-    if (dimension := dimension_of(parameter.unit)) and column.lacks_units:
-        raise ParameterError(
-            f"{column.file}: column '{name}' has no unit; write its name as "
-            f"'{name} ({USUAL_UNITS[dimension]})' if that is its unit"
-        )
+    if lacking := missing_unit(column, inputs.open[name]):
+        raise ParameterError(f"{column.file}: {lacking}")
     try:
         return _read(inputs, name, column.texts)
     except OptipathError as fault:
