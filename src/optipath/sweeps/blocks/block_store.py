@@ -94,10 +94,14 @@ class BlockStore:
         JobError
             If what it says of them is damaged, or two blocks have filled one part.
         """
+        return self._done(job)[0]
+
+    def _done(self, job: BlockJob) -> tuple[set[int], dict[str, set[str]]]:
+        """Return the blocks that it holds, and the files of chunks of each array."""
         marks = self._read_marks(job)
         with self._writing():
             # After the marks, since a block writes these last.
-            there = {name: _names_with_content(self.folder / name) for name in job.arrays}
+            there = {name: _chunks_with_content(self.folder / name) for name in job.arrays}
             written = dict[tuple[str, str], int]()
             lost = set[int]()
             for number, mark in marks.items():
@@ -111,7 +115,7 @@ class BlockStore:
                         )
             for number in lost:
                 (self._marks / name_of_mark(number)).unlink(missing_ok=True)
-        return marks.keys() - lost
+        return marks.keys() - lost, there
 
     def check_whole(self, job: BlockJob) -> None:
         """Refuse a store in which all blocks are done and have not filled all arrays.
@@ -121,15 +125,14 @@ class BlockStore:
         JobError
             Naming an array that is not filled, or two blocks that have filled one part.
         """
-        self.done(job)
+        _, there = self._done(job)
         for name, kept in job.arrays.items():
-            there = [each for each in _names_with_content(self.folder / name) if each[0] != "."]
             sides = zip(kept.shape, kept.chunks, strict=True)
             chunks = prod(-(-size // chunk) for size, chunk in sides)
-            if len(there) < chunks:
+            if len(there[name]) < chunks:
                 raise JobError(
                     f"all blocks are done, and of the {chunks} chunks of '{name}' "
-                    f"{chunks - len(there)} are filled by none; let each be in one block"
+                    f"{chunks - len(there[name])} are filled by none; let each be in one block"
                 )
 
     def _read_marks(self, job: BlockJob) -> dict[int, bytes]:
@@ -227,9 +230,9 @@ class BlockStore:
             ) from None
 
 
-def _names_with_content(folder: Path) -> set[str]:
+def _chunks_with_content(folder: Path) -> set[str]:
     with os.scandir(folder) as found:
-        return {each.name for each in found if each.stat().st_size}
+        return {each.name for each in found if each.name[0] != "." and each.stat().st_size}
 
 
 def _is_empty(folder: Path) -> bool:
