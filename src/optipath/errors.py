@@ -300,7 +300,7 @@ def _is_command() -> bool:
     # While a package is looked for, its name stands behind -m, and "-m" is all that argv knows.
     if sys.argv[:1] == ["-m"]:
         return sys.orig_argv[sys.orig_argv.index("-m") + 1 :][:1] == ["optipath"]
-    return os.path.basename("".join(sys.argv[:1])).partition(".")[0] == "optipath"  # noqa: PTH119
+    return os.path.basename("".join(map(str, sys.argv[:1]))).partition(".")[0] == "optipath"  # noqa: PTH119
 
 
 # In a program of others, nothing changes.

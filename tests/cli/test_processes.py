@@ -97,6 +97,15 @@ def test_programs_of_others_keep_their_own_way_with_interrupts():
     assert done.stdout == "default_int_handler\n"
 
 
+def test_a_script_that_is_run_by_its_path_imports_the_library(tmp_path):
+    (tmp_path / "script.py").write_text("import optipath\nprint(optipath.Source().intensity)\n")
+    code = "import pathlib, runpy; runpy.run_path(pathlib.Path('script.py'))"  # As argv has it.
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert done.stdout == "1.0\n"
+
+
 @pytest.mark.parametrize("arguments", [["presets"], ["explain", "malus"]])
 def test_a_broken_pipe_ends_it_in_silence(arguments):
     reader, writer = os.pipe()
