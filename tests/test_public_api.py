@@ -28,6 +28,7 @@ ROOMS = [
     "composer",
     "paths",
     "sweeps",
+    "surfaces",
     "lab",
     "cli",
 ]

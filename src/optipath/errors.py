@@ -106,6 +106,14 @@ class JobError(OptipathError):
     """A large job that cannot begin or go on: for its store, its disk or its workers."""
 
 
+class SurfaceError(OptipathError):
+    """A rough surface or a sample of such is not one, or nothing can be done with it."""
+
+
+class MeshWarning(UserWarning):
+    """A mesh is too coarse for its roughness."""
+
+
 class LoopWarning(UserWarning):
     """Nearly all of the light that goes round in a loop comes back each time."""
 

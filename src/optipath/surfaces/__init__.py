@@ -1,0 +1,1 @@
+"""Rough surfaces: fields of heights, samples of such layers, and photons that walk over them."""
