@@ -70,7 +70,9 @@ class RandomWaves(NamedTuple):
         >>> round(float(slopes.sum()), 12) == 0.3**2 / 2
         True
         """
-        sequence = seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
+        sequence = (
+            seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
+        )
         random = np.random.Generator(np.random.PCG64(sequence))
         order = np.arange(waves)
         turn = 2.0 * np.pi * (random.random() + order * _GOLDEN)
@@ -138,4 +140,5 @@ def _weighted(vectors: Array, powers: Array) -> Array:
     products = np.einsum("in,jn,n->ij", moments, moments, powers)
     weights = 1.0 + np.einsum("in,i->n", moments, np.linalg.lstsq(products, wrong)[0])
     # Of a few waves, which cannot have the variances, none has a power below 0.
-    return np.maximum(weights, 0.0) * powers
+    found: Array = np.maximum(weights, 0.0) * powers
+    return found
