@@ -99,7 +99,9 @@ def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     if dependent is None:
         raise SurfaceError("wavelength is given, but no medium depends on it; leave it out")
     if is_traced(wavelength):
-        raise SurfaceError("the wavelength is traced by JAX, but samples have no slopes; give a number")
+        raise SurfaceError(
+            "the wavelength is traced by JAX, but samples have no slopes; give a number"
+        )
     try:
         return {WHEN: Wavelength().resolve(wavelength)}
     except OptipathError as error:
