@@ -7,7 +7,6 @@ from typing import Any
 
 import numba as nb
 
-from optipath.surfaces.walk.facet_event import CARRIED
 from optipath.surfaces.walk.packed_meshes import (
     CELL_X,
     CELL_Y,
@@ -17,20 +16,26 @@ from optipath.surfaces.walk.packed_meshes import (
     PERIODIC,
     WHOLES,
 )
-from optipath.surfaces.walk.photon_record import (
+from optipath.surfaces.walk.photon_walk import photon_walk, put
+from optipath.surfaces.walk.random_stream import uniform
+from optipath.surfaces.walk.walk_layout import (
+    CARRIED,
+    COUNT,
     EVENTS,
     FIRST_K,
     FIRST_X,
+    INTENSITY,
+    INTENSITY_SQUARED,
     LAST_K,
     LAST_X,
+    MOST_COUNTED,
+    NEVER,
     OUTCOME,
-    put,
+    PRODUCT,
+    SCALAR,
+    SCALAR_SQUARED,
+    SUMS,
 )
-from optipath.surfaces.walk.photon_walk import NEVER, photon_walk
-from optipath.surfaces.walk.random_stream import uniform
-
-OUTCOMES, MOST_COUNTED, SUMS = 4, 16, 6
-"""How many ends there are, up to how many events are told apart, and how many sums of each."""
 
 _MOST_MISSES = 1000
 """How many starts in a row may meet nothing before no photon is thought to get there."""
@@ -70,8 +75,7 @@ def photon_block(
     wanted : int
         The one that is recorded, with which it ends; or -1.
     sums : pointer or ndarray, shape (OUTCOMES, MOST_COUNTED, count, SUMS)
-        Added to: how many there were, S0, its square, the intensity without polarisation, its
-        square, and their product.
+        Added to.
 
     Returns
     -------
@@ -128,9 +132,9 @@ def _add_up(lights: Any, sums: Any, count: int, place: int) -> None:
     for each in range(count):
         at, to = CARRIED * each, place + SUMS * each
         intensity, scalar = 2.0 * lights[at] + abs(lights[at + 1]), lights[at + 4]
-        sums[to] += 1.0
-        sums[to + 1] += intensity
-        sums[to + 2] += intensity * intensity
-        sums[to + 3] += scalar
-        sums[to + 4] += scalar * scalar
-        sums[to + 5] += intensity * scalar
+        sums[to + COUNT] += 1.0
+        sums[to + INTENSITY] += intensity
+        sums[to + INTENSITY_SQUARED] += intensity * intensity
+        sums[to + SCALAR] += scalar
+        sums[to + SCALAR_SQUARED] += scalar * scalar
+        sums[to + PRODUCT] += intensity * scalar
