@@ -33,6 +33,7 @@ from optipath.errors import (
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath import surfaces as surfaces
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
     from optipath.elements.beam_splitter import BeamSplitter
