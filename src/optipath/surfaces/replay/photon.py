@@ -6,15 +6,19 @@ from dataclasses import dataclass
 from math import prod
 from typing import TYPE_CHECKING
 
-from optipath.surfaces.replay.photon_path import photon_path
-from optipath.surfaces.replay.photon_table import photon_table
+import numpy as np
+
+from optipath.elements.source import Source
+from optipath.errors import SurfaceError, shown
+from optipath.surfaces.replay.event_path import event_path
+from optipath.surfaces.replay.event_table import event_table
 
 if TYPE_CHECKING:
-    import numpy as np
     import numpy.typing as npt
 
     from optipath.light.frames import Frame
     from optipath.paths.path_graph import PathGraph
+    from optipath.surfaces.replay.event_path import Place
     from optipath.surfaces.replay.photon_event import PhotonEvent
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.walk.photon_beam import PhotonBeam
@@ -74,7 +78,7 @@ class Photon:
         """One over the probability of the way: the product of those of all events."""
         return prod(1.0 / event.probability for event in self.events)
 
-    def path(self, which: int | tuple[int, ...] | None = None) -> PathGraph:
+    def path(self, which: Place | None = None) -> PathGraph:
         """Return the way of the photon as a path, whose light is that of the photon.
 
         The source has the whole weight, and each event is an `Interface`. The frames of the path
@@ -89,7 +93,7 @@ class Photon:
         Returns
         -------
         PathGraph
-            ``source >> facet-1 >> ... >> detector``.
+            Its nodes are ``source``, ``facet-1`` and so on, and ``detector``.
 
         Raises
         ------
@@ -101,10 +105,13 @@ class Photon:
         >>> from optipath.surfaces.samples.sample import Sample
         >>> photon = Sample([(1.5, 0.3)], cells=320).photon(7, "60 deg")
         >>> path = photon.path()
-        >>> path, bool(abs(path.trace().stokes - photon.stokes).max() < 1e-13)
-        (<PathGraph: source >> facet-1 >> detector>, True)
+        >>> photon, bool(abs(path.trace().stokes - photon.stokes).max() < 1e-13)
+        (<Photon 7 of seed 0: down after 1 event>, True)
         """
-        return photon_path(self, which)
+        if which is not None:
+            _check_place(which, self.beam.indices.n.shape)
+        source = Source(self.weight, self.beam.stokes)
+        return event_path(source, self.events, which, repr(self)[1:-1])
 
     def __repr__(self) -> str:
         count = len(self.events)
@@ -112,4 +119,22 @@ class Photon:
         return f"<Photon {self.number} of seed {self.seed}: {self.end} after {events}>"
 
     def __str__(self) -> str:
-        return photon_table(self)
+        stokes = np.array2string(self.stokes, precision=6)
+        return f"{repr(self)[1:-1]}, with light\n{stokes}\n{event_table(self.events)}"
+
+
+def _check_place(which: Place, shape: tuple[int, ...]) -> None:
+    """Refuse a place at which there is no wavelength."""
+    try:
+        is_one = not isinstance(which, bool) and np.empty(shape)[which].ndim == 0
+    except (IndexError, TypeError, ValueError):
+        is_one = False
+    if is_one:
+        return
+    if not shape:
+        raise SurfaceError(f"which is {shown(which)}, but the photon has one light; leave it out")
+    last = tuple(each - 1 for each in shape)
+    raise SurfaceError(
+        f"which is {shown(which)}, but wavelengths have the shape {shape}; give the place of one, "
+        f"such as {last[0] if len(last) == 1 else last}"
+    )
