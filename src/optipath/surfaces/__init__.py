@@ -4,11 +4,17 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from optipath.surfaces.ends.photon_ends import photon_ends
+    from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.fields.height_field import HeightField
 
-__all__ = ["HeightField"]
+__all__ = ["HeightField", "energy", "photon_ends"]
 
-_HOMES = {"HeightField": "fields.height_field"}
+_HOMES = {
+    "HeightField": "fields.height_field",
+    "energy": "energies.energy",
+    "photon_ends": "ends.photon_ends",
+}
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 
 
