@@ -149,7 +149,7 @@ def walk_until(
         If it is not reached.
     """
     # A block on every surface, so that their differences are known.
-    wanted = min(2 * BLOCK * run.beam.sample.surfaces, most)
+    wanted = min(2 * BLOCK * run.beam.surfaces, most)
     while True:
         run.walk(wanted, None if progress is None else lambda done, of=wanted: progress(done, of))
         found = run.energy

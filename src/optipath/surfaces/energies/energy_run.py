@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.errors import SurfaceError
 from optipath.surfaces.energies.energy_table import Energy
 from optipath.surfaces.walk.photon_beam import BLOCK
 from optipath.surfaces.walk.walk_code import walk_code
@@ -36,7 +35,7 @@ class EnergyRun:
     def __init__(self, beam: PhotonBeam, threads: int) -> None:
         self.beam, self.threads = beam, threads
         self.blocks, self.photons = 0, 0
-        self._sums = np.zeros((beam.sample.surfaces, OUTCOMES, MOST_COUNTED, beam.lights, SUMS))
+        self._sums = np.zeros((beam.surfaces, OUTCOMES, MOST_COUNTED, beam.lights, SUMS))
 
     def walk(self, photons: int, progress: Callable[[int], None] | None = None) -> None:
         """Walk on until there are as many photons in all; what is done stays if it is interrupted.
@@ -56,7 +55,7 @@ class EnergyRun:
         walk_code()
         last = -(-photons // BLOCK)
         todo = range(self.blocks, last)
-        for surface in {number % self.beam.sample.surfaces for number in todo}:
+        for surface in {number % self.beam.surfaces for number in todo}:
             self.beam.meshes(surface)
         executor = ThreadPoolExecutor(self.threads)
         try:
@@ -70,13 +69,7 @@ class EnergyRun:
             executor.shutdown(cancel_futures=True)
 
     def _add(self, walked: WalkedBlock) -> None:
-        if not walked.photons:
-            raise SurfaceError(
-                "photons meet nothing of the sample; its finite fields are too small for this "
-                "incidence, so give larger or periodic ones"
-            )
-        if not np.isfinite(walked.sums).all():
-            raise SurfaceError(f"photons of block {self.blocks} come to what is no number")
+        self.beam.checked(walked, self.blocks)
         self._sums[self.blocks % len(self._sums)] += walked.sums
         self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
 

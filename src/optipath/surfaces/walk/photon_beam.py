@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from optipath.errors import SurfaceError
 from optipath.kernels.carriers.carried import carry
 from optipath.kernels.numbers.primitives import FLOAT
 from optipath.surfaces.walk.packed_meshes import PackedMeshes, packed_meshes
 from optipath.surfaces.walk.walk_code import walk_code
 from optipath.surfaces.walk.walk_layout import (
     CARRIED,
+    ENDS,
     MOST_COUNTED,
     OPAQUE,
     OUTCOMES,
@@ -43,12 +45,15 @@ class WalkedBlock(NamedTuple):
         The photon that was wanted.
     lights : ndarray, shape (lights, CARRIED)
         The lights of the last photon.
+    ends : ndarray, shape (photons, ENDS + CARRIED lights)
+        The end of every photon, where these are kept.
     """
 
     photons: int
     sums: npt.NDArray[np.float64]
     record: npt.NDArray[np.float64]
     lights: npt.NDArray[np.float64]
+    ends: npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -91,7 +96,14 @@ class PhotonBeam:
         """How many lights ride on a photon."""
         return self.indices.n.size
 
-    def block(self, number: int, photons: int = BLOCK, wanted: int = -1) -> WalkedBlock:
+    @property
+    def surfaces(self) -> int:
+        """How many realisations of the surfaces there are; one where nothing is random."""
+        return self.sample.surfaces if any(each.is_random for each in self.sample.layers) else 1
+
+    def block(
+        self, number: int, photons: int = BLOCK, wanted: int = -1, *, keeps: bool = False
+    ) -> WalkedBlock:
         """Walk the first photons of a block.
 
         Parameters
@@ -102,6 +114,8 @@ class PhotonBeam:
             How many photons.
         wanted : int, optional
             Which of them is recorded, the last to be walked.
+        keeps : bool, optional
+            Whether the end of every photon is kept.
 
         Returns
         -------
@@ -109,7 +123,7 @@ class PhotonBeam:
         """
         from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
 
-        meshes = self.meshes(number % self.sample.surfaces)
+        meshes = self.meshes(number % self.surfaces)
         layers, count = len(self.sample.layers), self.lights
         stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
         state = np.array(stream.state["state"]["state"], np.uint64)
@@ -119,13 +133,43 @@ class PhotonBeam:
         media, base, source = self._given
         azimuth = np.nan if self.sample.isotropic else self.azimuth
         photons = photons if wanted < 0 else wanted + 1
+        ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
         found = walk_code()(
             *map(address, (*meshes, media, base)),
             *(layers, self.cos, self.sin, azimuth, address(source)),
             *(count, photons, self.most_events, wanted),
-            *map(address, (state, starts, lights, sums, record)),
+            *map(address, (state, starts, lights, sums, record, ends)),
+            int(keeps),
         )
-        return WalkedBlock(found, sums, record, lights)
+        return WalkedBlock(found, sums, record, lights, ends)
+
+    def checked(self, walked: WalkedBlock, number: int) -> WalkedBlock:
+        """Return a block; refuse one that is none.
+
+        Parameters
+        ----------
+        walked : WalkedBlock
+            What was walked.
+        number : int
+            Which block it is.
+
+        Returns
+        -------
+        WalkedBlock
+
+        Raises
+        ------
+        SurfaceError
+            If photons meet nothing, or come to what is no number.
+        """
+        if not walked.photons:
+            raise SurfaceError(
+                "photons meet nothing of the sample: its finite fields are too small for this "
+                "incidence; give larger or periodic ones"
+            )
+        if not np.isfinite(walked.sums).all():
+            raise SurfaceError(f"photons of block {number} come to what is no number")
+        return walked
 
     def meshes(self, surface: int) -> PackedMeshes:
         """Return a realisation of the sample's surfaces as compiled code takes it, kept with it.

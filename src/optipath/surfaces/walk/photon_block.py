@@ -19,8 +19,13 @@ from optipath.surfaces.walk.packed_meshes import (
 from optipath.surfaces.walk.photon_walk import photon_walk, put
 from optipath.surfaces.walk.random_stream import uniform
 from optipath.surfaces.walk.walk_layout import (
+    AZIMUTH,
     CARRIED,
     COUNT,
+    END_K,
+    END_LIGHTS,
+    END_X,
+    ENDS,
     EVENTS,
     FIRST_K,
     FIRST_X,
@@ -58,6 +63,8 @@ def photon_block(
     lights: Any,
     sums: Any,
     record: Any,
+    ends: Any,
+    keeps: int,
 ) -> int:
     """Follow photons, and add up what becomes of them.
 
@@ -76,6 +83,10 @@ def photon_block(
         The one that is recorded, with which it ends; or -1.
     sums : pointer or ndarray, shape (OUTCOMES, MOST_COUNTED, count, SUMS)
         Added to.
+    ends : pointer or ndarray, shape (photons, ENDS + CARRIED count)
+        Where the end of each photon is written.
+    keeps : int
+        Whether it is.
 
     Returns
     -------
@@ -106,6 +117,13 @@ def photon_block(
                 put(record, FIRST_X, x)
                 put(record, LAST_K, last_k)
                 put(record, LAST_X, last_x)
+            if keeps != 0:
+                at = (ENDS + CARRIED * count) * number
+                ends[at + OUTCOME], ends[at + EVENTS], ends[at + AZIMUTH] = outcome, events, angle
+                put(ends, at + END_K, last_k)
+                put(ends, at + END_X, last_x)
+                for place in range(CARRIED * count):
+                    ends[at + END_LIGHTS + place] = lights[place]
             number += 1
     return number
 

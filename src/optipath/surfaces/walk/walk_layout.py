@@ -16,6 +16,9 @@ COUNT, INTENSITY, INTENSITY_SQUARED, SCALAR, SCALAR_SQUARED, PRODUCT = range(6)
 SUMS = 6
 """What is summed up of an end: photons, S0, S0 without polarisation, their squares and product."""
 
+ENDS, AZIMUTH, END_K, END_X, END_LIGHTS = 9, 2, 3, 6, 9
+"""Numbers of a photon's end without its lights: outcome, events, azimuth, direction and x."""
+
 RECORD = 24
 """Numbers of an event that is recorded; the end of the photon takes as many before them."""
 
