@@ -3,6 +3,8 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from optipath.spelling import closest
+
 if TYPE_CHECKING:
     from optipath.surfaces.ends.photon_ends import photon_ends
     from optipath.surfaces.energies.energy import energy
@@ -26,6 +28,8 @@ if not TYPE_CHECKING:  # Else any name would do for who checks types.
 
     def __getattr__(name: str) -> Any:
         if name not in _HOMES:
-            raise AttributeError(f"module 'optipath.surfaces' has no attribute '{name}'")
+            near = closest(name, __all__)
+            cure = f"; did you mean '{near}'?" if near else ""
+            raise AttributeError(f"module 'optipath.surfaces' has no attribute '{name}'{cure}")
         module = import_module(f"optipath.surfaces.{_HOMES[name]}")
         return globals().setdefault(name, getattr(module, name))
