@@ -69,9 +69,9 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
         faults.append("the sample has no layers; add a table [[layers]] for each, from the top")
     given = _readable(document, TOP)
     tables = given.pop("layers", [])
-    layers = [_layer(f"layers[{at}]", table, folder, faults) for at, table in enumerate(tables)]
     outside = faults.attempt("outside", _index, given.pop("outside", 1.0))
     given |= {"outside": 1.0 if outside is None else outside}
+    layers = [_layer(f"layers[{at}]", table, folder, faults) for at, table in enumerate(tables)]
     given.pop("format", None)
     made = faults.attempt("", Sample, layers or [(_INDEX, _ROUGHNESS)], **given)
     if made is None or faults:
