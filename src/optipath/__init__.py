@@ -27,6 +27,7 @@ from optipath.errors import (
     PresetError,
     ShapeError,
     SurfaceError,
+    ToleranceWarning,
     UnitError,
     ValueFault,
 )
@@ -186,6 +187,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Srgb",
     "StokesState",
     "SurfaceError",
+    "ToleranceWarning",
     "UnitError",
     "ValueFault",
     "Vertex",
