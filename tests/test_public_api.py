@@ -143,6 +143,16 @@ def test_what_needs_no_numbers_is_told_without_numpy(arguments):
     assert brought_by(code, ["numpy", "networkx"]) == "[]"
 
 
+def test_names_of_surfaces_bring_no_compiler():
+    used = "import optipath as op; [getattr(op.surfaces, name) for name in op.surfaces.__all__]"
+    assert brought_by(used, ["numba", "tifffile"]) == "[]"
+
+
+def test_an_unknown_name_of_surfaces_is_told():
+    with pytest.raises(AttributeError, match="has no attribute 'HeigtField'"):
+        _ = op.surfaces.HeigtField
+
+
 def test_an_unknown_name_is_an_attribute_error_of_the_package():
     with pytest.raises(AttributeError, match="has no attribute 'Sorce'; did you mean 'Source'"):
         _ = op.Sorce
@@ -198,7 +208,7 @@ def test_packages_list_no_names_of_their_modules():
         if len(ast.parse(file.read_text("utf-8")).body) > 1
     ]
     # What users import, and where the installed command begins.
-    assert sorted(with_names) == [".", "cli"]
+    assert sorted(with_names) == [".", "cli", "surfaces"]
 
 
 def test_no_module_is_longer_than_320_lines():

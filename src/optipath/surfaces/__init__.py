@@ -1,1 +1,25 @@
 """Rough surfaces: fields of heights, samples of such layers, and photons that walk over them."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from optipath.surfaces.fields.height_field import HeightField
+
+__all__ = ["HeightField"]
+
+_HOMES = {"HeightField": "fields.height_field"}
+"""Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
+
+
+def __dir__() -> list[str]:
+    return __all__
+
+
+if not TYPE_CHECKING:  # Else any name would do for who checks types.
+
+    def __getattr__(name: str) -> Any:
+        if name not in _HOMES:
+            raise AttributeError(f"module 'optipath.surfaces' has no attribute '{name}'")
+        module = import_module(f"optipath.surfaces.{_HOMES[name]}")
+        return globals().setdefault(name, getattr(module, name))

@@ -19,11 +19,18 @@ UNTOLD = 16 * 2**30
 
 CURE = "give fewer values at a time"
 
+PATHS = "batch of {:.3g} paths"
+"""What takes memory, with a place for how many there are."""
+
 _LITTLE = 2**26
 
 
 def refuse_too_large(
-    batch: tuple[int, ...], each: int, cure: str = CURE, error: type[OptipathError] = ShapeError
+    batch: tuple[int, ...],
+    each: int,
+    cure: str = CURE,
+    error: type[OptipathError] = ShapeError,
+    what: str = PATHS,
 ) -> None:
     """Refuse a batch that takes more memory than the machine has.
 
@@ -37,6 +44,8 @@ def refuse_too_large(
         What to do where it is too much.
     error : type, optional
         What is raised.
+    what : str, optional
+        What sentences call it, with a place for how many there are.
 
     Raises
     ------
@@ -49,18 +58,22 @@ def refuse_too_large(
     """
     needed = prod(batch) * each
     if needed > _LITTLE and needed > memory():
-        raise error(_too_much(batch, each, cure))
+        raise error(_too_much(batch, each, cure, what))
 
 
 @contextmanager
 def enough_for(
-    batch: tuple[int, ...], each: int, cure: str = CURE, error: type[OptipathError] = ShapeError
+    batch: tuple[int, ...],
+    each: int,
+    cure: str = CURE,
+    error: type[OptipathError] = ShapeError,
+    what: str = PATHS,
 ) -> Iterator[None]:
     """Do what takes memory for each path of a batch, if there is enough of it.
 
     Parameters
     ----------
-    batch, each, cure, error
+    batch, each, cure, error, what
         As `refuse_too_large` takes them.
 
     Raises
@@ -73,11 +86,11 @@ def enough_for(
     >>> with enough_for((1000, 1000), 32):
     ...     pass
     """
-    refuse_too_large(batch, each, cure, error)
+    refuse_too_large(batch, each, cure, error, what)
     try:
         yield
     except MemoryError:
-        raise error(_too_much(batch, each, cure)) from None
+        raise error(_too_much(batch, each, cure, what)) from None
 
 
 def memory() -> int:
@@ -94,9 +107,9 @@ def memory() -> int:
         return UNTOLD
 
 
-def _too_much(batch: tuple[int, ...], each: int, cure: str) -> str:
+def _too_much(batch: tuple[int, ...], each: int, cure: str, what: str) -> str:
     needed, there = (f"{size / 1e9:,.1f} GB" for size in (prod(batch) * each, memory()))
     return (
-        f"a batch of {prod(batch):.3g} paths, of shape {batch}, takes {needed} of memory or more, "
+        f"a {what.format(prod(batch))}, of shape {batch}, takes {needed} of memory or more, "
         f"and this machine has {there}; {cure}"
     )

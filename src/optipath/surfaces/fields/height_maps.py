@@ -1,0 +1,120 @@
+"""Files of measured heights: plain text, NumPy's arrays, and TIFF."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import MissingExtraError, SurfaceError, did_you_mean
+from optipath.values.arrays.memory import enough_for
+from optipath.values.given_files import given_file
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from os import PathLike
+    from pathlib import Path
+
+Array = np.ndarray[Any, Any]
+
+_CURE = "cut out a part of it"
+
+
+def read_heights(path: str | PathLike[str]) -> Array:
+    """Read the heights of a file, row by row.
+
+    Parameters
+    ----------
+    path : str or PathLike
+        Its ending says what it is: ``.txt``, ``.csv``, ``.dat`` or ``.asc`` is plain text with
+        a line for each row, numbers separated by blanks or commas, and ``#`` before remarks;
+        ``.npy`` is an array of NumPy's; ``.tif`` or ``.tiff`` a picture (extra: tiff).
+
+    Returns
+    -------
+    ndarray
+        As the file has it.
+
+    Raises
+    ------
+    SurfaceError
+        If there is no such file, if its ending is none of these, or if it holds something else.
+    MissingExtraError
+        If it is a picture, and tifffile is not installed.
+    """
+    file = given_file(path, SurfaceError)
+    ending = file.suffix.lower()
+    if ending not in _READERS:
+        raise SurfaceError(
+            f"a file of heights cannot end in '{file.suffix}'{did_you_mean(ending, _READERS)}",
+            about=str(file),
+        )
+    try:
+        return _READERS[ending](file)
+    except SurfaceError as fault:
+        raise SurfaceError(*fault.faults, about=str(file)) from None
+    except OSError as fault:
+        why = fault.strerror or "it is damaged"
+        raise SurfaceError(f"cannot be read: {why}", about=str(file)) from None
+    except MemoryError:
+        raise SurfaceError(f"is larger than the memory; {_CURE}", about=str(file)) from None
+
+
+def _text(file: Path) -> Array:
+    """Read numbers separated by blanks or commas."""
+    try:
+        lines = file.read_text("utf-8").splitlines()
+        rows = [row for line in lines if (row := line.partition("#")[0].strip())]
+        if not rows:
+            raise SurfaceError("holds no numbers; write a line of heights for each row")
+        return np.loadtxt(rows, delimiter="," if "," in rows[0] else None, ndmin=2, comments=None)
+    except ValueError as fault:  # UnicodeDecodeError is one
+        raise SurfaceError(
+            f"is no table of numbers: {_one_line(fault)}; write as many numbers in each line, "
+            f"separated by blanks or commas, with '#' before remarks"
+        ) from None
+
+
+def _array(file: Path) -> Array:
+    """Read an array of NumPy's, which cannot hold anything that would be run."""
+    try:
+        with file.open("rb") as stream:
+            return np.lib.format.read_array(stream, allow_pickle=False)
+    except (ValueError, EOFError) as fault:
+        raise SurfaceError(
+            f"is no array of numbers: {_one_line(fault)}; write it by numpy.save"
+        ) from None
+
+
+def _picture(file: Path) -> Array:
+    """Read the first series of a picture."""
+    try:
+        import tifffile  # noqa: PLC0415 - an extra
+    except ImportError:
+        raise MissingExtraError("pictures of heights", "tifffile", "tiff") from None
+    try:
+        with warnings.catch_warnings(), tifffile.TiffFile(file) as picture:
+            warnings.simplefilter("ignore")
+            first = picture.series[0]
+            with enough_for(first.shape, first.dtype.itemsize, _CURE, SurfaceError, _HEIGHTS):
+                return np.asarray(first.asarray())
+    except (OSError, MemoryError, SurfaceError):
+        raise
+    except Exception as fault:  # noqa: BLE001 - damaged files make tifffile raise anything
+        raise SurfaceError(
+            f"is no TIFF that can be read: {_one_line(fault)}; save it without compression, or "
+            f"give its numbers to HeightField.from_heights"
+        ) from None
+
+
+def _one_line(fault: Exception) -> str:
+    return " ".join(str(fault).split()).rstrip(".;") or type(fault).__name__
+
+
+_HEIGHTS = "picture of {:.3g} heights"
+_READERS: dict[str, Callable[[Path], Array]] = {
+    **dict.fromkeys((".txt", ".csv", ".dat", ".asc"), _text),
+    ".npy": _array,
+    **dict.fromkeys((".tif", ".tiff"), _picture),
+}

@@ -1,0 +1,144 @@
+"""Random cosine waves, whose sum is a surface with Beckmann's slopes."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+Array = np.ndarray[Any, Any]
+
+_GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+_AT_ONCE = 1 << 20
+
+
+class RandomWaves(NamedTuple):
+    """Waves ``amplitude * cos(phase + x_number * x + y_number * y)``, a component of an array each.
+
+    Attributes
+    ----------
+    x_number, y_number : ndarray, shape (n,)
+        The components of their wave vectors, in radians per length; the first are in order.
+    phase, amplitude : ndarray, shape (n,)
+        In radians, and in the unit of the heights.
+    """
+
+    x_number: Array
+    y_number: Array
+    phase: Array
+    amplitude: Array
+
+    @classmethod
+    def drawn(
+        cls,
+        alpha: tuple[float, float],
+        waves: int,
+        seed: int | np.random.SeedSequence,
+        period: tuple[float, float] | None = None,
+    ) -> RandomWaves:
+        """Draw waves whose sum has heights of variance 1 and slopes of variance alpha^2 / 2.
+
+        E. Heitz, "Generating procedural Beckmann surfaces" (2015): with U1, U2, U3 uniform,
+        the phase is 2 pi U1, and the wave vector r (alpha_x cos t, alpha_y sin t), t = 2 pi U2,
+        r = sqrt(-ln U3). Three things are done in another way, so that each single surface
+        has the variances, and not only many of them on average. U2 and U3 are spread evenly,
+        along a spiral of golden angles, of which only the beginning is random. With a period,
+        wave vectors are rounded to whole numbers of waves in it, and waves of one wave vector are
+        a single one of their power. The powers are then weighted with a polynomial of the
+        squares of the wave vector, by some per cent, for the variances to be what they should.
+
+        Parameters
+        ----------
+        alpha : tuple of float
+            The roughness along x and along y.
+        waves : int
+            How many are drawn; with a period, fewer of them differ.
+        seed : int or SeedSequence
+            The same seed gives the same bits.
+        period : tuple of float, optional
+            After what lengths, along x and y, the surface repeats itself.
+
+        Returns
+        -------
+        RandomWaves
+
+        Examples
+        --------
+        >>> drawn = RandomWaves.drawn((0.3, 0.3), 1000, seed=1, period=(200.0, 200.0))
+        >>> slopes = (drawn.amplitude * drawn.x_number) ** 2 / 2
+        >>> round(float(slopes.sum()), 12) == 0.3**2 / 2
+        True
+        """
+        sequence = (
+            seed if isinstance(seed, np.random.SeedSequence) else np.random.SeedSequence(seed)
+        )
+        random = np.random.Generator(np.random.PCG64(sequence))
+        order = np.arange(waves)
+        turn = 2.0 * np.pi * (random.random() + order * _GOLDEN)
+        length = np.sqrt(-np.log((order + 0.5) / waves))
+        # In units of alpha, in which the spectrum is round.
+        vectors = length * np.array([np.cos(turn), np.sin(turn)])
+        powers = np.full(waves, 1.0 / waves)
+        if period is not None:
+            steps = 2.0 * np.pi / np.multiply(alpha, period)[:, np.newaxis]
+            vectors, powers = _whole_waves(vectors, powers, steps)
+        else:
+            vectors = vectors[:, np.argsort(vectors[0], kind="stable")]
+        powers = _weighted(vectors, powers)
+        phase = 2.0 * np.pi * random.random(powers.size)
+        x_number, y_number = vectors * np.reshape(alpha, (2, 1))
+        return cls(x_number, y_number, phase, np.sqrt(2.0 * powers))
+
+    def heights(self, x: Array, y: Array) -> Array:
+        """Return the heights where lines of equal x and of equal y meet.
+
+        The cosine of a sum is split into products, so that a mesh costs products and no
+        cosines, ``heights[i, j] = sum C[i, m] cos(f[m] x[j]) - S[i, m] sin(f[m] x[j])``, where C
+        and S are sums over the waves of one component f along x.
+
+        Parameters
+        ----------
+        x, y : ndarray
+            Of any lengths.
+
+        Returns
+        -------
+        ndarray, shape (len(y), len(x))
+        """
+        numbers, first = np.unique(self.x_number, return_index=True)
+        along = np.multiply.outer(numbers, x)
+        cosines, sines = np.cos(along), np.sin(along)
+        found = np.empty((y.size, x.size))
+        rows = max(1, _AT_ONCE // self.phase.size)
+        for begin in range(0, y.size, rows):
+            part = slice(begin, begin + rows)
+            angle = self.phase + np.multiply.outer(y[part], self.y_number)
+            C = np.add.reduceat(self.amplitude * np.cos(angle), first, axis=1)
+            S = np.add.reduceat(self.amplitude * np.sin(angle), first, axis=1)
+            # A matrix product of BLAS has other bits with other numbers of threads.
+            found[part] = np.einsum("im,mj->ij", C, cosines) - np.einsum("im,mj->ij", S, sines)
+        return found
+
+
+def _whole_waves(vectors: Array, powers: Array, steps: Array) -> tuple[Array, Array]:
+    """Return wave vectors of whole numbers of waves, each once, in order, and their powers."""
+    whole = np.rint(vectors / steps)
+    # A wave and that of the opposite wave vector are one.
+    whole = np.where((whole[0] < 0) | ((whole[0] == 0) & (whole[1] < 0)), -whole, whole)
+    whole, place = np.unique(whole, axis=1, return_inverse=True)
+    powers = np.bincount(place.ravel(), powers)
+    # What has no wave in the period is no roughness, but a shift of the whole surface.
+    rough = whole.any(axis=0)
+    return whole[:, rough] * steps, powers[rough]
+
+
+def _weighted(vectors: Array, powers: Array) -> Array:
+    """Return powers nearly as given, whose sum is 1, and 1/2 with squares of the vectors."""
+    moments = np.stack([np.ones_like(powers), *(2.0 * vectors**2)])
+    wrong = 1.0 - np.einsum("in,n->i", moments, powers)
+    products = np.einsum("in,jn,n->ij", moments, moments, powers)
+    weights = 1.0 + np.einsum("in,i->n", moments, np.linalg.lstsq(products, wrong)[0])
+    # Of a few waves, which cannot have the variances, none has a power below 0.
+    found: Array = np.maximum(weights, 0.0) * powers
+    return found
