@@ -10,13 +10,11 @@ import numpy as np
 
 from optipath.engines.engine import Engine
 from optipath.engines.formulas.left import left_formula
-from optipath.engines.formulas.operations import OPERATIONS
+from optipath.engines.formulas.python_text import assignments, indented
 from optipath.engines.formulas.symbol import Symbol
 from optipath.engines.numpy_engine import NumpyEngine
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
     from optipath.engines.array_path import ArrayPath
     from optipath.engines.code_cache import CodeCache
     from optipath.engines.formulas.formula import Formula
@@ -50,7 +48,7 @@ class NumbaEngine(Engine["Formula", "ArrayPath"]):
         """
         from optipath.engines.code_cache import CODE  # noqa: PLC0415 - not to load it for NumPy
 
-        if _is_forbidden():
+        if is_forbidden():
             CODE.tell("NUMBA_DISABLE_JIT is set, so that NumPy runs what Numba would compile")
             return NumpyEngine().compiled(formula)
         return _compiled(formula, CODE)
@@ -59,10 +57,10 @@ class NumbaEngine(Engine["Formula", "ArrayPath"]):
         """Tell whether the machine code of a formula is kept, in memory or on disk."""
         from optipath.engines.code_cache import CODE  # noqa: PLC0415 - not to load it for NumPy
 
-        return _is_forbidden() or CODE.has(source(formula))
+        return is_forbidden() or CODE.has(source(formula))
 
 
-def _is_forbidden() -> bool:
+def is_forbidden() -> bool:
     return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 
@@ -107,8 +105,8 @@ def source(formula: Formula) -> str:
     before, in_row, cuts, inside = _loads(formula)
     choices = sum(step.operation == "where" for step in formula.steps)
     branchless = choices > _MOST_BRANCHES
-    before += _assignments(formula.prologue, written, branchless=branchless)
-    inside += _assignments(formula.body, written, branchless=branchless)
+    before += assignments(formula.prologue, written, branchless=branchless)
+    inside += assignments(formula.body, written, branchless=branchless)
     for row, result in enumerate(formula.computed):
         cuts.append(f"o{row} = {row} * paths + at + first + begin")
         inside.append(f"out[o{row} + i] = {written(result)}")
@@ -121,12 +119,12 @@ def source(formula: Formula) -> str:
         "good = True",
         "width = stop - start",
         "for row in range(top, bottom):",
-        *_indented(
+        *indented(
             "first = (row - top) * width", *in_row, f"for begin in range(0, width, {_BLOCK}):"
         ),
-        *_indented(*_indented(f"end = min(begin + {_BLOCK}, width)", *cuts, *splits)),
+        *indented(*indented(f"end = min(begin + {_BLOCK}, width)", *cuts, *splits)),
         "        for i in range(end - begin):",
-        *_indented(*_indented(*_indented(*inside))),
+        *indented(*indented(*indented(*inside))),
         "return 1 if good else 0",
     ]
     kind = formula.dtype.name
@@ -138,7 +136,7 @@ def source(formula: Formula) -> str:
         chosen=chosen, dtype=kind, ldexp="ldexp_single" if kind == "float32" else "ldexp"
     )
     text = f"def path({', '.join([places, *given, ends])}):"
-    return "\n".join([head + text, *_indented(*lines), ""])
+    return "\n".join([head + text, *indented(*lines), ""])
 
 
 def _kind(formula: Formula, symbol: Symbol) -> str:
@@ -198,7 +196,7 @@ def _splits(formula: Formula) -> tuple[list[str], list[str]]:
                     rooms.append(f"l{left.index}")
                     lines += _left(left, "given")
                     lines.append(f"own[l{left.index} + i] = T({lines[-1].split()[0]})")
-            loops += ["for i in range(end - begin):", *_indented(*lines)]
+            loops += ["for i in range(end - begin):", *indented(*lines)]
     return rooms, loops
 
 
@@ -212,21 +210,4 @@ def _left(left: Symbol, angle: str) -> list[str]:
             return repr(operand.item())
         return f"d{left.index}_{operand.index}" if operand is not given else angle
 
-    return _assignments(formula.steps, written)
-
-
-def _indented(*lines: str) -> list[str]:
-    return ["    " + line for line in lines]
-
-
-def _assignments(
-    steps: Iterable[Symbol], written: Callable[[Any], str], *, branchless: bool = False
-) -> list[str]:
-    """Return a line for each operation, its operands written as a function says."""
-    found = []
-    for step in steps:
-        text = OPERATIONS[step.operation].text
-        if branchless and step.operation == "where":
-            text = "chosen({0}, {1}, {2})"
-        found.append(f"{written(step)} = {text.format(*map(written, step.operands))}")
-    return found
+    return assignments(formula.steps, written)

@@ -27,7 +27,7 @@ class Faults(list[str]):
         Parameters
         ----------
         where : str
-            The place in the file.
+            The place in the file; nothing where a fault says its place itself.
         action : callable
             What may raise an `OptipathError`.
         *arguments, **keywords : Any
@@ -79,6 +79,8 @@ def unknown_keys(raw: Mapping[str, Any], names: Sequence[str]) -> Faults:
 
 def _placed(where: str, fault: str) -> str:
     """Return a fault with its place, which is not named twice."""
+    if not where:
+        return fault
     named = f"parameter '{where.rpartition('.')[2]}' "
     if fault.startswith(named):
         return f"{where} {fault.removeprefix(named)}"

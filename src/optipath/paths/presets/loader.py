@@ -2,30 +2,26 @@
 
 from __future__ import annotations
 
-import re
 from numbers import Integral
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Never
 
 from optipath.errors import (
     OptipathError,
     ParameterError,
     PresetError,
-    did_you_mean,
     shown,
     there_are,
 )
+from optipath.paths.presets.toml_files import file_of, names_in, presets_folder, text_of
 from optipath.spelling import closest
 from optipath.values.by_name import check_named
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping
     from os import PathLike
+    from pathlib import Path
 
     from optipath.paths.path_graph import PathGraph
-
-_NAME = re.compile(r"[a-z0-9-]+")
-_LARGEST = 4 * 1024 * 1024
 
 
 def preset_names() -> list[str]:
@@ -36,7 +32,7 @@ def preset_names() -> list[str]:
     >>> "npgr026" in preset_names()
     True
     """
-    return sorted([path.stem for path in _folder().glob("*.toml")])
+    return names_in(presets_folder())
 
 
 def preset_descriptions() -> dict[str, str]:
@@ -50,7 +46,7 @@ def preset_descriptions() -> dict[str, str]:
     from optipath.paths.presets.toml_text import parsed  # noqa: PLC0415 - not for every import
 
     files = {name: locate(name) for name in preset_names()}
-    return {name: parsed(_text(f), str(f))["description"] for name, f in files.items()}
+    return {name: parsed(text_of(f, "preset"), str(f))["description"] for name, f in files.items()}
 
 
 def load_preset(
@@ -228,25 +224,7 @@ def locate(preset: str | PathLike[str]) -> Path:
     PresetError
         If it is neither the name of a preset nor the path of a TOML file.
     """
-    if isinstance(preset, str) and _NAME.fullmatch(preset):
-        if preset not in preset_names():
-            raise PresetError(f"preset '{preset}' is unknown{did_you_mean(preset, preset_names())}")
-        return _folder() / f"{preset}.toml"
-    try:
-        path = Path(preset)
-    except TypeError:
-        raise PresetError(
-            f"a preset is a name or the path of a file, not {shown(preset)}"
-        ) from None
-    if path.suffix.lower() != ".toml":
-        cure = did_you_mean(path.stem, preset_names())
-        if not cure.startswith("; did you mean"):
-            cure = "; see the names with `optipath presets`"
-        raise PresetError(
-            f"'{preset}' is neither the name of a preset (a-z, 0-9 and -) nor the path of a "
-            f".toml file{cure}"
-        )
-    return path
+    return file_of(preset, "preset", presets_folder(), "`optipath presets`")
 
 
 def read_preset(path: Path) -> PathGraph:
@@ -261,35 +239,8 @@ def read_preset(path: Path) -> PathGraph:
     """
     from optipath.paths.presets.preset_text import path_of_text  # noqa: PLC0415 - not for all
 
-    return path_of_text(_text(path), str(path), path.name)
+    return path_of_text(text_of(path, "preset"), str(path), path.name)
 
 
 def _number_of(case: object) -> str:
     return shown(int(case) if isinstance(case, Integral) else case)
-
-
-def _text(path: Path) -> str:
-    try:
-        if path.exists() and not path.is_file():
-            raise PresetError(f"'{path}' cannot be read: it is no file")
-        with path.open("rb") as file:
-            data = file.read(_LARGEST + 1)
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise PresetError(f"'{path}' cannot be read: {reason}") from None
-    if len(data) > _LARGEST:
-        raise PresetError(f"'{path}' is larger than {_LARGEST // 1024**2} MiB; no preset is")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise PresetError(
-            f"'{path}' is not UTF-8: byte {error.start} is 0x{data[error.start]:02x}; "
-            f"save it as UTF-8"
-        ) from None
-
-
-def _folder() -> Path:
-    # Inside the package in an installed wheel; beside src/ where the project is installed in place.
-    package = Path(__file__).resolve().parents[2]
-    installed = package / "presets"
-    return installed if installed.is_dir() else package.parents[1] / "presets"

@@ -1,0 +1,1 @@
+"""Samples: rough interfaces one below the other, with the media between them, and their files."""

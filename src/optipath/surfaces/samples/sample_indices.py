@@ -1,0 +1,143 @@
+"""SampleIndices: the indices of the media of a sample, at one wavelength or at several."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+import numpy as np
+
+from optipath.errors import OptipathError, SurfaceError
+from optipath.paths.format.faults import Faults
+from optipath.surfaces.samples.sample_media import BASE, CLEAR_MEDIUM, depends_on_wavelength
+from optipath.values.arrays.jax_values import is_traced
+from optipath.values.curves.curve_value import CurveValue
+from optipath.values.resolved import THERE
+from optipath.values.use import Use
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+    import numpy.typing as npt
+
+    from optipath.values.domains.domain import Domain
+    from optipath.values.resolved import Resolved
+
+    Parts: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
+
+WHEN = "wavelength"
+"""The parameter that media follow from."""
+
+
+class SampleIndices(NamedTuple):
+    """The indices of the media of a sample, of which the last alone may depend on the wavelength.
+
+    Attributes
+    ----------
+    outside : float
+        That of the medium above.
+    inner : tuple of float
+        Those of the media between two interfaces, from the top.
+    n, k : ndarray
+        Those of the base, of the shape of the wavelengths; () where none was given.
+    """
+
+    outside: float
+    inner: tuple[float, ...]
+    n: npt.NDArray[np.float64]
+    k: npt.NDArray[np.float64]
+
+    @property
+    def opaque(self) -> bool:
+        """Whether all light that meets the last interface is reflected or absorbed there."""
+        return bool(np.all(self.k))
+
+
+def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
+    """Return the indices of media.
+
+    Parameters
+    ----------
+    media : mapping of str to float, complex or Material
+        By their places, as sentences name them: the medium above first, the base last.
+    wavelength : float, str, array_like or None
+        In vacuum, in metres or with a unit.
+
+    Returns
+    -------
+    SampleIndices
+
+    Raises
+    ------
+    SurfaceError
+        With every fault; see `Sample.indices`.
+    """
+    given = _given(media.values(), wavelength)
+    domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]
+    faults = Faults()
+    found = [
+        faults.attempt("", _parts_at, place, medium, domain, given)
+        for (place, medium), domain in zip(media.items(), domains, strict=True)
+    ]
+    if not faults:
+        faults += _faults_of_several(dict(zip(media, found, strict=True)))
+    if faults:
+        raise SurfaceError(*dict.fromkeys(faults))
+    outside, *inner = [float(np.ravel(n)[0]) for n, _ in found[:-1]]
+    n, k = np.broadcast_arrays(*found[-1], *[given[WHEN].value] * bool(given))[:2]
+    return SampleIndices(outside, tuple(inner), n.copy(), k.copy())
+
+
+def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
+    """Return the wavelengths that are given; nothing where no medium depends on them."""
+    dependent = next(filter(depends_on_wavelength, media), None)
+    if wavelength is None and dependent is None:
+        return {}
+    if wavelength is None:
+        raise SurfaceError(f"{dependent} depends on the wavelength; give one, wavelength='550 nm'")
+    if dependent is None:
+        raise SurfaceError("wavelength is given, but no medium depends on it; leave it out")
+    if is_traced(wavelength):
+        raise SurfaceError("the wavelength is traced by JAX, but samples have no slopes; give a number")
+    try:
+        return {WHEN: Wavelength().resolve(wavelength)}
+    except OptipathError as error:
+        raise SurfaceError(*error.faults) from None
+
+
+def _parts_at(place: str, medium: Any, domain: Domain, given: Mapping[str, Resolved]) -> Parts:
+    """Return n and k of a medium at the wavelengths that are given."""
+    if not depends_on_wavelength(medium):
+        return np.asarray(np.real(medium)), np.asarray(np.imag(medium))
+    n, k = [_part_at(place, Use(*part), given) for part in domain.parts(place, medium)]
+    domain.check(place, n + 1j * k)
+    return n, k
+
+
+def _part_at(place: str, use: Use, given: Mapping[str, Resolved]) -> Any:
+    if not isinstance(use.value, CurveValue):
+        return np.asarray(use.value)
+    when, _ = use.with_arguments()
+    # Of n and k of one curve it is told once.
+    replace(when, owner=place).check_given(given[WHEN].value)
+    numbers = use.value.computed(given).value
+    use.check_given(numbers, THERE, given)
+    return use.value.placed(numbers)
+
+
+def _faults_of_several(found: Mapping[str, Parts]) -> Iterator[str]:
+    """Yield what keeps light of several wavelengths from one way through a sample."""
+    *above, base = found
+    for place in above:
+        if np.ptp(found[place][0]):
+            yield (
+                f"{place} differs from wavelength to wavelength, and so do the ways of light below "
+                f"it; give one wavelength at a time"
+            )
+    n, k = found[base]
+    if n.size > 1 and not np.all(k):
+        yield (
+            f"{base} lets light through, whose ways differ from wavelength to wavelength; give one "
+            f"wavelength at a time"
+        )

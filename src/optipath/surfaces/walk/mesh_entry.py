@@ -1,0 +1,61 @@
+"""Where light that comes from outside gets to a mesh."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba as nb
+import numpy as np
+
+from optipath.surfaces.walk.packed_meshes import (
+    CELL_X,
+    CELL_Y,
+    CELLS_X,
+    CELLS_Y,
+    HIGH,
+    LOW,
+    NUMBERS,
+    PERIODIC,
+    WHOLES,
+)
+
+
+@nb.njit(error_model="numpy")
+def mesh_entry(meshes: Any, layer: int, side: float, point: Any, k: Any, starts: Any) -> Any:
+    """Return where light gets to the height of a mesh's highest, or lowest, point.
+
+    Parameters
+    ----------
+    meshes : tuple
+        As `packed_meshes` has them.
+    layer : int
+        Which mesh.
+    side : float
+        1 for light from above, -1 for light from below.
+    point, k : tuple of float
+        Where it is, and its direction, towards the mesh.
+    starts : pointer or ndarray
+        For each mesh, where on it the photon has started, two numbers.
+
+    Returns
+    -------
+    inside : bool
+        Whether the mesh is there.
+    point : tuple of float
+        Where the light is.
+    x, y : float
+        The same on the mesh, in cells.
+    """
+    wholes, numbers = meshes[0], meshes[1]
+    about, sizes = layer * WHOLES, layer * NUMBERS
+    t = (numbers[sizes + (HIGH if side > 0.0 else LOW)] - point[2]) / k[2]
+    point = (point[0] + t * k[0], point[1] + t * k[1], point[2] + t * k[2])
+    x = (point[0] + starts[2 * layer]) / numbers[sizes + CELL_X]
+    y = (point[1] + starts[2 * layer + 1]) / numbers[sizes + CELL_Y]
+    across, down = wholes[about + CELLS_X], wholes[about + CELLS_Y]
+    if wholes[about + PERIODIC] != 0:
+        x -= np.floor(x / across) * across
+        y -= np.floor(y / down) * down
+        return True, point, x, y
+    inside = (x >= 0.0) & (x < across) & (y >= 0.0) & (y < down)
+    return inside, point, x, y

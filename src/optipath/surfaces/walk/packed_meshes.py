@@ -1,0 +1,85 @@
+"""The meshes of a stack as compiled code takes them: a few arrays of numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.surfaces.walk.mesh_pyramid import pyramid_of
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from optipath.surfaces.fields.height_field import HeightField
+
+WHOLES, NUMBERS = 24, 4
+"""How many whole numbers, and how many others, there are of a mesh."""
+
+HEIGHTS, CELLS_X, CELLS_Y, LEVELS, PERIODIC, PYRAMID = range(6)
+"""The places of the whole numbers: where heights begin, and from the last, where levels do."""
+
+CELL_X, CELL_Y, LOW, HIGH = range(NUMBERS)
+"""The places of the others."""
+
+GAP = 2.0
+"""The empty space between two meshes, in standard deviations of the rougher one's heights."""
+
+
+class PackedMeshes(NamedTuple):
+    """Meshes one below the other, from the top.
+
+    Attributes
+    ----------
+    wholes : ndarray of int64
+        `WHOLES` for each.
+    numbers : ndarray of float64
+        `NUMBERS` for each.
+    heights : ndarray of float64
+        The vertices of all.
+    extremes : ndarray of float64
+        The pyramids of all.
+    """
+
+    wholes: npt.NDArray[np.int64]
+    numbers: npt.NDArray[np.float64]
+    heights: npt.NDArray[np.float64]
+    extremes: npt.NDArray[np.float64]
+
+
+def packed_meshes(fields: Sequence[HeightField]) -> PackedMeshes:
+    """Return meshes as compiled code takes them, far enough from each other not to touch.
+
+    Parameters
+    ----------
+    fields : sequence of HeightField
+        From the top.
+
+    Returns
+    -------
+    PackedMeshes
+    """
+    wholes = np.zeros((len(fields), WHOLES), np.int64)
+    numbers = np.zeros((len(fields), NUMBERS))
+    heights: list[npt.NDArray[np.float64]] = []
+    extremes: list[npt.NDArray[np.float64]] = []
+    lowest, taken, told = 0.0, 0, 0
+    for place, field in enumerate(fields):
+        vertices = field.vertices()
+        if place:
+            gap = GAP * max(field.deviation, fields[place - 1].deviation) or GAP
+            vertices = vertices + (lowest - gap - vertices.max())
+        lowest = float(vertices.min())
+        across, down = field.cells
+        levels = pyramid_of(vertices)
+        wholes[place, : PYRAMID] = taken, across, down, len(levels) - 1, field.periodic
+        for level, values in enumerate(levels[1:], 1):
+            wholes[place, PYRAMID + level] = told
+            told += values.size
+        numbers[place] = *np.divide(field.size, field.cells), lowest, vertices.max()
+        taken += vertices.size
+        heights.append(vertices.ravel())
+        extremes += [values.ravel() for values in levels[1:]]
+    extremes.append(np.zeros(1))
+    return PackedMeshes(wholes.ravel(), numbers.ravel(), np.concatenate(heights), np.concatenate(extremes))

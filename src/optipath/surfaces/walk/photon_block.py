@@ -1,0 +1,136 @@
+"""Many photons in a row, and the sums of what becomes of them."""
+
+from __future__ import annotations
+
+from math import cos, pi, sin
+from typing import Any
+
+import numba as nb
+
+from optipath.surfaces.walk.facet_event import CARRIED
+from optipath.surfaces.walk.packed_meshes import (
+    CELL_X,
+    CELL_Y,
+    CELLS_X,
+    CELLS_Y,
+    NUMBERS,
+    PERIODIC,
+    WHOLES,
+)
+from optipath.surfaces.walk.photon_record import (
+    EVENTS,
+    FIRST_K,
+    FIRST_X,
+    LAST_K,
+    LAST_X,
+    OUTCOME,
+    put,
+)
+from optipath.surfaces.walk.photon_walk import NEVER, photon_walk
+from optipath.surfaces.walk.random_stream import uniform
+
+OUTCOMES, MOST_COUNTED, SUMS = 4, 16, 6
+"""How many ends there are, up to how many events are told apart, and how many sums of each."""
+
+_MOST_MISSES = 1000
+"""How many starts in a row may meet nothing before no photon is thought to get there."""
+
+
+@nb.njit(error_model="numpy")
+def photon_block(
+    meshes: Any,
+    media: Any,
+    base: Any,
+    layers: int,
+    beam: Any,
+    source: Any,
+    count: int,
+    photons: int,
+    most: int,
+    wanted: int,
+    state: Any,
+    starts: Any,
+    lights: Any,
+    sums: Any,
+    record: Any,
+) -> int:
+    """Follow photons, and add up what becomes of them.
+
+    Parameters
+    ----------
+    meshes, media, base, layers, count, most, state, starts, lights, record
+        As `photon_walk` takes them.
+    beam : tuple of float
+        (cos, sin) of the incidence, and the azimuth; not a number for one of its own for each
+        photon.
+    source : pointer or ndarray
+        What `lights` are at first.
+    photons : int
+        How many there are.
+    wanted : int
+        The one that is recorded, with which it ends; or -1.
+    sums : pointer or ndarray, shape (OUTCOMES, MOST_COUNTED, count, SUMS)
+        Added to: how many there were, S0, its square, the intensity without polarisation, its
+        square, and their product.
+
+    Returns
+    -------
+    int
+        How many photons there were; fewer than wanted where they meet nothing.
+    """
+    cos_i, sin_i, azimuth = beam
+    number, misses = 0, 0
+    while number < photons and misses < _MOST_MISSES:
+        angle = azimuth if azimuth == azimuth else 2.0 * pi * uniform(state)  # noqa: PLR0124 - NaN
+        across, along = sin(angle), cos(angle)
+        _start(meshes, layers, starts, state)
+        for place in range(CARRIED * count):
+            lights[place] = source[place]
+        k, x = (sin_i * along, sin_i * across, -cos_i), (-across, along, 0.0)
+        record[0] = number == wanted
+        outcome, events, last_k, last_x = photon_walk(
+            meshes, media, base, layers, k, x, starts, lights, count, state, most, record
+        )
+        misses += 1
+        if outcome != NEVER:
+            misses = 0
+            place = outcome * MOST_COUNTED + min(events, MOST_COUNTED) - 1
+            _add_up(lights, sums, count, SUMS * count * place)
+            if number == wanted:
+                record[OUTCOME], record[EVENTS] = outcome, events
+                put(record, FIRST_K, k)
+                put(record, FIRST_X, x)
+                put(record, LAST_K, last_k)
+                put(record, LAST_X, last_x)
+            number += 1
+    return number
+
+
+@nb.njit(error_model="numpy")
+def _start(meshes: Any, layers: int, starts: Any, state: Any) -> None:
+    """Draw where on each mesh a photon starts; meshes that end somewhere have one place."""
+    wholes, numbers = meshes[0], meshes[1]
+    ended = -1
+    for layer in range(layers):
+        about, sizes = layer * WHOLES, layer * NUMBERS
+        if wholes[about + PERIODIC] == 0 and ended >= 0:
+            starts[2 * layer], starts[2 * layer + 1] = starts[2 * ended], starts[2 * ended + 1]
+            continue
+        if wholes[about + PERIODIC] == 0:
+            ended = layer
+        width = wholes[about + CELLS_X] * numbers[sizes + CELL_X]
+        depth = wholes[about + CELLS_Y] * numbers[sizes + CELL_Y]
+        starts[2 * layer], starts[2 * layer + 1] = width * uniform(state), depth * uniform(state)
+
+
+@nb.njit(error_model="numpy")
+def _add_up(lights: Any, sums: Any, count: int, place: int) -> None:
+    for each in range(count):
+        at, to = CARRIED * each, place + SUMS * each
+        intensity, scalar = 2.0 * lights[at] + abs(lights[at + 1]), lights[at + 4]
+        sums[to] += 1.0
+        sums[to + 1] += intensity
+        sums[to + 2] += intensity * intensity
+        sums[to + 3] += scalar
+        sums[to + 4] += scalar * scalar
+        sums[to + 5] += intensity * scalar
