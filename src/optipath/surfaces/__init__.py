@@ -4,11 +4,15 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from optipath.surfaces.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
 
-__all__ = ["HeightField"]
+__all__ = ["HeightField", "single_scattering"]
 
-_HOMES = {"HeightField": "fields.height_field"}
+_HOMES = {
+    "HeightField": "fields.height_field",
+    "single_scattering": "facet_model",
+}
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 
 

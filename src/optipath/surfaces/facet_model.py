@@ -2,52 +2,22 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.single_boundary import number_within, parts_of
-from optipath.errors import OptipathError, SurfaceError, ValueFault, unknown
 from optipath.kernels.catalogue import REFLECTION
 from optipath.kernels.facets.facet_scattering import FacetScattering
-from optipath.kernels.facets.smith_masking import MASKINGS
 from optipath.light.mueller.matrix import Mueller
-from optipath.surfaces.directions import frame_along
+from optipath.surfaces.facet_inputs import read_facets
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.kernel_values import kernel_values
-from optipath.values.arrays.shapes import check_broadcast, first_place
-from optipath.values.domains.domain import Domain
-from optipath.values.domains.indices import INDEX, OUTSIDE
-from optipath.values.materials import Material
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import numpy.typing as npt
 
+    from optipath.values.materials import Material
 
-class _AlphaDomain(Domain):
-    """The roughness of a surface that has a density of slopes."""
-
-    def read(self, owner: str, value: Any) -> Any:
-        if isinstance(value, (list, tuple)) and len(value) == 2:
-            raise ValueFault(
-                f"{owner} is {value}, which may be along x and y, or of two surfaces; give alpha= "
-                f"and alpha_y= for the one, np.array({list(value)}) for the other"
-            )
-        return super().read(owner, value)
-
-    def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
-        if array.dtype.kind == "f" and np.any(bad := array <= 0.0):
-            raise ValueFault(
-                f"{owner} is {array[bad].flat[0]:g}{first_place(bad)}, and a flat surface has no "
-                f"density of slopes; give an alpha above 0, or take an Interface"
-            )
-        super()._check_numbers(owner, array, rounding)
-
-
-_ALPHA = _AlphaDomain("alpha", minimum=1e-12, maximum=1e12)
 _STABLE = REFLECTION.methods["stable"]
 
 
@@ -115,48 +85,16 @@ def single_scattering(
     >>> single_scattering(1.5, 0.3, down, [up, (0.0, 0.0, 1.0)]).polarizance.round(3)
     array([0.591, 0.143])
     """
-    faults = unknown("masking", masking, MASKINGS) + _unused(wavelength, index, outside)
-    read = partial(_read, faults)
-    n1 = read(_number_at, OUTSIDE, "outside", outside, wavelength)
-    m = read(_number_at, INDEX, "index", index, wavelength)
-    alpha_x = read(number_within, _ALPHA, "alpha", alpha)
-    alpha_y = alpha_x if alpha_y is None else read(number_within, _ALPHA, "alpha_y", alpha_y)
-    before = read(frame_along, "incoming", incoming, up=False)
-    behind = read(frame_along, "outgoing", outgoing, up=True)
-    if not faults:
-        shapes = {"outside": n1, "index": m, "alpha": alpha_x, "alpha_y": alpha_y}
-        shapes |= {"incoming": before.z[..., 0], "outgoing": behind.z[..., 0]}
-        read(check_broadcast, {name: value.shape for name, value in shapes.items()})
-    if faults:
-        raise SurfaceError(*faults)
+    given = {"index": index, "outside": outside, "alpha": alpha}
+    given |= {} if alpha_y is None else {"alpha_y": alpha_y}
+    given |= {"incoming": incoming, "outgoing": outgoing}
+    media, alphas, before, behind = read_facets(given, masking, wavelength)
+    kernel, media = _STABLE.specialised(media, _vanishes)
     axes = (before.z, before.x, behind.z, behind.x)
     vectors = (part for axis in axes for part in np.moveaxis(axis, -1, 0))
-    kernel, media = _STABLE.specialised((n1, *parts_of(m)), _vanishes)
-    factory = FacetScattering(kernel, masking)
-    numbers = kernel_values(factory, alpha_x, alpha_y, *vectors, *media)
+    numbers = kernel_values(FacetScattering(kernel, masking), *alphas, *vectors, *media)
     matrix = namespace(numbers[0]).stack(numbers, axis=-1)
     return Mueller.of(matrix.reshape(*matrix.shape[:-1], 4, 4), before, behind)
-
-
-def _read(faults: list[str], reader: Callable[..., Any], *given: Any, **named: Any) -> Any:
-    """Return what a reader makes of what is given, or keep the faults that it finds."""
-    try:
-        return reader(*given, **named)
-    except OptipathError as fault:
-        faults.extend(fault.faults)
-        return None
-
-
-def _number_at(domain: Domain, name: str, index: Any, wavelength: Any) -> Any:
-    if isinstance(index, Material) and wavelength is not None:
-        index = index.at(wavelength)
-    return number_within(domain, name, index)
-
-
-def _unused(wavelength: Any, *indices: Any) -> list[str]:
-    if wavelength is None or any(isinstance(index, Material) for index in indices):
-        return []
-    return ["wavelength is given, and no index is that of a Material; leave it out"]
 
 
 def _vanishes(number: Any) -> bool:
