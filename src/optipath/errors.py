@@ -114,6 +114,10 @@ class MeshWarning(UserWarning):
     """A mesh is too coarse for its roughness."""
 
 
+class ToleranceWarning(UserWarning):
+    """A tolerance was not reached."""
+
+
 class LoopWarning(UserWarning):
     """Nearly all of the light that goes round in a loop comes back each time."""
 

@@ -21,7 +21,7 @@ CHOICE = {"element": str, "behind": dict, "help": str}
 CASE = {"values": dict, "published": dict, "note": str}
 
 _EXAMPLES = {
-    "links": "a list of tables, each headed [[links]]",
+    **{name: f"a list of tables, each headed [[{name}]]" for name in ("links", "layers")},
     **{name: f"tables headed [{name}.NAME]" for name in ("elements", "parameters", "cases")},
     "loops": 'a text, "refuse" or "sum"',
     "range": 'a list of two values, such as ["0 deg", "90 deg"]',

@@ -65,7 +65,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
     loops = graph.graph.get("loops", LOOPS[0])
     if loops != LOOPS[0]:
         top["loops"] = loops
-    tables: list[str] = [_lines("", top)]
+    tables: list[str] = [toml_lines("", top)]
     parts = complex_parts_of(graph)
     elements = {
         name: faults.attempt(name, _element, node["element"], node["frames"])
@@ -76,22 +76,22 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
         row = _parameter(parameter, parts.get(name))
         if name in wavelengths and dimension_of(parameter.unit) == "length":
             row.setdefault("range", [-np.inf, np.inf])  # Without it, it has that of wavelengths.
-        tables.append(_lines(f"[parameters.{_key(name)}]", row))
+        tables.append(toml_lines(f"[parameters.{_key(name)}]", row))
     for name, described in elements.items():
         if described is not None:
-            tables.append(_lines(f"[elements.{_key(name)}]", described))
+            tables.append(toml_lines(f"[elements.{_key(name)}]", described))
     for (start, end, (leaves, enters)), about in graph.edges.items():
         link: dict[str, Any] = {"from": f"{start}.{leaves}", "to": f"{end}.{enters}"}
         if about["azimuth"] is not None:
             link["azimuth"] = encode(about["azimuth"], ANGLE.unit)
         if about["tap"]:
             link["tap"] = True
-        tables.append(_lines("[[links]]", link))
+        tables.append(toml_lines("[[links]]", link))
     for name, choice in graph.graph.get("choices", {}).items():
         faults += [f"choice '{name}': {fault}" for fault in choice_faults(graph, choice)]
         row = {"element": choice.node, "behind": dict(choice.behind)}
         row |= {"help": choice.help} if choice.help else {}
-        tables.append(_lines(f"[choices.{_key(name)}]", row))
+        tables.append(toml_lines(f"[choices.{_key(name)}]", row))
     for name, case in cases.items():
         faults += name_faults(name)
         faults += [
@@ -100,7 +100,7 @@ def to_toml(graph: nx.MultiDiGraph, description: str, cases: Mapping[str, Case])
             for given in case.values
             if given not in parameters
         ]
-        tables.append(_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
+        tables.append(toml_lines(f"[cases.{_key(name)}]", _case(case, parameters, parts)))
     if faults:
         raise PathError(*faults)
     return "\n".join(tables)
@@ -188,7 +188,26 @@ def _case(
     return {"values": values} | {key: value for key, value in others.items() if value}
 
 
-def _lines(header: str, row: Mapping[str, Any]) -> str:
+def toml_lines(header: str, row: Mapping[str, Any]) -> str:
+    """Return a table of a file, with a line for each of its keys.
+
+    Parameters
+    ----------
+    header : str
+        Its name in brackets; nothing for what stands above all tables.
+    row : mapping of str to Any
+        Texts, numbers, and lists and tables of such.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> print(toml_lines("[elements.eye]", {"kind": "detector"}), end="")
+    [elements.eye]
+    kind = "detector"
+    """
     pairs = [f"{_key(key)} = {as_toml(value)}\n" for key, value in row.items()]
     return "".join([f"{header}\n" if header else "", *pairs])
 

@@ -3,20 +3,42 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
-from optipath.errors import OptipathError, SurfaceError, shown
+import numpy as np
+
+from optipath.errors import SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.samples.sample_media import medium_of
+from optipath.values.arrays.jax_values import is_traced
 from optipath.values.arrays.read_only import same_fields
 from optipath.values.domains.domain import Domain
-from optipath.values.materials import Material
 from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from optipath.values.materials import Material
 
 Roughness: TypeAlias = tuple[float, float] | HeightField
 
-_ALPHA = Domain("roughness", minimum=0.0, maximum=10.0)
+
+class AlphaDomain(Domain):
+    """Roughnesses of interfaces, 0 of flat ones."""
+
+    def quickly_allows(self, value: Any) -> bool:
+        return super().quickly_allows(value) or value == 0.0
+
+    def allows(self, numbers: Any) -> Any:
+        return super().allows(numbers) | (numbers == 0.0)
+
+    def described(self) -> str:
+        return (
+            f"a {self.name} within {self.minimum:g} .. {self.maximum:g}, or 0 for a flat interface"
+        )
+
+
+# Beyond, squares of heights and of lengths that are of their size are no numbers.
+ALPHA = AlphaDomain("roughness", minimum=1e-6, maximum=100.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +72,9 @@ class SampleLayer:
 
     def __repr__(self) -> str:
         rough = self.roughness
-        alike = isinstance(rough, tuple) and rough[0] == rough[1]
-        return f"({self.index!r}, {rough[0] if alike else rough!r})"
+        if isinstance(rough, tuple) and rough[0] == rough[1]:
+            return f"({self.index!r}, {rough[0]!r})"
+        return f"({self.index!r}, {rough!r})"
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
@@ -92,3 +115,28 @@ def layer_of(owner: str, given: Any, domain: Domain) -> SampleLayer:
     if faults or index is None or roughness is None:
         raise SurfaceError(*faults)
     return SampleLayer(index, roughness, file)
+
+
+def _roughness_of(owner: str, given: Any) -> Roughness:
+    """Return the roughness along x and y, or heights as they are given."""
+    if isinstance(given, HeightField):
+        return given
+    given = given.tolist() if isinstance(given, np.ndarray) else given
+    both = given if isinstance(given, (tuple, list)) else (given, given)
+    if len(both) != 2:
+        raise SurfaceError(
+            f"{owner} is {shown(given)}; give one number, a pair along x and y, or heights"
+        )
+    along_x, along_y = [_alpha_of(owner, one) for one in both]
+    if (along_x == 0.0) != (along_y == 0.0):
+        raise SurfaceError(
+            f"{owner} is {shown(given)}; give two numbers above 0, or 0 for a flat interface"
+        )
+    return along_x, along_y
+
+
+def _alpha_of(owner: str, given: Any) -> float:
+    if isinstance(given, Parameter) or is_traced(given):
+        what = given.called if isinstance(given, Parameter) else "traced by JAX"
+        raise SurfaceError(f"{owner} is {what}; give a number, and make a sample for each")
+    return float(ALPHA.check(owner, given))

@@ -9,7 +9,6 @@ import numpy as np
 from optipath.errors import SurfaceError, ValueFault, shown
 from optipath.values.arrays.jax_values import is_traced
 from optipath.values.curves.curve_value import CurveValue
-from optipath.values.domains.domain import Domain
 from optipath.values.domains.indices import IndexDomain, LitBehind
 from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.made import faults_of
@@ -21,13 +20,15 @@ from optipath.values.wavelength import Wavelength
 if TYPE_CHECKING:
     import numpy.typing as npt
 
+    from optipath.values.domains.domain import Domain
+
 _NAME = "index of refraction"
 
 
 class ClearMediumDomain(LitBehind):
     """Positive real numbers: light goes to and fro in a medium above the last."""
 
-    of_k: ClassVar[Domain] = NoAbsorption(
+    of_k: ClassVar[NoAbsorption] = NoAbsorption(
         "extinction coefficient", why=", since only the last medium may absorb"
     )
 

@@ -18,12 +18,7 @@ from optipath.surfaces.walk.packed_meshes import (
     WHOLES,
 )
 from optipath.surfaces.walk.random_stream import uniform
-
-CARRIED = 5
-"""Each light is (weak, S1, S2, S3), and the intensity that it has without polarisation."""
-
-OPAQUE = 0.0
-"""The index of a medium that nothing gets into; its own are in ``base``."""
+from optipath.surfaces.walk.walk_layout import CARRIED, OPAQUE
 
 
 @nb.njit(error_model="numpy")

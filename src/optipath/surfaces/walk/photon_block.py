@@ -7,7 +7,6 @@ from typing import Any
 
 import numba as nb
 
-from optipath.surfaces.walk.facet_event import CARRIED
 from optipath.surfaces.walk.packed_meshes import (
     CELL_X,
     CELL_Y,
@@ -17,20 +16,31 @@ from optipath.surfaces.walk.packed_meshes import (
     PERIODIC,
     WHOLES,
 )
-from optipath.surfaces.walk.photon_record import (
+from optipath.surfaces.walk.photon_walk import photon_walk, put
+from optipath.surfaces.walk.random_stream import uniform
+from optipath.surfaces.walk.walk_layout import (
+    AZIMUTH,
+    CARRIED,
+    COUNT,
+    END_K,
+    END_LIGHTS,
+    END_X,
+    ENDS,
     EVENTS,
     FIRST_K,
     FIRST_X,
+    INTENSITY,
+    INTENSITY_SQUARED,
     LAST_K,
     LAST_X,
+    MOST_COUNTED,
+    NEVER,
     OUTCOME,
-    put,
+    PRODUCT,
+    SCALAR,
+    SCALAR_SQUARED,
+    SUMS,
 )
-from optipath.surfaces.walk.photon_walk import NEVER, photon_walk
-from optipath.surfaces.walk.random_stream import uniform
-
-OUTCOMES, MOST_COUNTED, SUMS = 4, 16, 6
-"""How many ends there are, up to how many events are told apart, and how many sums of each."""
 
 _MOST_MISSES = 1000
 """How many starts in a row may meet nothing before no photon is thought to get there."""
@@ -53,6 +63,8 @@ def photon_block(
     lights: Any,
     sums: Any,
     record: Any,
+    ends: Any,
+    keeps: int,
 ) -> int:
     """Follow photons, and add up what becomes of them.
 
@@ -70,8 +82,11 @@ def photon_block(
     wanted : int
         The one that is recorded, with which it ends; or -1.
     sums : pointer or ndarray, shape (OUTCOMES, MOST_COUNTED, count, SUMS)
-        Added to: how many there were, S0, its square, the intensity without polarisation, its
-        square, and their product.
+        Added to.
+    ends : pointer or ndarray, shape (photons, ENDS + CARRIED count)
+        Where the end of each photon is written.
+    keeps : int
+        Whether it is.
 
     Returns
     -------
@@ -102,6 +117,13 @@ def photon_block(
                 put(record, FIRST_X, x)
                 put(record, LAST_K, last_k)
                 put(record, LAST_X, last_x)
+            if keeps != 0:
+                at = (ENDS + CARRIED * count) * number
+                ends[at + OUTCOME], ends[at + EVENTS], ends[at + AZIMUTH] = outcome, events, angle
+                put(ends, at + END_K, last_k)
+                put(ends, at + END_X, last_x)
+                for place in range(CARRIED * count):
+                    ends[at + END_LIGHTS + place] = lights[place]
             number += 1
     return number
 
@@ -128,9 +150,9 @@ def _add_up(lights: Any, sums: Any, count: int, place: int) -> None:
     for each in range(count):
         at, to = CARRIED * each, place + SUMS * each
         intensity, scalar = 2.0 * lights[at] + abs(lights[at + 1]), lights[at + 4]
-        sums[to] += 1.0
-        sums[to + 1] += intensity
-        sums[to + 2] += intensity * intensity
-        sums[to + 3] += scalar
-        sums[to + 4] += scalar * scalar
-        sums[to + 5] += intensity * scalar
+        sums[to + COUNT] += 1.0
+        sums[to + INTENSITY] += intensity
+        sums[to + INTENSITY_SQUARED] += intensity * intensity
+        sums[to + SCALAR] += scalar
+        sums[to + SCALAR_SQUARED] += scalar * scalar
+        sums[to + PRODUCT] += intensity * scalar

@@ -19,20 +19,26 @@ from optipath.surfaces.walk.packed_meshes import (
     NUMBERS,
     WHOLES,
 )
-from optipath.surfaces.walk.photon_record import (
+from optipath.surfaces.walk.walk_layout import (
+    COLUMN,
     COS,
     DIRECTION,
+    DOWN,
+    FACET,
     LAYER,
+    LINE,
+    N1,
+    N2,
+    NEVER,
     NORMAL,
     POINT,
+    RECORD,
     REFLECTED,
     SIDE,
-    WIDTH,
-    put,
+    SIDEWAYS,
+    STUCK,
+    UP,
 )
-
-UP, DOWN, SIDEWAYS, STUCK, NEVER = range(5)
-"""How a photon ends: above, below, beside the field, on its way; or it has met nothing at all."""
 
 
 @nb.njit(error_model="numpy")
@@ -112,13 +118,12 @@ def photon_walk(
             )
             events += 1
             if record[0] != 0.0:
-                at = WIDTH * events
-                place = LAYER, layer
-                record[at + LAYER], record[at + 1], record[at + 2] = layer, column, line
-                record[at + 3], record[at + SIDE], record[at + REFLECTED] = facet, side, reflected
-                for each in range(5):
-                    record[at + COS + each] = plane[each]
-                record[at + 11], record[at + 12] = n1, n2
+                at = RECORD * events
+                record[at + LAYER], record[at + COLUMN], record[at + LINE] = layer, column, line
+                record[at + FACET], record[at + SIDE], record[at + REFLECTED] = facet, side, reflected
+                for place in range(5):
+                    record[at + COS + place] = plane[place]
+                record[at + N1], record[at + N2] = n1, n2
                 put(record, at + POINT, point)
                 put(record, at + NORMAL, normal)
                 put(record, at + DIRECTION, before)
@@ -135,3 +140,19 @@ def photon_walk(
         layer, side, facet = layer - int(side), -side, NO_FACET
         inside, point, u, v = mesh_entry(meshes, layer, side, point, k, starts)
     return SIDEWAYS if events else NEVER, events, k, x
+
+
+@nb.njit(error_model="numpy")
+def put(record: Any, at: int, vector: Any) -> None:
+    """Write three numbers.
+
+    Parameters
+    ----------
+    record : pointer or ndarray
+        Where.
+    at : int
+        The place of the first.
+    vector : tuple of float
+        The numbers.
+    """
+    record[at], record[at + 1], record[at + 2] = vector

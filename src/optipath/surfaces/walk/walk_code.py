@@ -24,10 +24,11 @@ def path(
     cos: "float64", sin: "float64", azimuth: "float64", source: "*float64",
     count: "int64", photons: "int64", most: "int64", wanted: "int64",
     state: "*uint64", starts: "*float64", lights: "*float64", sums: "*float64", record: "*float64",
+    ends: "*float64", keeps: "int64",
 ):
     return photon_block(
         (wholes, numbers, heights, extremes), media, base, layers, (cos, sin, azimuth), source,
-        count, photons, most, wanted, state, starts, lights, sums, record
+        count, photons, most, wanted, state, starts, lights, sums, record, ends, keeps
     )
 
 

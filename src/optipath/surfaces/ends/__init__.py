@@ -1,0 +1,1 @@
+"""Where each photon has gone, and with which polarisation."""

@@ -1,0 +1,153 @@
+"""PhotonEnds: where photons have gone from a sample, each with its light."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import SurfaceError
+from optipath.kernels.carriers.carried import stokes_of
+from optipath.kernels.carriers.structures import ROTATION
+from optipath.kernels.geometry.facet import plane_at_facet
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.surfaces.walk.given_beam import UNPOLARISED, given_beam
+from optipath.surfaces.walk.photon_beam import BLOCK
+from optipath.surfaces.walk.walk_layout import (
+    AZIMUTH,
+    CARRIED,
+    END_K,
+    END_LIGHTS,
+    END_X,
+    EVENTS,
+    OUTCOME,
+)
+from optipath.values.whole_numbers import whole_number
+
+if TYPE_CHECKING:
+    from optipath.surfaces.samples.sample import Sample
+    from optipath.surfaces.walk.photon_beam import PhotonBeam
+
+Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PhotonEnds:
+    """Where photons have gone, one after the other.
+
+    Their directions are as the sample lies; on an isotropic one, where each photon comes from an
+    azimuth of its own, they are turned back so that all have come along x.
+
+    Attributes
+    ----------
+    ends : ndarray of str, shape (photons,)
+        ``"up"``, ``"down"``, ``"sideways"`` or ``"stuck"``.
+    events : ndarray of int, shape (photons,)
+        How often each has met a facet.
+    directions : ndarray, shape (photons, 3)
+        Where it goes.
+    x : ndarray, shape (photons, 3)
+        The x of its frame, z cross its direction: perpendicular to the meridional plane.
+    stokes : ndarray, shape (photons, ..., 4)
+        Its Stokes vector, divided by the probability of its way; for each wavelength.
+    scalar : ndarray, shape (photons, ...)
+        The intensity that it has without polarisation.
+    """
+
+    ends: npt.NDArray[np.str_]
+    events: npt.NDArray[np.int64]
+    directions: Numbers
+    x: Numbers
+    stokes: Numbers
+    scalar: Numbers
+
+
+_WORDS = np.array(["up", "down", "sideways", "stuck"])
+
+
+def photon_ends(
+    sample: Sample,
+    incidence: Any,
+    photons: int = 10_000,
+    *,
+    azimuth: Any = 0.0,
+    wavelength: str | npt.ArrayLike | None = None,
+    stokes: npt.ArrayLike = UNPOLARISED,
+    seed: int = 0,
+    most_events: int = 1000,
+) -> PhotonEnds:
+    """Return where photons go from a sample: the same photons that `energy` counts.
+
+    Parameters
+    ----------
+    sample, incidence, azimuth, wavelength, stokes, seed, most_events
+        As `energy` takes them.
+    photons : int, optional
+        How many are walked; all of them are kept, in some 130 bytes each.
+
+    Returns
+    -------
+    PhotonEnds
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Examples
+    --------
+    >>> from optipath.surfaces.samples.sample import Sample
+    >>> found = photon_ends(Sample([(1j, 0.3)], cells=64), "30 deg", photons=1000)
+    >>> print(found.directions.shape, found.stokes.shape, np.unique(found.ends))
+    (1000, 3) (1000, 4) ['up']
+    """
+    faults = whole_number("photons", photons)
+    try:
+        beam = given_beam(
+            sample,
+            incidence,
+            azimuth,
+            wavelength=wavelength,
+            stokes=stokes,
+            seed=seed,
+            most_events=most_events,
+        )
+    except SurfaceError as error:
+        faults += error.faults
+    if faults:
+        raise SurfaceError(*faults)
+    blocks = range(-(-photons // BLOCK))
+    return _ends_of(beam, np.concatenate([_block(beam, number, photons) for number in blocks]))
+
+
+def _block(beam: PhotonBeam, number: int, photons: int) -> Numbers:
+    walked = beam.block(number, min(BLOCK, photons - BLOCK * number), keeps=True)
+    return beam.checked(walked, number).ends
+
+
+def _ends_of(beam: PhotonBeam, found: Numbers) -> PhotonEnds:
+    back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
+    k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
+    _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
+    lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
+    carried = tuple(lights[..., place] for place in range(4))
+    rotation = [each[:, np.newaxis] for each in turn]
+    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
+    shape = (len(found), *beam.indices.n.shape)
+    return PhotonEnds(
+        ends=_WORDS[found[:, OUTCOME].astype(int)],
+        events=found[:, EVENTS].astype(int),
+        directions=k,
+        x=np.stack(np.broadcast_arrays(*x), axis=-1),
+        stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1).reshape(*shape, 4),
+        scalar=lights[..., 4].reshape(shape),
+    )
+
+
+def _turned(vectors: Numbers, angle: Numbers) -> Numbers:
+    """Return vectors turned about z."""
+    c, s = np.cos(angle), np.sin(angle)
+    x, y, z = vectors.T
+    return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)

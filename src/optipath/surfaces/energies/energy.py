@@ -1,0 +1,176 @@
+"""What share of light a sample sends back and lets through, by photons that walk over it."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from math import ceil
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import SurfaceError, ToleranceWarning, shown
+from optipath.surfaces.energies.energy_run import EnergyRun
+from optipath.surfaces.walk.given_beam import UNPOLARISED, given_beam
+from optipath.surfaces.walk.photon_beam import BLOCK
+from optipath.values.whole_numbers import is_whole, whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+    from optipath.surfaces.energies.energy_table import Energy
+    from optipath.surfaces.samples.sample import Sample
+
+_PHOTONS, _MOST_PHOTONS = 1_000_000, 1_000_000_000
+"""How many there are by default, and how many at most where a tolerance is given."""
+
+_AIM = 1.1
+"""How many times as many photons are walked as the error so far asks for."""
+
+
+def energy(
+    sample: Sample,
+    incidence: Any,
+    photons: int | None = None,
+    *,
+    azimuth: Any = 0.0,
+    wavelength: str | npt.ArrayLike | None = None,
+    stokes: npt.ArrayLike = UNPOLARISED,
+    seed: int = 0,
+    tolerance: float | None = None,
+    most_events: int = 1000,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Energy:
+    """Return what share of light a sample sends back and lets through.
+
+    Parameters
+    ----------
+    sample : Sample
+        What the light falls on.
+    incidence : float or str
+        The angle of incidence in radians, 0 up to pi/2, or a text such as ``"60 deg"``.
+    photons : int, optional
+        How many photons are walked; a million by default. With a tolerance, how many at most.
+    azimuth : float or str, optional
+        Towards which side the light goes, from x towards y of the sample. On an isotropic sample
+        it makes no difference.
+    wavelength : float, str or array_like, optional
+        In metres, or ``"550 nm"``, where an index depends on it. Several ride on the same photons
+        where the base alone depends on them, and is opaque.
+    stokes : array_like, optional
+        The Stokes vector of the light, the x of its frame horizontal; unpolarised by default.
+    seed : int, optional
+        The same seed gives the same bits, with any number of threads.
+    tolerance : float, optional
+        Photons are walked until the standard error of R is no larger, at all wavelengths.
+    most_events : int, optional
+        After how many events a photon is given up, and counted as lost.
+    threads : int, optional
+        How many walk at a time; as many as there are processors by default.
+    progress : callable, optional
+        Told how many photons there are, and of how many.
+
+    Returns
+    -------
+    Energy
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Warns
+    -----
+    ToleranceWarning
+        If the tolerance is not reached.
+
+    Examples
+    --------
+    A rough dielectric reflects less than half a percent of the light after several events, and
+    what it does not reflect goes through:
+
+    >>> from optipath.surfaces.samples.sample import Sample
+    >>> found = energy(Sample([(1.5, 0.5)], cells=160), "40 deg", photons=20_000)
+    >>> bool(0.001 < found.R_m < 0.005), bool(abs(found.scalar.R + found.scalar.T - 1.0) < 1e-12)
+    (True, True)
+    """
+    faults = [] if photons is None else whole_number("photons", photons)
+    faults += [] if threads is None else whole_number("threads", threads)
+    if tolerance is not None and not (np.isreal(tolerance) and 0.0 < tolerance < 1.0):
+        faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
+    try:
+        beam = given_beam(
+            sample,
+            incidence,
+            azimuth,
+            wavelength=wavelength,
+            stokes=stokes,
+            seed=seed,
+            most_events=most_events,
+        )
+    except SurfaceError as error:
+        faults += error.faults
+    if faults:
+        raise SurfaceError(*faults)
+    run = EnergyRun(beam, processors() if threads is None else int(threads))
+    if tolerance is None:
+        whole = _PHOTONS if photons is None else int(photons)
+        run.walk(whole, None if progress is None else lambda done: progress(done, whole))
+        return run.energy
+    return walk_until(run, tolerance, _MOST_PHOTONS if photons is None else int(photons), progress)
+
+
+def walk_until(
+    run: EnergyRun, tolerance: float, most: int, progress: Callable[[int, int], None] | None
+) -> Energy:
+    """Walk photons until the standard error of R is within a tolerance.
+
+    Parameters
+    ----------
+    run : EnergyRun
+        What has been walked.
+    tolerance : float
+        The largest error that will do.
+    most : int
+        How many photons there may be.
+    progress : callable or None
+        Told how many there are, and how many it will take as far as is known.
+
+    Returns
+    -------
+    Energy
+
+    Warns
+    -----
+    ToleranceWarning
+        If it is not reached.
+    """
+    # A block on every surface, so that their differences are known.
+    wanted = min(2 * BLOCK * run.beam.surfaces, most)
+    while True:
+        run.walk(wanted, None if progress is None else lambda done, of=wanted: progress(done, of))
+        found = run.energy
+        error = float(np.max(found.R_se))
+        if error <= tolerance:
+            return found
+        if run.photons >= most:
+            warnings.warn(
+                f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
+                f"the tolerance of {tolerance:g}; allow more photons, or more surfaces= of the "
+                f"sample where these differ",
+                ToleranceWarning,
+                stacklevel=3,
+            )
+            return found
+        factor = min(_AIM * (error / tolerance) ** 2, 8.0)
+        wanted = min(BLOCK * ceil(factor * run.photons / BLOCK), most)
+
+
+def processors() -> int:
+    """Return how many processors this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1

@@ -1,0 +1,79 @@
+"""EnergyRun: photons walked block by block, and what is known after so many of them."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.surfaces.energies.energy_table import Energy
+from optipath.surfaces.walk.photon_beam import BLOCK
+from optipath.surfaces.walk.walk_code import walk_code
+from optipath.surfaces.walk.walk_layout import MOST_COUNTED, OUTCOMES, SUMS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.surfaces.walk.photon_beam import PhotonBeam, WalkedBlock
+
+_FEWEST = 32
+"""How many blocks are handed out at a time, at least."""
+
+
+class EnergyRun:
+    """The sums over the photons that have been walked so far, in the order of their blocks.
+
+    Parameters
+    ----------
+    beam : PhotonBeam
+        The photons.
+    threads : int
+        How many walk at a time; sums do not depend on it.
+    """
+
+    def __init__(self, beam: PhotonBeam, threads: int) -> None:
+        self.beam, self.threads = beam, threads
+        self.blocks, self.photons = 0, 0
+        self._sums = np.zeros((beam.surfaces, OUTCOMES, MOST_COUNTED, beam.lights, SUMS))
+
+    def walk(self, photons: int, progress: Callable[[int], None] | None = None) -> None:
+        """Walk on until there are as many photons in all; what is done stays if it is interrupted.
+
+        Parameters
+        ----------
+        photons : int
+            How many there are to be; they end with a whole block, or with these.
+        progress : callable, optional
+            Told how many there are, whenever a block is done.
+
+        Raises
+        ------
+        SurfaceError
+            If photons meet nothing, or come to what is no number.
+        """
+        walk_code()
+        last = -(-photons // BLOCK)
+        todo = range(self.blocks, last)
+        for surface in {number % self.beam.surfaces for number in todo}:
+            self.beam.meshes(surface)
+        executor = ThreadPoolExecutor(self.threads)
+        try:
+            for walked in executor.map(
+                self.beam.block, todo, [min(BLOCK, photons - BLOCK * number) for number in todo]
+            ):
+                self._add(walked)
+                if progress is not None:
+                    progress(self.photons)
+        finally:
+            executor.shutdown(cancel_futures=True)
+
+    def _add(self, walked: WalkedBlock) -> None:
+        self.beam.checked(walked, self.blocks)
+        self._sums[self.blocks % len(self._sums)] += walked.sums
+        self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
+
+    @property
+    def energy(self) -> Energy:
+        """What is known so far."""
+        return Energy.of(self.beam, self._sums)

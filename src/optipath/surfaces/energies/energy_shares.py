@@ -1,0 +1,130 @@
+"""EnergyShares: how much of the light leaves a sample, where to, and after how many events."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.surfaces.walk.walk_layout import DOWN, SIDEWAYS, STUCK, UP
+
+Numbers: TypeAlias = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class EnergyShares:
+    """Shares of the light that falls on a sample; with ``_se``, the standard error of each.
+
+    All have the shape of the wavelengths, () where there is one.
+
+    Attributes
+    ----------
+    R_s, R_m, R : ndarray
+        Reflected after one event, after more, and in all.
+    T_s, T_m, T : ndarray
+        Let through after one event, after more, and in all.
+    lost : ndarray
+        Gone beside a finite field, or still on its way after as many events as allowed.
+    absorbed : ndarray
+        What is left: 1 - R - T - lost.
+    reflected, transmitted : ndarray, shape (events, ...)
+        R and T after one event, after two, and so on; the last after as many or more.
+    """
+
+    R_s: Numbers
+    R_s_se: Numbers
+    R_m: Numbers
+    R_m_se: Numbers
+    R: Numbers
+    R_se: Numbers
+    T_s: Numbers
+    T_s_se: Numbers
+    T_m: Numbers
+    T_m_se: Numbers
+    T: Numbers
+    T_se: Numbers
+    lost: Numbers
+    lost_se: Numbers
+    absorbed: Numbers
+    absorbed_se: Numbers
+    reflected: Numbers
+    reflected_se: Numbers
+    transmitted: Numbers
+    transmitted_se: Numbers
+
+
+_ONCE, _MORE, _ALL = slice(0, 1), slice(1, None), slice(None)
+_PARTS: dict[str, tuple[list[int], slice]] = {
+    "R_s": ([UP], _ONCE),
+    "R_m": ([UP], _MORE),
+    "R": ([UP], _ALL),
+    "T_s": ([DOWN], _ONCE),
+    "T_m": ([DOWN], _MORE),
+    "T": ([DOWN], _ALL),
+    "lost": ([SIDEWAYS, STUCK], _ALL),
+    "absorbed": ([UP, DOWN, SIDEWAYS, STUCK], _ALL),
+}
+
+
+def energy_shares(photons: Numbers, total: Numbers, squares: Numbers, whole: float) -> EnergyShares:
+    """Return the shares of light out of sums over photons.
+
+    Parameters
+    ----------
+    photons : ndarray, shape (surfaces,)
+        How many photons fell on each realisation of the surfaces.
+    total, squares : ndarray, shape (surfaces, ends, events, ...)
+        The sums of what each photon has brought to an end, and of its square.
+    whole : float
+        What comes; 0 where differences are summed, of which nothing comes.
+
+    Returns
+    -------
+    EnergyShares
+    """
+    found: dict[str, Numbers] = {}
+    for name, (ends, events) in _PARTS.items():
+        part = [each[:, ends, events].sum(axis=(1, 2)) for each in (total, squares)]
+        found[name], found[f"{name}_se"] = mean_and_error(photons, *part)
+    found["absorbed"] = whole - found["absorbed"]
+    for name, end in (("reflected", UP), ("transmitted", DOWN)):
+        found[name], found[f"{name}_se"] = mean_and_error(photons, total[:, end], squares[:, end])
+    return EnergyShares(**found)
+
+
+def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[Numbers, Numbers]:
+    """Return the mean over photons, and its standard error.
+
+    Where photons fall on several surfaces, their means differ by more than chance: the error is
+    then that of the mean over surfaces (the larger mean square of a one-way analysis of variance;
+    Scheffe, The Analysis of Variance, Wiley 1959, ch. 7).
+
+    Parameters
+    ----------
+    photons : ndarray, shape (surfaces,)
+        How many there were on each surface.
+    total, squares : ndarray, shape (surfaces, ...)
+        Sums of what they have brought, and of its square.
+
+    Returns
+    -------
+    mean, error : ndarray, shape (...)
+
+    Examples
+    --------
+    One of two photons is reflected, on either surface:
+
+    >>> mean, error = mean_and_error(np.array([2.0, 2.0]), np.array([1.0, 1.0]), np.array([1.0, 1.0]))
+    >>> print(mean, error.round(3))
+    0.5 0.354
+    """
+    lit = photons > 0.0
+    photons, total, squares = photons[lit], total[lit], squares[lit]
+    count, surfaces = photons.sum(), len(photons)
+    each = photons.reshape(-1, *[1] * (total.ndim - 1))
+    mean, means = total.sum(axis=0) / count, total / each
+    within = (squares - total * means).sum(axis=0) / max(count - surfaces, 1.0)
+    between = (each * (means - mean) ** 2).sum(axis=0) / max(surfaces - 1, 1)
+    return mean, np.sqrt(np.maximum(np.maximum(within, between), 0.0) / count)

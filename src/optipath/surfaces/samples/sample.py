@@ -1,0 +1,276 @@
+"""Sample: rough or flat interfaces one below the other, with the media between them."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.layer_stack import LayerStack
+from optipath.errors import SurfaceError, shown
+from optipath.paths.format.faults import Faults
+from optipath.surfaces.fields.given_fields import cells_of
+from optipath.surfaces.fields.height_field import HeightField
+from optipath.surfaces.samples.sample_indices import indices_of
+from optipath.surfaces.samples.sample_layer import layer_of
+from optipath.surfaces.samples.sample_media import BASE, CLEAR_MEDIUM, medium_of
+from optipath.values.arrays.read_only import Unchanging, same_fields
+from optipath.values.domains.quantities import YES_OR_NO
+from optipath.values.parameters import Parameter
+from optipath.values.whole_numbers import is_whole, whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from optipath.surfaces.samples.sample_indices import SampleIndices
+    from optipath.surfaces.samples.sample_layer import SampleLayer
+    from optipath.values.materials import Material
+
+_WIDTH = 80.0
+"""How wide a field is, over alpha: 40 correlation lengths 2 / alpha."""
+
+
+@dataclasses.dataclass(frozen=True, eq=False, repr=False)
+class Sample(Unchanging):
+    """Rough or flat interfaces one below the other, and the media between them.
+
+    Heights over x and y, lengths of the fields and wavelengths are no part of each other: light
+    is rays, which neither bend round edges nor interfere. Media do not absorb, but for the last.
+
+    Parameters
+    ----------
+    layers : sequence of pair
+        From the top, the index of the medium below an interface and the interface's roughness:
+        alpha (the slopes have the density exp(-tan^2 / alpha^2) / (pi alpha^2), 0 is flat), a pair
+        of alpha along x and y, or a `HeightField`. The last medium may absorb, n + ik, and is
+        opaque then; ``1j`` makes a perfect mirror of it.
+    outside : float or Material, optional
+        The medium above.
+    cells : int or pair of int, optional
+        How many cells random fields have along x and y; 640, which are 16 a correlation length
+        2 / alpha, by default.
+    surfaces : int, optional
+        How many times random fields are drawn. Statistics of one finite field differ a little
+        from those that are meant, so light is spread over several.
+    seed : int, optional
+        What random fields begin with. Surface number i of layer number j has the seed
+        ``SeedSequence(seed, spawn_key=(i, j))``.
+    periodic : bool, optional
+        Whether random fields go on beyond their border, so that no light is lost there.
+    description : str, optional
+        One line about it, as its file has it.
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Examples
+    --------
+    >>> sample = Sample([(1.5, 0.1), (2.4, (0.1, 0.2))])
+    >>> sample, sample.isotropic
+    (Sample([(1.5, 0.1), (2.4, (0.1, 0.2))]), False)
+    >>> from optipath.values.materials import Material
+    >>> Sample([(Material.cauchy([1.5, 0.004]), 0.0)]).indices("500 nm").n
+    array(1.516)
+    """
+
+    layers: Sequence[Any]
+    outside: float | Material = 1.0
+    cells: int | tuple[int, int] | None = None
+    surfaces: int = 8
+    seed: int = 0
+    periodic: bool = True
+    description: str = ""
+
+    def __post_init__(self) -> None:
+        """Keep what is given as it is meant; refuse all faults."""
+        faults = Faults()
+        outside = faults.attempt("", medium_of, "outside", self.outside, CLEAR_MEDIUM)
+        layers = self._read_layers(faults)
+        cells = None if self.cells is None else cells_of(self.cells, faults)
+        faults += whole_number("surfaces", self.surfaces) + whole_number("seed", self.seed, 0)
+        periodic = faults.attempt("", YES_OR_NO.check, "periodic", self.periodic)
+        if not isinstance(self.description, str):
+            faults.append(f"description must be a text, not {shown(self.description)}")
+        if not faults:
+            faults += _unused(layers, cells, periodic=periodic)
+        if faults:
+            raise SurfaceError(*faults)
+        surfaces, seed = int(self.surfaces), int(self.seed)
+        kept = {"outside": outside, "cells": cells, "surfaces": surfaces, "seed": seed}
+        vars(self).update(kept, layers=layers, periodic=periodic)
+
+    def _read_layers(self, faults: Faults) -> tuple[SampleLayer, ...]:
+        if not isinstance(self.layers, (list, tuple)) or not self.layers:
+            faults.append(
+                f"layers is {shown(self.layers)}; give a list with a pair for each interface, the "
+                f"index of refraction below it and its roughness, such as [(1.5, 0.1)]"
+            )
+            return ()
+        last = len(self.layers) - 1
+        found = [
+            faults.attempt(
+                "", layer_of, f"layers[{at}]", given, CLEAR_MEDIUM if at < last else BASE
+            )
+            for at, given in enumerate(self.layers)
+        ]
+        return tuple(layer for layer in found if layer is not None)
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether no direction along the surface is any other."""
+        return all(layer.isotropic for layer in self.layers)
+
+    def fields(self, surface: int = 0) -> tuple[HeightField, ...]:
+        """Return the heights of all interfaces, from the top; random ones are drawn once and kept.
+
+        Parameters
+        ----------
+        surface : int, optional
+            Which of the surfaces, from 0.
+
+        Returns
+        -------
+        tuple of HeightField
+
+        Raises
+        ------
+        SurfaceError
+            If there is no such surface, or the memory for it.
+
+        Warns
+        -----
+        MeshWarning
+            If there are too few cells for the roughness.
+
+        Examples
+        --------
+        >>> Sample([(1.5, 0.4)], cells=320).fields(3)
+        (HeightField.beckmann of alpha (0.4, 0.4), 320 x 320 cells, 200 x 200, periodic,)
+        """
+        if not is_whole(surface, 0, self.surfaces - 1):
+            raise SurfaceError(
+                f"surface {shown(surface)} is none of the sample's; give one of 0 .. "
+                f"{self.surfaces - 1}"
+            )
+        known: dict[int, tuple[HeightField, ...]] = vars(self).setdefault("_drawn", {})
+        if surface not in known:
+            places = range(len(self.layers))
+            known[surface] = tuple(self._field(int(surface), place) for place in places)
+        return known[surface]
+
+    def _field(self, surface: int, place: int) -> HeightField:
+        layer = self.layers[place]
+        if isinstance(layer.roughness, HeightField):
+            return layer.roughness
+        if not layer.is_random:
+            return HeightField.flat()
+        along_x, along_y = layer.roughness
+        return HeightField.beckmann(
+            along_x,
+            along_y,
+            size=(_WIDTH / along_x, _WIDTH / along_y),
+            cells=self.cells,
+            seed=np.random.SeedSequence(self.seed, spawn_key=(surface, place)),
+            periodic=self.periodic,
+        )
+
+    def indices(self, wavelength: str | npt.ArrayLike | None = None) -> SampleIndices:
+        """Return the indices of refraction of all media.
+
+        Parameters
+        ----------
+        wavelength : float, str or array_like, optional
+            In vacuum, in metres or as a text such as ``"550 nm"``; for media that depend on it.
+            Where there are several, the base alone may, and must be opaque.
+
+        Returns
+        -------
+        SampleIndices
+            ``outside`` and ``inner``, which are floats, and ``n`` and ``k`` of the base, arrays of
+            the shape of the wavelengths.
+
+        Raises
+        ------
+        SurfaceError
+            If a wavelength is missing, or given and not asked for; if a medium is not known there,
+            or absorbs and is not the last; if light of several wavelengths would go several ways.
+
+        Examples
+        --------
+        >>> Sample([(1.5, 0.1), (0.5 + 2.1j, 0.3)]).indices()
+        SampleIndices(outside=1.0, inner=(1.5,), n=array(0.5), k=array(2.1))
+        """
+        return indices_of(self._media, wavelength)
+
+    def smooth(self, incidence: Any = None) -> LayerStack:
+        """Return the same media with flat interfaces, between which light goes to and fro.
+
+        Parameters
+        ----------
+        incidence : float, str, array_like or Parameter, optional
+            The angle of incidence in radians; the parameter ``incidence`` by default.
+
+        Returns
+        -------
+        LayerStack
+            The medium above first.
+
+        Examples
+        --------
+        >>> stack = Sample([(1.5, 0.1), (2.4, 0.1)]).smooth("65 deg")
+        >>> print(stack.mueller("in", "reflected").matrix[0, 0].round(5))
+        0.16024
+        """
+        angle = Parameter("incidence") if incidence is None else incidence
+        return LayerStack([*self._media.values()], angle)
+
+    def to_toml(self) -> str:
+        """Return the sample as the text of a file; `load_sample` gives the sample back.
+
+        Raises
+        ------
+        SurfaceError
+            If heights stand in no file, or a material has no form in files.
+        """
+        from optipath.surfaces.samples.sample_writer import toml_of  # noqa: PLC0415 - not for all
+
+        return toml_of(self)
+
+    @property
+    def _media(self) -> dict[str, Any]:
+        """The media by their places, from above."""
+        below = {f"layers[{place}].index": each.index for place, each in enumerate(self.layers)}
+        return {"outside": self.outside, **below}
+
+    def __repr__(self) -> str:
+        usual = {each.name: each.default for each in dataclasses.fields(self)}
+        given = {name: getattr(self, name) for name in usual if name != "layers"}
+        others = [f"{name}={value!r}" for name, value in given.items() if value != usual[name]]
+        return f"Sample({', '.join([repr([*self.layers]), *others])})"
+
+    def __getstate__(self) -> dict[str, Any]:
+        # Random fields are drawn again, with the same bits.
+        return {each.name: getattr(self, each.name) for each in dataclasses.fields(self)}
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _unused(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool | None) -> list[str]:
+    """Return a sentence for what is given of random fields and says nothing of those there are."""
+    found = []
+    if cells is not None and not any(layer.is_random for layer in layers):
+        found.append("cells is given, but no interface is random; leave it out")
+    for place, layer in enumerate(layers):
+        heights = layer.roughness if isinstance(layer.roughness, HeightField) else None
+        if not periodic and heights is not None and heights.periodic and not heights.is_flat:
+            found.append(
+                f"periodic is False, but the heights of layers[{place}] are periodic; give those a "
+                f"border, or leave periodic out, which is of random fields"
+            )
+    return found

@@ -1,0 +1,1 @@
+"""Photons that walk over meshes, in compiled code."""
