@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from optipath.light.frames import Frame
 
 
-class AlphaDomain(Domain):
+class PositiveAlpha(Domain):
     """The roughness of a surface that has a density of slopes."""
 
     def read(self, owner: str, value: Any) -> Any:
@@ -44,7 +44,7 @@ class AlphaDomain(Domain):
         super()._check_numbers(owner, array, rounding)
 
 
-ALPHA = AlphaDomain("alpha", minimum=1e-12, maximum=1e6)
+ALPHA = PositiveAlpha("alpha", minimum=1e-12, maximum=1e6)
 _DOMAINS = {"outside": OUTSIDE, "index": INDEX, "alpha": ALPHA, "alpha_y": ALPHA}
 
 
