@@ -18,6 +18,7 @@ MASKINGS = ["smith", "separate", "none"]
 MIRRORED = np.diag([1.0, 1.0, -1.0, -1.0])
 
 angles = st.floats(0.0, 1.57)
+oblique = st.floats(1e-3, 1.57)
 azimuths = st.floats(-math.pi, math.pi)
 alphas = st.floats(0.02, 3.0)
 
@@ -150,17 +151,14 @@ def test_no_light_becomes_circular_out_of_unpolarised_light(ti, to, a, b, alpha,
     assert (matrix[3, 0], matrix[0, 3]) == (0.0, 0.0)
 
 
-@given(angles, angles, azimuths, azimuths, alphas, alphas, st.sampled_from(INDICES))
+@given(oblique, oblique, azimuths, azimuths, alphas, alphas, st.sampled_from(INDICES))
 def test_light_that_goes_back_meets_the_reciprocal_matrix(ti, to, a, b, alpha, alpha_y, index):
     k_in, k_out = down(ti, a), direction(to, b)
     there = single_scattering(index, alpha, k_in, k_out, alpha_y=alpha_y)
-    back = single_scattering(index, alpha, -k_out, -k_in, alpha_y=alpha_y)
+    back = single_scattering(index, alpha, -k_out, -k_in, alpha_y=alpha_y).matrix
     scale = there.matrix[0, 0] * (1.0 + abs(math.log(there.matrix[0, 0] + 1e-300)))
-    turn = op.Mueller(back.matrix, back.frame_in, back.frame_out)
-    expected = there.reversed()
-    # Between the same axes, of either sign, but for light along the normal.
-    if min(ti, to) > 1e-6:
-        np.testing.assert_allclose(turn.matrix, expected.matrix, atol=1e-14 * scale + 1e-300)
+    # The axes x are opposite to those of the mirrored frames, but for light along the normal.
+    np.testing.assert_allclose(back, there.reversed().matrix, atol=1e-14 * scale + 1e-300)
 
 
 @given(angles, angles, azimuths, alphas, st.sampled_from(INDICES))
@@ -170,9 +168,7 @@ def test_the_plane_of_incidence_is_a_mirror(ti, to, azimuth, alpha, index):
     np.testing.assert_array_equal(mirrored, MIRRORED @ there @ MIRRORED)
 
 
-@given(
-    angles.filter(lambda t: t > 1e-3), angles.filter(lambda t: t > 1e-3), azimuths, azimuths, alphas
-)
+@given(oblique, oblique, azimuths, azimuths, alphas)
 def test_an_isotropic_surface_may_be_turned(ti, to, azimuth, turn, alpha):
     straight = single_scattering(1.5, alpha, down(ti), direction(to, azimuth)).matrix
     turned = single_scattering(1.5, alpha, down(ti, turn), direction(to, azimuth + turn)).matrix

@@ -92,8 +92,9 @@ def read_facets(given: Mapping[str, Any], masking: str, wavelength: Any) -> Face
     Examples
     --------
     >>> up = {"incoming": (0, 0, -1), "outgoing": (0, 0, 1)}
-    >>> read_facets({"index": 0.5 + 2j, "outside": 1.0, "alpha": 0.3} | up, "smith", None).media
-    (array(1.), np.float64(0.5), np.float64(2.0))
+    >>> given = {"index": 0.5 + 2j, "outside": 1.0, "alpha": 0.3} | up
+    >>> list(map(float, read_facets(given, "smith", None).media))
+    [1.0, 0.5, 2.0]
     """
     faults = Faults(unknown("masking", masking, MASKINGS))
     if wavelength is not None and not any(map(depends_on_wavelength, given.values())):
