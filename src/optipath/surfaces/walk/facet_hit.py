@@ -112,7 +112,8 @@ def _met(
     z, dx, dy, dz = ray
     rise_x, rise_y = facet_gradient(corners, facet)
     rate = dz - (dx * rise_x + dy * rise_y)
-    above = (z - corners[0]) - (u * rise_x + v * rise_y) + leaves * rate
-    if side * rate < 0.0 and side * above <= 0.0:
-        return max(leaves - above / rate, enters)
+    above = (z - corners[0]) - (u * rise_x + v * rise_y)
+    if side * rate < 0.0 and side * (above + leaves * rate) <= 0.0:
+        # From where it enters: it leaves nowhere that is near if it goes straight down.
+        return min(enters + max((above + enters * rate) / -rate, 0.0), leaves)
     return -1.0
