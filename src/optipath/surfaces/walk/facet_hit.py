@@ -89,10 +89,12 @@ def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float
     if own == NO_FACET:
         at = apart + enters * along
         first = LOWER if at > 0.0 or (at == 0.0 and along > 0.0) else UPPER
-    last = LOWER if apart + leaves * along >= 0.0 else UPPER
+    at = apart + leaves * along
+    last = LOWER if at > 0.0 or (at == 0.0 and along < 0.0) else UPPER
     cut = leaves
     if first != last:
-        cut = min(max(-apart / along, enters), leaves)
+        # A ray may start from one facet and go along the diagonal.
+        cut = min(max(-apart / along, enters), leaves) if along != 0.0 else enters
     if own == NO_FACET:
         t = _met(corners, u, v, ray, enters, cut, side, first)
         if t >= 0.0:

@@ -135,7 +135,7 @@ def photon_walk(
             return STUCK, events, k, x
         if events == 0:
             return NEVER, events, k, x
-        if outcome == LEFT and side * k[2] < 0.0:
+        if outcome == LEFT and side * k[2] <= 0.0:
             return SIDEWAYS, events, k, x
         if layer == (0 if side > 0.0 else layers - 1):
             return UP if side > 0.0 else DOWN, events, k, x
