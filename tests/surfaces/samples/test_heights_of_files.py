@@ -50,11 +50,21 @@ def test_a_sample_of_heights_is_written_and_read_back_the_same(folder):
         assert op.load_sample(folder / "copy.toml") == sample
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["../own.npy", "maps/../../own.npy", "/etc/hosts", "", ".", "..", "C:own.npy", "a\\\\b.npy",
-     "./own.npy", "own.npy/", "maps//own.npy", ".own.npy", "~/own.npy", "own\\u0000.npy", "a\\nb"],
-)  # fmt: skip
+NO_NAMES = [
+    "../own.npy",
+    "maps/../../own.npy",
+    "/etc/hosts",
+    "",
+    ".",
+    "..",
+    "C:own.npy",
+    "~/own.npy",
+]
+NO_NAMES += ["a\\\\b.npy", "./own.npy", "own.npy/", "maps//own.npy", ".own.npy", "a\\nb"]
+NO_NAMES += ["own\\u0000.npy", 300 * "a" + ".npy"]
+
+
+@pytest.mark.parametrize("name", NO_NAMES)
 def test_no_other_file_can_be_named(folder, name):
     fault = fault_of(folder, f'heights = "{name}"\nsize = 3')
     assert fault.startswith("layers[0].heights: '")
@@ -67,9 +77,14 @@ def test_a_link_that_leads_out_of_the_folder_is_not_followed(folder):
     for name in ("link.npy", "out/own.npy"):
         fault = fault_of(folder, f'heights = "{name}"\nsize = 3')
         assert fault == (
-            f"layers[0].heights: '{name}' leads out of the folder of the sample; put the file "
-            f"into it"
+            f"layers[0].heights: '{name}' leads out of the folder of the sample; put it there"
         )
+
+
+def test_a_link_that_leads_to_itself_is_refused(folder):
+    (folder / "round.npy").symlink_to(folder / "round.npy")
+    fault = fault_of(folder, 'heights = "round.npy"\nsize = 3')
+    assert fault.startswith("layers[0].heights: 'round.npy' ")
 
 
 @pytest.mark.parametrize("name", ["none.npy", "maps", "none/own.npy"])

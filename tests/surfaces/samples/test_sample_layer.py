@@ -35,6 +35,11 @@ def test_roughnesses_of_no_pair_are_refused(roughness):
     assert refused(roughness).endswith("give one number, a pair along x and y, or heights")
 
 
+@pytest.mark.parametrize("roughness", [((0.1, 0.2), 0.1), [[0.1], [0.2]], ([], 0.1)])
+def test_roughnesses_within_a_pair_are_refused(roughness):
+    assert refused(roughness).endswith("for one number; give a pair along x and y")
+
+
 @pytest.mark.parametrize("roughness", [(0.1, 0), (0, 0.1)])
 def test_an_interface_that_is_rough_along_one_axis_alone_is_refused(roughness):
     assert refused(roughness).endswith("give two numbers above 0, or 0 for a flat interface")
