@@ -31,7 +31,8 @@ def event_table(events: Iterable[PhotonEvent]) -> str:
     rows = [_HEADS, *(_row(number, event) for number, event in enumerate(events, 1))]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return "\n".join(
-        "  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)) for row in rows
+        "  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True))
+        for row in rows
     )
 
 

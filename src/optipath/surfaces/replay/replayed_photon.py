@@ -86,12 +86,6 @@ def replayed_photon(
     )
     block, place = divmod(int(number), BLOCK)
     walked = beam.checked(beam.block(block, wanted=place), block)
-    if walked.photons <= place:
-        raise SurfaceError(
-            f"photon {number} is never counted: from photon {BLOCK * block + walked.photons} on, "
-            f"those of block {block} meet nothing of the sample; give a smaller number, or larger "
-            f"or periodic fields"
-        )
     return _photon_of(beam, int(number), walked)
 
 

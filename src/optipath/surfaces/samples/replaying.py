@@ -50,8 +50,7 @@ class Replaying:
         Raises
         ------
         SurfaceError
-            With all faults at once, or if the photon is never counted, since it and all behind it
-            meet nothing of a finite field.
+            With all faults at once, or if photons meet nothing of a finite field.
 
         Examples
         --------
@@ -59,7 +58,8 @@ class Replaying:
         >>> photon = Sample([(1.5, 0.0)]).photon(3, "40 deg")
         >>> photon
         <Photon 3 of seed 0: down after 1 event>
-        >>> print(photon.events[0].onwards[2].round(6), -np.sqrt(1.5**2 - np.sin(np.radians(40)) ** 2).round(6) / 1.5)
+        >>> print(photon.events[0].onwards[2].round(6))
+        -0.90353
         """
         room = import_module("optipath.surfaces.replay.replayed_photon")
         return room.replayed_photon(
