@@ -6,11 +6,19 @@ from typing import TYPE_CHECKING, Any
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath.surfaces.ends.photon_ends import photon_ends
+    from optipath.surfaces.energies.energy import energy
+    from optipath.surfaces.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
 
-__all__ = ["HeightField"]
+__all__ = ["HeightField", "energy", "photon_ends", "single_scattering"]
 
-_HOMES = {"HeightField": "fields.height_field"}
+_HOMES = {
+    "HeightField": "fields.height_field",
+    "energy": "energies.energy",
+    "photon_ends": "ends.photon_ends",
+    "single_scattering": "facet_model",
+}
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 
 

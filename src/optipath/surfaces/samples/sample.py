@@ -149,8 +149,8 @@ class Sample(Unchanging):
 
         Examples
         --------
-        >>> Sample([(1.5, 0.4)], cells=320).fields(3)
-        (HeightField.beckmann of alpha (0.4, 0.4), 320 x 320 cells, 200 x 200, periodic,)
+        >>> Sample([(1.5, 0.25)], cells=320).fields(3)
+        (HeightField.beckmann of alpha (0.25, 0.25), 320 x 320 cells, 320 x 320, periodic,)
         """
         if not is_whole(surface, 0, self.surfaces - 1):
             raise SurfaceError(
@@ -239,7 +239,7 @@ class Sample(Unchanging):
         """
         from optipath.surfaces.samples.sample_writer import toml_of  # noqa: PLC0415 - not for all
 
-        return toml_of(self)
+        return toml_of({"description": self.description, **self._unusual()}, self.layers)
 
     @property
     def _media(self) -> dict[str, Any]:
@@ -247,10 +247,14 @@ class Sample(Unchanging):
         below = {f"layers[{place}].index": each.index for place, each in enumerate(self.layers)}
         return {"outside": self.outside, **below}
 
-    def __repr__(self) -> str:
+    def _unusual(self) -> dict[str, Any]:
+        """Return what is given besides the layers, and is not what it is by default."""
         usual = {each.name: each.default for each in dataclasses.fields(self)}
         given = {name: getattr(self, name) for name in usual if name != "layers"}
-        others = [f"{name}={value!r}" for name, value in given.items() if value != usual[name]]
+        return {name: value for name, value in given.items() if value != usual[name]}
+
+    def __repr__(self) -> str:
+        others = [f"{name}={value!r}" for name, value in self._unusual().items()]
         return f"Sample({', '.join([repr([*self.layers]), *others])})"
 
     def __getstate__(self) -> dict[str, Any]:
