@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 import optipath as op
+from optipath.surfaces import single_scattering
 
 
 class HalfWavePlate(op.Element, kind="typed-half-wave-plate"):
@@ -116,6 +117,9 @@ preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
 amplitudes: op.FresnelAmplitudes = op.fresnel_amplitudes(op.Material(0.6, 2.1), 0.8, 0.6, 1.3)
 r_s, r_p, t_s, t_p = amplitudes
+brdf: op.Mueller = single_scattering(
+    op.Material(0.6, 2.1), [0.1, 0.2, 0.3], (0.6, 0.0, -0.8), (0.6, 0.0, 0.8), masking="separate"
+)
 fading: op.EffectiveIndex = op.effective_index(0.6 + 2.1j, op.CosSin(0.8, 0.6), outside=1.3)
 chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
 in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(delta=0.1).frame

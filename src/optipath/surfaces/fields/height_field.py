@@ -113,7 +113,7 @@ class HeightField(TriangleMesh, Unchanging):
         periodic : bool, optional
             Whether the surface goes on after its last cells with its first, so that no light is
             lost at its border; it does by default. Wave vectors are rounded for it to whole numbers
-            of waves, and some 570 different ones are left of 1000 on 40 correlation lengths.
+            of waves, and some 560 different ones are left of 1000 on 40 correlation lengths.
 
         Returns
         -------
