@@ -34,6 +34,7 @@ from optipath.errors import (
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath import surfaces as surfaces
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
     from optipath.elements.beam_splitter import BeamSplitter
@@ -78,6 +79,8 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
+    from optipath.surfaces.samples.sample import Sample
+    from optipath.surfaces.samples.sample_files import load_sample, sample_names
     from optipath.sweeps.uncertainty.propagation import Propagation
     from optipath.values.angles import CosSin
     from optipath.values.cases import Case
@@ -176,6 +179,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "RefractingVertex",
     "Retarder",
     "Rotator",
+    "Sample",
     "ShapeError",
     "Source",
     "Spectrum",
@@ -198,11 +202,13 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "fresnel_transmission",
     "intensity_bounds",
     "load_preset",
+    "load_sample",
     "path_from_vertices",
     "plane_of_incidence",
     "polarization",
     "preset_names",
     "refraction_angle",
+    "sample_names",
     "tabulated",
     "there_and_back",
     "vertices_from_angles",
@@ -254,6 +260,8 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
+    "surfaces.samples.sample": ["Sample"],
+    "surfaces.samples.sample_files": ["load_sample", "sample_names"],
     "sweeps.uncertainty.propagation": ["Propagation"],
     "values.angles": ["CosSin"],
     "values.cases": ["Case"],

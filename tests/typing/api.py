@@ -53,6 +53,9 @@ flint: op.Material = op.Material.sellmeier(
 )
 gold_there: op.Material = gold.at(["516 nm", 5.2e-7])
 shortest: float = gold.span[0]
+rough: op.surfaces.HeightField = op.surfaces.HeightField.beckmann(0.3, 0.4, size=(100.0, 80.0))
+scanned = op.surfaces.HeightField.from_heights([[0.0, 1.0, 0.0]] * 3, size=2.0, periodic=False)
+steepness: tuple[float, float] = scanned.mean_square_slopes
 film: op.Light = (
     op.Source()
     >> op.Interface(op.Material.tauc_lorentz([(122.0, 3.45, 2.54, 1.2)]), 0.3)

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import MissingExtraError, SurfaceError, did_you_mean
+from optipath.errors import MissingExtraError, SurfaceError, did_you_mean, shown
 from optipath.values.arrays.memory import enough_for
 from optipath.values.given_files import given_file
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
     from os import PathLike
     from pathlib import Path
 
@@ -64,16 +64,35 @@ def read_heights(path: str | PathLike[str]) -> Array:
 def _text(file: Path) -> Array:
     """Read numbers separated by blanks or commas."""
     try:
-        lines = file.read_text("utf-8").splitlines()
-        rows = [row for line in lines if (row := line.partition("#")[0].strip())]
-        if not rows:
-            raise SurfaceError("holds no numbers; write a line of heights for each row")
-        return np.loadtxt(rows, delimiter="," if "," in rows[0] else None, ndmin=2, comments=None)
-    except ValueError as fault:  # UnicodeDecodeError is one
+        lines = enumerate(file.read_text("utf-8").splitlines(), 1)
+    except UnicodeDecodeError:
+        raise SurfaceError("is no text in UTF-8; save it as UTF-8") from None
+    rows = [(number, row) for number, line in lines if (row := line.partition("#")[0].strip())]
+    if not rows:
+        raise SurfaceError("holds no numbers; write a line of heights for each row")
+    comma = "," if "," in rows[0][1] else None
+    try:
+        return np.loadtxt([row for _, row in rows], delimiter=comma, ndmin=2, comments=None)
+    except ValueError:
         raise SurfaceError(
-            f"is no table of numbers: {_one_line(fault)}; write as many numbers in each line, "
-            f"separated by blanks or commas, with '#' before remarks"
+            f"is no table of numbers: {_first_fault(rows, comma)}; write as many numbers in each "
+            f"line, separated by blanks or commas, with decimal points, and '#' before remarks"
         ) from None
+
+
+def _first_fault(rows: list[tuple[int, str]], separator: str | None) -> str:
+    """Return what is wrong with the first line that is no row of numbers."""
+    first, among = rows[0]
+    for line, row in rows:
+        cells = row.split(separator)
+        if (wanted := len(among.split(separator))) != len(cells):
+            return f"line {line} has {len(cells)} numbers, and line {first} has {wanted}"
+        for cell in cells:
+            try:
+                float(cell)
+            except ValueError:
+                return f"{shown(cell.strip())} in line {line} is no number"
+    return "it has numbers that are written in an unusual way"
 
 
 def _array(file: Path) -> Array:
@@ -88,7 +107,7 @@ def _array(file: Path) -> Array:
 
 
 def _picture(file: Path) -> Array:
-    """Read the first series of a picture."""
+    """Read a picture, which must be alone in its file."""
     try:
         import tifffile  # noqa: PLC0415 - an extra
     except ImportError:
@@ -96,9 +115,9 @@ def _picture(file: Path) -> Array:
     try:
         with warnings.catch_warnings(), tifffile.TiffFile(file) as picture:
             warnings.simplefilter("ignore")
-            first = picture.series[0]
-            with enough_for(first.shape, first.dtype.itemsize, _CURE, SurfaceError, _HEIGHTS):
-                return np.asarray(first.asarray())
+            only = _alone(picture.series)
+            with enough_for(only.shape, only.dtype.itemsize, _CURE, SurfaceError, _HEIGHTS):
+                return np.asarray(only.asarray())
     except (OSError, MemoryError, SurfaceError):
         raise
     except Exception as fault:  # noqa: BLE001 - damaged files make tifffile raise anything
@@ -106,6 +125,15 @@ def _picture(file: Path) -> Array:
             f"is no TIFF that can be read: {_one_line(fault)}; save it without compression, or "
             f"give its numbers to HeightField.from_heights"
         ) from None
+
+
+def _alone(pictures: Sequence[Any]) -> Any:
+    if len(pictures) == 1:
+        return pictures[0]
+    raise SurfaceError(
+        f"has {len(pictures) or 'no'} pictures; save that of the heights alone, or give its "
+        f"numbers to HeightField.from_heights"
+    )
 
 
 def _one_line(fault: Exception) -> str:

@@ -106,7 +106,7 @@ def warn_of_coarse(
         return
     had = min(have / length for have, length in zip(cells, lengths, strict=True))
     warnings.warn(
-        f"a mesh of {cells[0]} x {cells[1]} cells has {had:.3g} a correlation length 2/alpha, and "
+        f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
         f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and light is scattered too "
         f"little, most of all light of several events (at alpha 1, {_off():.0%} less of it with "
         f"{COST.cells[0]} to {COST.cells[1]} cells a length); cells={enough} are enough",

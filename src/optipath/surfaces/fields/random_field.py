@@ -24,6 +24,7 @@ Array = np.ndarray[Any, Any]
 
 _CELL, _WAVE = 32, 128
 """How many bytes a cell and a wave take, with what is made of them."""
+_FEWER = "take fewer cells, or a smaller field"
 
 
 class RandomField(NamedTuple):
@@ -82,15 +83,16 @@ class RandomField(NamedTuple):
         if alpha_y is not None:
             faults += length_faults("alpha_y", alpha_y)
         sides = pair_of("size", size, faults)
-        meshed = None if cells is None else cells_of(cells, faults)
+        faults += period_or_not(periodic)
+        rough = (1.0, 1.0)
+        if not faults:
+            rough = float(alpha), float(alpha if alpha_y is None else alpha_y)
+            faults += period_faults(rough, sides) if periodic else []
+        meshed = converged_cells(rough, sides) if cells is None else cells_of(cells, faults)
         sequence = seed_of(seed, faults)
-        faults += [*whole_number("waves", waves), *period_or_not(periodic)]
+        faults += whole_number("waves", waves)
         if faults:
             raise SurfaceError(*faults)
-        rough = float(alpha), float(alpha if alpha_y is None else alpha_y)
-        if periodic and (short := period_faults(rough, sides)):
-            raise SurfaceError(*short)
-        meshed = meshed or converged_cells(rough, sides)
         return cls(rough, sides, meshed, int(waves), sequence, bool(periodic))
 
     def heights(self) -> Array:
@@ -111,8 +113,10 @@ class RandomField(NamedTuple):
             If the mesh is too coarse.
         """
         with (
-            enough_for(self.cells, _CELL, "take fewer", SurfaceError, "mesh of {:.3g} cells"),
-            enough_for((self.waves,), _WAVE, "take fewer", SurfaceError, "sum of {:.3g} waves"),
+            enough_for(self.cells, _CELL, _FEWER, SurfaceError, "mesh of {:.3g} cells"),
+            enough_for(
+                (self.waves,), _WAVE, "take fewer waves", SurfaceError, "sum of {:.3g} waves"
+            ),
         ):
             warn_of_coarse(self.alpha, self.size, self.cells)
             period = self.size if self.periodic else None

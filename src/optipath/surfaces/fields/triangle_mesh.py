@@ -58,7 +58,7 @@ class TriangleMesh:
         Examples
         --------
         >>> from optipath.surfaces import HeightField
-        >>> HeightField([[0.0, 1.0], [2.0, 3.0]], 2.0, periodic=True).vertices()
+        >>> HeightField.from_heights([[0.0, 1.0], [2.0, 3.0]], 2.0, periodic=True).vertices()
         array([[0., 1., 0.],
                [2., 3., 2.],
                [0., 1., 0.]])

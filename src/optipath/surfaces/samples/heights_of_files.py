@@ -49,7 +49,7 @@ def roughness_of_table(table: Mapping[str, Any], folder: Path) -> tuple[Any, str
     if "alpha" not in table:
         faults.append(
             "'alpha' is missing; write alpha = 0.1, alpha = 0 for a flat interface, or heights "
-            "= \"FILE\" with a size"
+            '= "FILE" with a size'
         )
     if faults:
         raise SurfaceError(*faults)
@@ -70,7 +70,9 @@ def _heights(table: Mapping[str, Any], folder: Path) -> HeightField:
     if faults or path is None:
         raise SurfaceError(*faults)
     size, periodic = table["size"], table.get("periodic", False)
-    made = faults.attempt(f".heights '{name}'", HeightField.from_file, path, size, periodic=periodic)
+    made = faults.attempt(
+        f".heights '{name}'", HeightField.from_file, path, size, periodic=periodic
+    )
     if faults or made is None:
         raise SurfaceError(*faults)
     return made
@@ -90,7 +92,7 @@ def _beside(folder: Path, name: str) -> Path:
         raise SurfaceError(f"'{name}' is no file beside that of the sample")
     if path.stat().st_size > _LARGEST:
         raise SurfaceError(
-            f"'{name}' is larger than {_LARGEST // 1024**2} MiB; cut out a part of it, or give it to "
-            f"HeightField.from_file in Python"
+            f"'{name}' is larger than {_LARGEST // 1024**2} MiB; cut out a part of it, or give it "
+            f"to HeightField.from_file in Python"
         )
     return path

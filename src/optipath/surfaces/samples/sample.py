@@ -10,6 +10,7 @@ import numpy as np
 from optipath.elements.layer_stack import LayerStack
 from optipath.errors import SurfaceError, shown
 from optipath.paths.format.faults import Faults
+from optipath.surfaces.fields.given_fields import cells_of
 from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.samples.sample_indices import indices_of
 from optipath.surfaces.samples.sample_layer import layer_of
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
 _WIDTH = 80.0
 """How wide a field is, over alpha: 40 correlation lengths 2 / alpha."""
 
-_FEWEST = 2
-"""How many cells along a side make a field."""
-
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class Sample(Unchanging):
@@ -47,8 +45,8 @@ class Sample(Unchanging):
     layers : sequence of pair
         From the top, the index of the medium below an interface and the interface's roughness:
         alpha (the slopes have the density exp(-tan^2 / alpha^2) / (pi alpha^2), 0 is flat), a pair
-        of alpha along x and y, or a `HeightField`. The last index may be complex, n + ik, or be
-        that of a `Material` that absorbs; a base that absorbs is opaque. ``1j`` is a perfect mirror.
+        of alpha along x and y, or a `HeightField`. The last medium may absorb, n + ik, and is
+        opaque then; ``1j`` makes a perfect mirror of it.
     outside : float or Material, optional
         The medium above.
     cells : int or pair of int, optional
@@ -93,7 +91,7 @@ class Sample(Unchanging):
         faults = Faults()
         outside = faults.attempt("", medium_of, "outside", self.outside, CLEAR_MEDIUM)
         layers = self._read_layers(faults)
-        cells = faults.attempt("", _cells_of, self.cells)
+        cells = None if self.cells is None else cells_of(self.cells, faults)
         faults += whole_number("surfaces", self.surfaces) + whole_number("seed", self.seed, 0)
         periodic = faults.attempt("", YES_OR_NO.check, "periodic", self.periodic)
         if not isinstance(self.description, str):
@@ -113,11 +111,14 @@ class Sample(Unchanging):
                 f"index of refraction below it and its roughness, such as [(1.5, 0.1)]"
             )
             return ()
-        domains = [CLEAR_MEDIUM] * (len(self.layers) - 1) + [BASE]
-        return tuple(
-            faults.attempt("", layer_of, f"layers[{place}]", given, domain)
-            for place, (given, domain) in enumerate(zip(self.layers, domains, strict=True))
-        )
+        last = len(self.layers) - 1
+        found = [
+            faults.attempt(
+                "", layer_of, f"layers[{at}]", given, CLEAR_MEDIUM if at < last else BASE
+            )
+            for at, given in enumerate(self.layers)
+        ]
+        return tuple(layer for layer in found if layer is not None)
 
     @property
     def isotropic(self) -> bool:
@@ -217,7 +218,7 @@ class Sample(Unchanging):
         Returns
         -------
         LayerStack
-            The medium above first. Light that no interface scatters goes the ways that it has there.
+            The medium above first.
 
         Examples
         --------
@@ -260,26 +261,14 @@ class Sample(Unchanging):
     __hash__ = None  # type: ignore[assignment]
 
 
-def _cells_of(given: Any) -> tuple[int, int] | None:
-    """Return how many cells are meant along x and along y."""
-    if given is None:
-        return None
-    both = given if isinstance(given, (tuple, list)) else (given, given)
-    if len(both) != 2 or not all(is_whole(one, _FEWEST) for one in both):
-        raise SurfaceError(
-            f"cells must be a whole number of {_FEWEST} or more, or a pair of such along x and y, "
-            f"not {shown(given)}"
-        )
-    return int(both[0]), int(both[1])
-
-
 def _unused(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool | None) -> list[str]:
     """Return a sentence for what is given of random fields and says nothing of those there are."""
     found = []
     if cells is not None and not any(layer.is_random for layer in layers):
         found.append("cells is given, but no interface is random; leave it out")
     for place, layer in enumerate(layers):
-        if not periodic and isinstance(layer.roughness, HeightField) and layer.roughness.periodic:
+        heights = layer.roughness if isinstance(layer.roughness, HeightField) else None
+        if not periodic and heights is not None and heights.periodic and not heights.is_flat:
             found.append(
                 f"periodic is False, but the heights of layers[{place}] are periodic; give those a "
                 f"border, or leave periodic out, which is of random fields"

@@ -76,17 +76,22 @@ def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
     given = _given(media.values(), wavelength)
     domains = [CLEAR_MEDIUM] * (len(media) - 1) + [BASE]
     faults = Faults()
-    found = [
-        faults.attempt("", _parts_at, place, medium, domain, given)
-        for (place, medium), domain in zip(media.items(), domains, strict=True)
-    ]
+    found: dict[str, Parts] = {}
+    for (place, medium), domain in zip(media.items(), domains, strict=True):
+        parts = faults.attempt("", _parts_at, place, medium, domain, given)
+        found |= {} if parts is None else {place: parts}
     if not faults:
-        faults += _faults_of_several(dict(zip(media, found, strict=True)))
+        faults += _faults_of_several(found)
     if faults:
         raise SurfaceError(*dict.fromkeys(faults))
-    outside, *inner = [float(np.ravel(n)[0]) for n, _ in found[:-1]]
-    n, k = np.broadcast_arrays(*found[-1], *[given[WHEN].value] * bool(given))[:2]
-    return SampleIndices(outside, tuple(inner), n.copy(), k.copy())
+    *above, (n, k) = found.values()
+    outside, *inner = [float(np.ravel(clear)[0]) for clear, _ in above]
+    shape = np.shape(given[WHEN].value) if given else ()
+    return SampleIndices(outside, tuple(inner), _laid_out(n, shape), _laid_out(k, shape))
+
+
+def _laid_out(numbers: Any, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
+    return np.array(np.broadcast_to(numbers, shape), np.float64)
 
 
 def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
@@ -99,13 +104,14 @@ def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     if dependent is None:
         raise SurfaceError("wavelength is given, but no medium depends on it; leave it out")
     if is_traced(wavelength):
-        raise SurfaceError(
-            "the wavelength is traced by JAX, but samples have no slopes; give a number"
-        )
+        raise SurfaceError("wavelength is traced by JAX, but samples have no slopes; give a number")
     try:
-        return {WHEN: Wavelength().resolve(wavelength)}
+        given = Wavelength().resolve(wavelength)
     except OptipathError as error:
         raise SurfaceError(*error.faults) from None
+    if not given.value.size:
+        raise SurfaceError("wavelength is empty; give one or more")
+    return {WHEN: given}
 
 
 def _parts_at(place: str, medium: Any, domain: Domain, given: Mapping[str, Resolved]) -> Parts:

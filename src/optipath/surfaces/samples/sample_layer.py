@@ -72,8 +72,9 @@ class SampleLayer:
 
     def __repr__(self) -> str:
         rough = self.roughness
-        alike = isinstance(rough, tuple) and rough[0] == rough[1]
-        return f"({self.index!r}, {rough[0] if alike else rough!r})"
+        if isinstance(rough, tuple) and rough[0] == rough[1]:
+            return f"({self.index!r}, {rough[0]!r})"
+        return f"({self.index!r}, {rough!r})"
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
@@ -136,5 +137,6 @@ def _roughness_of(owner: str, given: Any) -> Roughness:
 
 def _alpha_of(owner: str, given: Any) -> float:
     if isinstance(given, Parameter) or is_traced(given):
-        raise SurfaceError(f"{owner} is {shown(given)}; give a number, and make a sample for each")
+        what = given.called if isinstance(given, Parameter) else "traced by JAX"
+        raise SurfaceError(f"{owner} is {what}; give a number, and make a sample for each")
     return float(ALPHA.check(owner, given))

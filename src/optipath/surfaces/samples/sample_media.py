@@ -28,7 +28,7 @@ _NAME = "index of refraction"
 class ClearMediumDomain(LitBehind):
     """Positive real numbers: light goes to and fro in a medium above the last."""
 
-    of_k: ClassVar[Domain] = NoAbsorption(
+    of_k: ClassVar[NoAbsorption] = NoAbsorption(
         "extinction coefficient", why=", since only the last medium may absorb"
     )
 

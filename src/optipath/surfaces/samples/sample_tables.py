@@ -26,8 +26,8 @@ TOP |= {"cells": object, "surfaces": int, "seed": int, "periodic": bool}
 LAYER: dict[str, Any] = {"index": object, "alpha": object, "heights": str, "size": object}
 LAYER |= {"periodic": bool}
 
-_STAND_IN = SampleLayer(1.5, (0.1, 0.1))
-"""Takes the place of a layer that is faulty, so that the rest is checked too."""
+_INDEX, _ROUGHNESS = 1.5, (0.1, 0.1)
+"""What takes the place of what is faulty, so that the rest is checked too."""
 
 
 def sample_of_text(text: str, path: Path) -> Sample:
@@ -65,15 +65,21 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
     faults = Faults(type_faults("the sample", document, TOP))
     if "format" not in document:
         faults.append(f"the sample: 'format' is missing; add format = {FORMAT}")
+    meant = as_meant(document, TOP)
     given = {
         key: value
-        for key, value in as_meant(document, TOP).items()
+        for key, value in meant.items()
         if key != "format" and TOP[key] in (object, type(value))
     }
     if "outside" in given:
         given["outside"] = faults.attempt("outside", _index, given["outside"]) or 1.0
-    places = enumerate(given.get("layers", [_STAND_IN]))
-    given["layers"] = [_layer(f"layers[{at}]", table, folder, faults) for at, table in places]
+    if not meant.get("layers"):
+        faults.append("the sample has no layers; add a table [[layers]] for each, from the top")
+    found = [
+        _layer(f"layers[{place}]", table, folder, faults)
+        for place, table in enumerate(given.get("layers", []))
+    ]
+    given["layers"] = found or [(_INDEX, _ROUGHNESS)]
     made = faults.attempt("", Sample, **given)
     if made is None or faults:
         raise SurfaceError(*faults)
@@ -81,21 +87,17 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
 
 
 def _layer(where: str, table: Any, folder: Path, faults: Faults) -> SampleLayer:
-    """Return a layer; what is faulty has a stand-in, and is told."""
+    """Return a layer, in which something else stands for what is faulty."""
     if not isinstance(table, dict):
         faults.append(f"{where} must be a table headed [[layers]], not {shown(table)}")
-        return _STAND_IN
+        return SampleLayer(_INDEX, _ROUGHNESS)
     faults += (wrong := type_faults(where, table, LAYER))
     table = as_meant(table, LAYER) if wrong else table
-    index = None
-    if "index" in table:
-        index = faults.attempt(f"{where}.index", _index, table["index"])
-    else:
+    if "index" not in table:
         faults.append(f"{where}: 'index' is missing; write that of the medium below")
+    index = faults.attempt(f"{where}.index", _index, table.get("index", _INDEX))
     rough = faults.attempt(where, roughness_of_table, table, folder)
-    if wrong or index is None or rough is None:
-        return _STAND_IN
-    return SampleLayer(index, *rough)
+    return SampleLayer(_INDEX if index is None else index, *(rough or (_ROUGHNESS,)))
 
 
 def _index(raw: Any) -> Any:

@@ -61,7 +61,7 @@ def _row(layer: SampleLayer) -> dict[str, Any]:
     if not layer.file:
         raise SurfaceError(
             "has heights that are in no file; save them by numpy.save('heights.npy', "
-            "field.heights), and load a sample whose file has heights = \"heights.npy\""
+            'field.heights), and load a sample whose file has heights = "heights.npy"'
         )
     row = index | {"heights": layer.file, "size": [*rough.size]}
     return row | ({"periodic": True} if rough.periodic else {})
