@@ -84,6 +84,18 @@ def test_periodic_waves_are_whole_and_none_interferes_with_another(long, wide, n
     assert len(np.unique(both, axis=0)) == len(both)
 
 
+@given(st.integers(0, 1 << 40), st.floats(0.0, math.pi), st.sampled_from([None, (80.0, 40.0)]))
+def test_heights_are_correlated_over_two_by_alpha(seed, turn, period):
+    # The transform of the density of wave vectors, exp(-f^2 / alpha^2) / (pi alpha^2).
+    alpha = (1.0, 2.0)
+    waves = RandomWaves.drawn(alpha, 1000, seed, period)
+    x, y = np.cos(turn) / alpha[0], np.sin(turn) / alpha[1]
+    distance = np.linspace(0.0, 8.0, 33)
+    along = waves.x_number * x + waves.y_number * y
+    found = np.cos(np.multiply.outer(distance, along)) @ (waves.amplitude**2 / 2.0)
+    assert np.max(np.abs(found - np.exp(-(distance**2) / 4.0))) < 0.02
+
+
 @pytest.mark.parametrize("number", [1, 2, 3, 5])
 def test_a_few_waves_have_powers_all_the_same(number):
     for seed in range(20):
