@@ -34,6 +34,7 @@ _COMMANDS = (
     "presets",
     "run",
     "show",
+    "surface",
     "sweep",
 )
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from optipath.errors import MeshWarning
 from optipath.values.calls_up import calls_up
+from optipath.values.cures import cure
 
 CONVERGED = 16
 """How many cells a correlation length needs where light is scattered several times."""
@@ -109,7 +110,7 @@ def warn_of_coarse(
         f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
         f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and light is scattered too "
         f"little, most of all light of several events (at alpha 1, {_off():.0%} less of it with "
-        f"{COST.cells[0]} to {COST.cells[1]} cells a length); cells={enough} are enough",
+        f"{COST.cells[0]} to {COST.cells[1]} cells a length); {_cure(enough)} are enough",
         MeshWarning,
         stacklevel=calls_up(),
     )
@@ -118,6 +119,10 @@ def warn_of_coarse(
 def _cells(each: int, lengths: float) -> int:
     # The rounding of a product is no cell more; what no machine has memory for is told as such.
     return max(2, math.ceil(min(each * lengths * (1.0 - 1e-12), 1e18)))
+
+
+def _cure(cells: tuple[int, ...]) -> str:
+    return cure(f"cells={cells}", f"--cells {','.join(map(str, cells))}")
 
 
 def _off() -> float:
