@@ -9,7 +9,7 @@ from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 from optipath.cli.energy_outcome import EnergyOutcome
-from optipath.cli.surface_options import (
+from optipath.cli.surface_values import (
     azimuth_of,
     incidences_of,
     numbers_of,
@@ -125,9 +125,9 @@ def given_walks(
         "wavelength": None if lights is None else lights.given,
     }
     mesh = faults.attempt("", numbers_of, "--cells", cells, int, (1, 2)) if cells else None
-    drawn = {"surfaces": surfaces, "cells": mesh, "seed": sample_seed}
+    drawn = {"surfaces": surfaces, "cells": mesh and (*mesh, mesh[0])[:2], "seed": sample_seed}
     changes = {name: value for name, value in drawn.items() if value is not None}
-    sample = faults.attempt("", dataclasses.replace, sample, **changes) or sample
+    sample = faults.attempt("the sample", dataclasses.replace, sample, **changes) or sample
     runs = [
         faults.attempt("", partial(given_run, sample, angle.given, **light, **options))
         for angle in angles

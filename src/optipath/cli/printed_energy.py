@@ -84,7 +84,7 @@ def _walked(outcome: EnergyOutcome) -> str:
         said += f"; interrupted, {outcome.given.wanted:,} were wanted"
     lost = {
         "beside the field": energy.sideways,
-        f"after {beam.most_events:,} events": energy.stuck,
+        f"after {_counted(beam.most_events)}": energy.stuck,
     }
     return said + "".join([f"; {count:,} lost {how}" for how, count in lost.items() if count])
 
@@ -126,6 +126,8 @@ def _row(models: Sequence[EnergyShares], name: str, place: tuple[int, ...]) -> I
 
 def _events(count: int, most: int) -> str:
     """Say how many events there were; the last row is of as many or more."""
-    if count == most:
-        return f"{count} or more events"
-    return f"{count} event{'s' * (count > 1)}"
+    return f"{count} or more events" if count == most else _counted(count)
+
+
+def _counted(events: int) -> str:
+    return f"{events:,} event{'s' * (events > 1)}"

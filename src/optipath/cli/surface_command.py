@@ -32,22 +32,22 @@ surface = click.command("surface", cls=StrictCommand, params=[SAMPLE, *WALKING, 
 
 def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     """Walk photons from each direction, and tell of them at once, or all in one JSON object."""
-    # What lists samples needs no numbers.
+    loaded = load_sample(sample)
+    # Neither a list of samples nor a wrong name needs numbers.
     from optipath.cli.energy_outcome import energy_as_json  # noqa: PLC0415
     from optipath.cli.given_walk import given_walks  # noqa: PLC0415
     from optipath.cli.photon_bar import photon_bar  # noqa: PLC0415
     from optipath.cli.printed_energy import print_energy  # noqa: PLC0415
 
-    loaded = load_sample(sample)
     walks = given_walks(loaded, **options)
-    if not as_json:
-        PlainConsole().print(title(sample, loaded.description))
     found: list[EnergyOutcome] = []
     try:
         for walk in walks:
             with photon_bar(walk.direction) as progress:
                 found.append(walk.walk(progress))
             if not as_json:
+                if len(found) == 1:
+                    PlainConsole().print(title(sample, loaded.description))
                 say("")
                 print_energy(found[-1])
             if found[-1].interrupted:

@@ -64,14 +64,15 @@ def load_sample(sample: str | PathLike[str]) -> Sample:
     >>> load_sample("glass-on-glass").layers
     ((1.5, 0.1), (2.4, 0.1))
     """
-    from optipath.surfaces.samples.sample_tables import sample_of_text  # noqa: PLC0415 - not for every import
-
     try:
         names = cure("op.sample_names()", "`optipath surface`")
         path = file_of(sample, _WHAT, _folder(), names)
         text = text_of(path, _WHAT)
     except PresetError as error:
         raise SurfaceError(*error.faults) from None
+    # A wrong name is told at once.
+    from optipath.surfaces.samples.sample_tables import sample_of_text  # noqa: PLC0415
+
     return sample_of_text(text, path)
 
 
