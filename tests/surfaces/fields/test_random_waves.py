@@ -53,7 +53,7 @@ def far_apart_slopes(alpha, rng, *, periodic=True):
     return np.concatenate(found, axis=1) / np.reshape(alpha, (2, 1))
 
 
-@given(alphas, alphas, lengths, lengths, st.integers(30, 2000), st.integers(0, 1 << 40))
+@given(alphas, alphas, lengths, lengths, st.integers(10, 2000), st.integers(0, 1 << 40))
 def test_every_periodic_surface_has_the_variances(alpha_x, alpha_y, long, wide, number, seed):
     period = (2.0 * long / alpha_x, 2.0 * wide / alpha_y)
     waves = RandomWaves.drawn((alpha_x, alpha_y), number, seed, period)
@@ -63,7 +63,7 @@ def test_every_periodic_surface_has_the_variances(alpha_x, alpha_y, long, wide, 
     assert np.sum(power * waves.y_number**2) == pytest.approx(alpha_y**2 / 2.0, rel=1e-12)
 
 
-@given(alphas, alphas, st.integers(30, 2000), st.integers(0, 1 << 40))
+@given(alphas, alphas, st.integers(10, 2000), st.integers(0, 1 << 40))
 def test_every_surface_without_a_period_has_the_variances(alpha_x, alpha_y, number, seed):
     waves = RandomWaves.drawn((alpha_x, alpha_y), number, seed)
     power = waves.amplitude**2 / 2.0

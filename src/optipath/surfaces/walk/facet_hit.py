@@ -89,10 +89,12 @@ def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float
     if own == NO_FACET:
         at = apart + enters * along
         first = LOWER if at > 0.0 or (at == 0.0 and along > 0.0) else UPPER
-    last = LOWER if apart + leaves * along >= 0.0 else UPPER
+    at = apart + leaves * along
+    last = LOWER if at > 0.0 or (at == 0.0 and along < 0.0) else UPPER
     cut = leaves
     if first != last:
-        cut = min(max(-apart / along, enters), leaves)
+        # A ray may start from one facet and go along the diagonal.
+        cut = min(max(-apart / along, enters), leaves) if along != 0.0 else enters
     if own == NO_FACET:
         t = _met(corners, u, v, ray, enters, cut, side, first)
         if t >= 0.0:
@@ -106,13 +108,20 @@ def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float
 
 @nb.njit(error_model="numpy")
 def _met(
-    corners: Any, u: float, v: float, ray: Any, enters: float, leaves: float, side: float, facet: int
-) -> float:
+    corners: Any,
+    u: float,
+    v: float,
+    ray: Any,
+    enters: float,
+    leaves: float,
+    side: float,
+    facet: int,
+) -> Any:
     """Return where a ray meets the plane of a facet between two places, or -1."""
     z, dx, dy, dz = ray
     rise_x, rise_y = facet_gradient(corners, facet)
     rate = dz - (dx * rise_x + dy * rise_y)
-    above = (z - corners[0]) - (u * rise_x + v * rise_y) + leaves * rate
-    if side * rate < 0.0 and side * above <= 0.0:
-        return max(leaves - above / rate, enters)
+    above = (z - corners[0]) - (u * rise_x + v * rise_y)
+    if side * rate < 0.0 and side * (above + leaves * rate) <= 0.0:
+        return min(max(-above / rate, enters), leaves)
     return -1.0

@@ -71,7 +71,7 @@ def given_beam(
             f"stokes is {[*light]}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
         )
     indices = faults.attempt("", sample.indices, wavelength)
-    if faults:
+    if faults or indices is None or light is None:
         raise SurfaceError(*faults)
     return PhotonBeam(
         sample, cos(incidence), sin(incidence), azimuth, indices, light, int(seed), int(most_events)

@@ -42,7 +42,7 @@ from optipath.surfaces.walk.walk_layout import (
     SUMS,
 )
 
-_MOST_MISSES = 1000
+_MOST_MISSES = 100_000
 """How many starts in a row may meet nothing before no photon is thought to get there."""
 
 
@@ -91,7 +91,7 @@ def photon_block(
     Returns
     -------
     int
-        How many photons there were; fewer than wanted where they meet nothing.
+        How many photons there were; none where too many in a row meet nothing.
     """
     cos_i, sin_i, azimuth = beam
     number, misses = 0, 0
@@ -109,7 +109,7 @@ def photon_block(
         misses += 1
         if outcome != NEVER:
             misses = 0
-            place = outcome * MOST_COUNTED + min(events, MOST_COUNTED) - 1
+            place = outcome * MOST_COUNTED + min(max(events, 1), MOST_COUNTED) - 1
             _add_up(lights, sums, count, SUMS * count * place)
             if number == wanted:
                 record[OUTCOME], record[EVENTS] = outcome, events
@@ -125,7 +125,7 @@ def photon_block(
                 for place in range(CARRIED * count):
                     ends[at + END_LIGHTS + place] = lights[place]
             number += 1
-    return number
+    return number if misses < _MOST_MISSES else 0
 
 
 @nb.njit(error_model="numpy")

@@ -113,14 +113,16 @@ def photon_walk(
             above = side > 0.0
             n1, n2 = media[layer + (not above)], media[layer + above]
             before = k
-            reflected, k, x, plane = facet_event(
-                k, x, normal, n1, n2, base, lights, count, state
-            )
+            reflected, k, x, plane = facet_event(k, x, normal, n1, n2, base, lights, count, state)
             events += 1
             if record[0] != 0.0:
                 at = RECORD * events
                 record[at + LAYER], record[at + COLUMN], record[at + LINE] = layer, column, line
-                record[at + FACET], record[at + SIDE], record[at + REFLECTED] = facet, side, reflected
+                record[at + FACET], record[at + SIDE], record[at + REFLECTED] = (
+                    facet,
+                    side,
+                    reflected,
+                )
                 for place in range(5):
                     record[at + COS + place] = plane[place]
                 record[at + N1], record[at + N2] = n1, n2
@@ -133,7 +135,7 @@ def photon_walk(
             return STUCK, events, k, x
         if events == 0:
             return NEVER, events, k, x
-        if outcome == LEFT and side * k[2] < 0.0:
+        if outcome == LEFT and side * k[2] <= 0.0:
             return SIDEWAYS, events, k, x
         if layer == (0 if side > 0.0 else layers - 1):
             return UP if side > 0.0 else DOWN, events, k, x
