@@ -172,8 +172,8 @@ def walk_until(
             return found
         if run.photons >= most:
             warnings.warn(
-                f"the standard error of R is {error:.2g} after {run.photons:,} photons, more than "
-                f"the tolerance of {tolerance:g}; allow more {cure('photons=', '--photons')}, or "
+                f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
+                f"the tolerance of {tolerance:g}; allow more {cure('photons', '--photons')}, or "
                 f"more {cure('surfaces=', '--surfaces')} of the sample where these differ",
                 ToleranceWarning,
                 stacklevel=calls_up(),
