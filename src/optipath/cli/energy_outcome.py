@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
+from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.cli.plain_json import plain
+from optipath.surfaces.energies.energy import walk_wanted
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from optipath.cli.given_walk import GivenWalk
     from optipath.surfaces.energies.energy_table import Energy
 
@@ -34,6 +38,35 @@ class EnergyOutcome:
     energy: Energy
     seconds: float
     interrupted: bool
+
+
+def walked(given: GivenWalk, progress: Callable[[int, int], None]) -> EnergyOutcome:
+    """Return what photons tell; where Ctrl-C comes, what those tell that have been walked.
+
+    Parameters
+    ----------
+    given : GivenWalk
+        What is asked for.
+    progress : callable
+        Told how many there are, and of how many.
+
+    Returns
+    -------
+    EnergyOutcome
+
+    Raises
+    ------
+    KeyboardInterrupt
+        If none has been walked.
+    """
+    begin, interrupted = perf_counter(), False
+    try:
+        walk_wanted(given.run, given.wanted, given.tolerance, progress)
+    except KeyboardInterrupt:
+        if not given.run.photons:
+            raise
+        interrupted = True
+    return EnergyOutcome(given, given.run.energy, perf_counter() - begin, interrupted)
 
 
 def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:

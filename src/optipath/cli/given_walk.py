@@ -5,10 +5,8 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 from functools import partial
-from time import perf_counter
 from typing import TYPE_CHECKING, Any
 
-from optipath.cli.energy_outcome import EnergyOutcome
 from optipath.cli.surface_values import (
     azimuth_of,
     incidences_of,
@@ -17,11 +15,10 @@ from optipath.cli.surface_values import (
 )
 from optipath.errors import SurfaceError
 from optipath.paths.format.faults import Faults
-from optipath.surfaces.energies.energy import walk_wanted
 from optipath.surfaces.energies.given_run import given_run
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
     from optipath.surfaces.energies.energy_run import EnergyRun
     from optipath.surfaces.samples.sample import Sample
@@ -56,32 +53,6 @@ class GivenWalk:
     def direction(self) -> str:
         """The angle of incidence, as it was given, with its unit."""
         return f"incidence {self.incidence.shown.item():g} {self.incidence.unit}"
-
-    def walk(self, progress: Callable[[int, int], None]) -> EnergyOutcome:
-        """Walk the photons; where Ctrl-C comes, what is done is told.
-
-        Parameters
-        ----------
-        progress : callable
-            Told how many there are, and of how many.
-
-        Returns
-        -------
-        EnergyOutcome
-
-        Raises
-        ------
-        KeyboardInterrupt
-            If nothing is done.
-        """
-        begin, interrupted = perf_counter(), False
-        try:
-            walk_wanted(self.run, self.wanted, self.tolerance, progress)
-        except KeyboardInterrupt:
-            if not self.run.photons:
-                raise
-            interrupted = True
-        return EnergyOutcome(self, self.run.energy, perf_counter() - begin, interrupted)
 
 
 def given_walks(

@@ -29,6 +29,6 @@ def photon_bar(what: str) -> Iterator[Callable[[int, int], None]]:
         show(f"{what}: surfaces are made")
 
         def tell(done: int, total: int) -> None:
-            show(f"{what}: {done:,} of {total:,} photons", completed=done / total)
+            show(f"{what}: {done:,} of {total:,} photons", completed=done, total=total)
 
         yield tell

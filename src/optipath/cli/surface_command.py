@@ -34,7 +34,7 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     """Walk photons from each direction, and tell of them at once, or all in one JSON object."""
     loaded = load_sample(sample)
     # Neither a list of samples nor a wrong name needs numbers.
-    from optipath.cli.energy_outcome import energy_as_json  # noqa: PLC0415
+    from optipath.cli.energy_outcome import energy_as_json, walked  # noqa: PLC0415
     from optipath.cli.given_walk import given_walks  # noqa: PLC0415
     from optipath.cli.photon_bar import photon_bar  # noqa: PLC0415
     from optipath.cli.printed_energy import print_energy  # noqa: PLC0415
@@ -44,7 +44,7 @@ def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
     try:
         for walk in walks:
             with photon_bar(walk.direction) as progress:
-                found.append(walk.walk(progress))
+                found.append(walked(walk, progress))
             if not as_json:
                 if len(found) == 1:
                     PlainConsole().print(title(sample, loaded.description))

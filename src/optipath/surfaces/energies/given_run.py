@@ -9,16 +9,18 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import SurfaceError, shown
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk.given_beam import given_beam
-from optipath.values.whole_numbers import is_whole
+from optipath.values.whole_numbers import is_whole, whole_number
 
 if TYPE_CHECKING:
     from optipath.surfaces.samples.sample import Sample
 
-USUAL = 1_000_000
+_USUAL = 1_000_000
 """How many photons are walked by default."""
 
 _MOST_WITH_TOLERANCE, _MOST = 1_000_000_000, 1_000_000_000_000
 """How many at most where a tolerance is given, and how many anybody may ask for."""
+
+_MOST_THREADS = 1024
 
 
 def given_run(
@@ -50,11 +52,7 @@ def given_run(
     SurfaceError
         With all faults at once.
     """
-    faults = [
-        f"{name} must be a whole number of 1 to {most:,}, not {shown(number)}"
-        for name, number, most in (("photons", photons, _MOST), ("threads", threads, 1024))
-        if number is not None and not is_whole(number, 1, most)
-    ]
+    faults = _faults("photons", photons, _MOST) + _faults("threads", threads, _MOST_THREADS)
     if tolerance is not None and not _is_error(tolerance):
         faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
     try:
@@ -63,9 +61,15 @@ def given_run(
         raise SurfaceError(*faults, *error.faults) from None
     if faults:
         raise SurfaceError(*faults)
-    usual = USUAL if tolerance is None else _MOST_WITH_TOLERANCE
+    usual = _USUAL if tolerance is None else _MOST_WITH_TOLERANCE
     run = EnergyRun(beam, processors() if threads is None else int(threads))
     return run, usual if photons is None else int(photons)
+
+
+def _faults(name: str, number: Any, most: int) -> list[str]:
+    if number is None or is_whole(number, 1, most):
+        return []
+    return whole_number(name, number) or [f"{name} is {shown(number)}; give {most:,} at most"]
 
 
 def _is_error(tolerance: Any) -> bool:
