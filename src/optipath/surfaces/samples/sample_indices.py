@@ -54,6 +54,11 @@ class SampleIndices(NamedTuple):
         """Whether all light that meets the last interface is reflected or absorbed there."""
         return bool(np.all(self.k))
 
+    @property
+    def base(self) -> Any:
+        """That of the base as one number n + ik, or an array of such."""
+        return (self.n + 1j * self.k)[()]
+
 
 def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
     """Return the indices of media.
