@@ -23,7 +23,10 @@ def main(command: str) -> None:
             if not all(reading["stokes"] for reading in detectors.values()):
                 raise SystemExit(f"{name}, case {case}: no light")
             done += 1
-    print(f"{done} runs of {len(op.preset_names())} presets from {op.__file__}")
+    if not all(op.load_sample(name).fields() for name in op.sample_names()):
+        raise SystemExit("a sample without layers")
+    counts = f"{done} runs of {len(op.preset_names())} presets, {len(op.sample_names())} samples"
+    print(f"{counts} from {op.__file__}")
 
 
 main(sys.argv[1])

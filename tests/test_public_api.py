@@ -149,7 +149,7 @@ def test_names_of_surfaces_bring_no_compiler():
 
 
 def test_an_unknown_name_of_surfaces_is_told():
-    with pytest.raises(AttributeError, match="has no attribute 'HeigtField'"):
+    with pytest.raises(AttributeError, match="'HeigtField'; did you mean 'HeightField'"):
         _ = op.surfaces.HeigtField
 
 

@@ -10,7 +10,7 @@ import sys
 import time
 
 import click
-from tests.fuzz import calls, command_lines, options, presets, values
+from tests.fuzz import calls, command_lines, options, presets, samples, values
 from tests.fuzz.attack import fault_of
 
 _MAKERS = {
@@ -19,6 +19,7 @@ _MAKERS = {
     "calls": calls.make,
     "command-lines": command_lines.make,
     "options": options.make,
+    "samples": samples.make,
 }
 
 

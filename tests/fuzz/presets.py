@@ -50,10 +50,15 @@ _WORDS = sorted({word for text in [*_TEXTS, *_CURVES] for word in re.findall(r"[
 
 def make(rng):
     """Make one file; it holds a preset of which some is altered."""
-    text = rng.choice(_TEXTS)
+    text = altered(rng, rng.choice(_TEXTS))
+    return Attack(text, lambda: _used(text), seconds=4.0)
+
+
+def altered(rng, text):
+    """Alter a file in some places."""
     for _ in range(rng.randrange(1, 6)):
         text = rng.choice(_ALTERATIONS)(rng, text)
-    return Attack(text, lambda: _used(text), seconds=4.0)
+    return text
 
 
 def _used(text):

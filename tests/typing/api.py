@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 import optipath as op
+from optipath.surfaces import single_scattering
 
 
 class HalfWavePlate(op.Element, kind="typed-half-wave-plate"):
@@ -54,6 +55,12 @@ flint: op.Material = op.Material.sellmeier(
 gold_there: op.Material = gold.at(["516 nm", 5.2e-7])
 shortest: float = gold.span[0]
 rough: op.surfaces.HeightField = op.surfaces.HeightField.beckmann(0.3, 0.4, size=(100.0, 80.0))
+varnished: op.Sample = op.Sample([(1.5, 0.1), (1.6, (0.1, 0.2)), (op.Material(0.2, 3.4), rough)])
+drawn: tuple[op.surfaces.HeightField, ...] = varnished.fields(3)
+base_n: np.ndarray = op.load_sample("gold-rough").indices(["500 nm", 6e-7]).n
+smoothed: op.LayerStack = varnished.smooth("30 deg")
+ready: list[str] = op.sample_names()
+as_file: str = varnished.to_toml()
 scanned = op.surfaces.HeightField.from_heights([[0.0, 1.0, 0.0]] * 3, size=2.0, periodic=False)
 steepness: tuple[float, float] = scanned.mean_square_slopes
 film: op.Light = (
@@ -110,6 +117,9 @@ preset: op.PathGraph = op.load_preset("npgr026", case="7", filter="horizontal")
 A, B, C, S = op.fresnel_reflection(1.5, 1.0, 0.0)
 amplitudes: op.FresnelAmplitudes = op.fresnel_amplitudes(op.Material(0.6, 2.1), 0.8, 0.6, 1.3)
 r_s, r_p, t_s, t_p = amplitudes
+brdf: op.Mueller = single_scattering(
+    op.Material(0.6, 2.1), [0.1, 0.2, 0.3], (0.6, 0.0, -0.8), (0.6, 0.0, 0.8), masking="separate"
+)
 fading: op.EffectiveIndex = op.effective_index(0.6 + 2.1j, op.CosSin(0.8, 0.6), outside=1.3)
 chain = op.VerticesByAngles(incidences=(0.3, op.Parameter("delta")), turns=(-0.5,))
 in_space: op.Frame = op.path_from_vertices(chain, materials=[1.5, 1.5]).trace(delta=0.1).frame

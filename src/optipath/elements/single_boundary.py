@@ -46,7 +46,35 @@ def given_index(name: str, value: Any, *, lit: bool = False) -> Any:
     ValueFault
         If it is not allowed.
     """
-    return _traced_within(LIT_INDEX if lit else INDEX, name, value)
+    return number_within(LIT_INDEX if lit else INDEX, name, value)
+
+
+def number_within(domain: Domain, name: str, value: Any) -> Any:
+    """Return a value that a domain allows; NaN where it does not and JAX traces the value.
+
+    Parameters
+    ----------
+    domain : Domain
+        What it may be.
+    name : str
+        What sentences call it.
+    value : Any
+        What is given.
+
+    Returns
+    -------
+    ndarray
+        Or what JAX traces.
+
+    Raises
+    ------
+    ValueFault
+        If it is not allowed.
+    """
+    numbers = domain.check(name, value)
+    if not is_traced(numbers):
+        return numbers
+    return namespace(numbers).where(domain.allows(numbers), numbers, np.nan)
 
 
 def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
@@ -70,8 +98,8 @@ def given_cosine_and_sine(cos: Any, sin: Any) -> tuple[Any, Any]:
     cos, sin = _given("cos_incidence", cos), _given("sin_incidence", sin)
     check_broadcast({"cos_incidence": cos.shape, "sin_incidence": sin.shape})
     traced = is_traced(cos) or is_traced(sin)
-    c = _traced_within(COSINE, "cos_incidence", cos if traced else within_right_angle(cos, sin))
-    s = _traced_within(COSINE, "sin_incidence", sin)
+    c = number_within(COSINE, "cos_incidence", cos if traced else within_right_angle(cos, sin))
+    s = number_within(COSINE, "sin_incidence", sin)
     if traced:
         xp = namespace(c if is_traced(c) else s)
         belong = xp.abs(xp.square(c) + xp.square(s) - 1.0) <= _APART
@@ -91,7 +119,7 @@ def given_incidence(value: Any) -> tuple[Any, Any]:
     """
     if isinstance(value, CosSin):
         return given_cosine_and_sine(value.cos, value.sin)
-    angle = _traced_within(INCIDENCE, "incidence", value)
+    angle = number_within(INCIDENCE, "incidence", value)
     check_broadcast({"incidence": angle.shape})
     cos, sin = kernel_values(_cosine_and_sine, angle)
     return cos, sin
@@ -138,14 +166,6 @@ def parts_of(index: Any) -> tuple[Any, Any]:
 
 def _given(name: str, value: Any) -> Any:
     return value if is_traced(value) else as_given(name, COSINE.read(name, value))
-
-
-def _traced_within(domain: Domain, name: str, value: Any) -> Any:
-    """Return a value that a domain allows; NaN where it does not and JAX traces the value."""
-    numbers = domain.check(name, value)
-    if not is_traced(numbers):
-        return numbers
-    return namespace(numbers).where(domain.allows(numbers), numbers, np.nan)
 
 
 def _cosine_and_sine(xp: Primitives) -> KernelFunction:

@@ -61,6 +61,7 @@ class NumbaEngine(Engine["Formula", "ArrayPath"]):
 
 
 def is_forbidden() -> bool:
+    """Tell whether the user has forbidden Numba to compile."""
     return os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0")
 
 

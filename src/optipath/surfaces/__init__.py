@@ -3,12 +3,22 @@
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from optipath.spelling import closest
+
 if TYPE_CHECKING:
+    from optipath.surfaces.ends.photon_ends import photon_ends
+    from optipath.surfaces.energies.energy import energy
+    from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
 
-__all__ = ["HeightField"]
+__all__ = ["HeightField", "energy", "photon_ends", "single_scattering"]
 
-_HOMES = {"HeightField": "fields.height_field"}
+_HOMES = {
+    "HeightField": "fields.height_field",
+    "energy": "energies.energy",
+    "photon_ends": "ends.photon_ends",
+    "single_scattering": "facets.facet_model",
+}
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 
 
@@ -20,6 +30,8 @@ if not TYPE_CHECKING:  # Else any name would do for who checks types.
 
     def __getattr__(name: str) -> Any:
         if name not in _HOMES:
-            raise AttributeError(f"module 'optipath.surfaces' has no attribute '{name}'")
+            near = closest(name, __all__)
+            cure = f"; did you mean '{near}'?" if near else ""
+            raise AttributeError(f"module 'optipath.surfaces' has no attribute '{name}'{cure}")
         module = import_module(f"optipath.surfaces.{_HOMES[name]}")
         return globals().setdefault(name, getattr(module, name))

@@ -1,12 +1,17 @@
 """Height fields: what they are made of, their mesh, and what is refused."""
 
+import ast
 import copy
 import pickle
+import re
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import optipath as op
+from optipath.surfaces.fields.given_fields import period_faults
 
 HeightField = op.surfaces.HeightField
 
@@ -27,9 +32,9 @@ def triangles_of(field):
                 yield np.linalg.solve(plane, heights)[:2]
 
 
-def faults_of(make, *given, **named):
+def faults_of(make, *values, **named):
     with pytest.raises(op.SurfaceError) as caught:
-        make(*given, **named)
+        make(*values, **named)
     return caught.value.faults
 
 
@@ -96,13 +101,13 @@ def test_heights_of_any_real_type_become_float64(dtype):
 
 
 def test_the_same_seed_gives_the_same_bits():
-    given = {"alpha": 0.3, "size": 100.0}
-    first = HeightField.beckmann(**given, seed=5)
-    assert HeightField.beckmann(**given, seed=5) == first
-    assert HeightField.beckmann(**given, seed=np.random.SeedSequence(5)) == first
-    assert HeightField.beckmann(**given, seed=np.int64(5)) == first
-    assert HeightField.beckmann(**given, seed=6) != first
-    assert HeightField.beckmann(**given, seed=np.random.SeedSequence(5, spawn_key=(0,))) != first
+    asked = {"alpha": 0.3, "size": 100.0}
+    first = HeightField.beckmann(**asked, seed=5)
+    assert HeightField.beckmann(**asked, seed=5) == first
+    assert HeightField.beckmann(**asked, seed=np.random.SeedSequence(5)) == first
+    assert HeightField.beckmann(**asked, seed=np.int64(5)) == first
+    assert HeightField.beckmann(**asked, seed=6) != first
+    assert HeightField.beckmann(**asked, seed=np.random.SeedSequence(5, spawn_key=(0,))) != first
 
 
 def test_a_sequence_of_seeds_is_not_used_up():
@@ -129,9 +134,9 @@ def test_a_flat_field_has_neither_heights_nor_slopes():
 
 
 def test_a_field_does_not_change():
-    given = MAP.copy()
-    field = HeightField.from_heights(given, 1.0)
-    given[0, 0] = 100.0
+    measured = MAP.copy()
+    field = HeightField.from_heights(measured, 1.0)
+    measured[0, 0] = 100.0
     assert field.heights[0, 0] == 0.0
     with pytest.raises(ValueError, match="read-only"):
         field.heights[0, 0] = 1.0
@@ -189,14 +194,22 @@ def test_what_is_no_seed_is_refused(seed):
 def test_a_period_of_too_few_correlation_lengths_is_refused_and_the_cures_work():
     (fault,) = faults_of(HeightField.beckmann, 0.3, 0.07, size=100.0)
     assert "has 15 x 3.5 correlation lengths 2/alpha" in fault
-    assert "write size=(66.667, 285.715) or more, or periodic=False" in fault
-    HeightField.beckmann(0.3, 0.07, size=(66.667, 285.715))
+    assert "write size=(66.667, 285.72) or more, or periodic=False" in fault
+    HeightField.beckmann(0.3, 0.07, size=(66.667, 285.72))
     assert HeightField.beckmann(0.3, 0.07, size=100.0, periodic=False).cells == (240, 56)
 
 
-@pytest.mark.parametrize("given", [{"size": 1e9}, {"size": 1e200}, {"cells": 10**7}])
-def test_a_mesh_larger_than_the_memory_is_refused(given):
-    (fault,) = faults_of(HeightField.beckmann, 1.0, **{"size": 400.0} | given)
+@given(st.floats(1e-3, 10.0), st.floats(1e-3, 10.0))
+def test_the_size_that_is_offered_is_taken_and_little_larger_than_needed(alpha_x, alpha_y):
+    (fault,) = period_faults((alpha_x, alpha_y), (1.0, 1.0))
+    offered = ast.literal_eval(re.search(r"size=(\(.*?\))", fault)[1])
+    assert period_faults((alpha_x, alpha_y), offered) == []
+    assert offered == pytest.approx((20.0 / alpha_x, 20.0 / alpha_y), rel=2e-4)
+
+
+@pytest.mark.parametrize("asked", [{"size": 1e9}, {"size": 1e200}, {"cells": 10**7}])
+def test_a_mesh_larger_than_the_memory_is_refused(asked):
+    (fault,) = faults_of(HeightField.beckmann, 1.0, **{"size": 400.0} | asked)
     assert fault.startswith("a mesh of ")
     assert "and this machine has" in fault
     assert fault.endswith("take fewer cells, or a smaller field")
@@ -233,6 +246,12 @@ def test_a_periodic_map_may_have_two_rows_but_not_one():
     assert HeightField.from_heights(MAP[:2], 1.0, periodic=True).cells == (3, 2)
     (fault,) = faults_of(HeightField.from_heights, MAP[:1], 1.0, periodic=True)
     assert "give 2 x 2 or more" in fault
+
+
+@pytest.mark.parametrize("periodic", [1, "no", None, np.array([True, False])])
+def test_what_says_neither_periodic_nor_not_is_refused(periodic):
+    (fault,) = faults_of(HeightField.from_heights, MAP, 1.0, periodic=periodic)
+    assert fault.startswith("periodic must be True or False, not ")
 
 
 def test_faults_of_heights_and_of_sizes_are_told_at_once():

@@ -130,6 +130,13 @@ def test_a_picture_in_colours_is_refused(tmp_path):
     assert "must have two dimensions" in refused(tmp_path / "a.tif")
 
 
+def test_a_picture_of_colours_of_a_palette_is_refused(tmp_path):
+    tifffile = pytest.importorskip("tifffile")
+    numbers, colours = np.zeros((5, 6), np.uint8), np.zeros((3, 256), np.uint16)
+    tifffile.imwrite(tmp_path / "a.tif", numbers, photometric="palette", colormap=colours)
+    assert "numbers of colours in a palette" in refused(tmp_path / "a.tif")
+
+
 def test_several_pictures_in_a_file_are_refused(tmp_path):
     tifffile = pytest.importorskip("tifffile")
     with tifffile.TiffWriter(tmp_path / "a.tif") as file:

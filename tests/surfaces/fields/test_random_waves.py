@@ -53,7 +53,7 @@ def far_apart_slopes(alpha, rng, *, periodic=True):
     return np.concatenate(found, axis=1) / np.reshape(alpha, (2, 1))
 
 
-@given(alphas, alphas, lengths, lengths, st.integers(30, 2000), st.integers(0, 1 << 40))
+@given(alphas, alphas, lengths, lengths, st.integers(10, 2000), st.integers(0, 1 << 40))
 def test_every_periodic_surface_has_the_variances(alpha_x, alpha_y, long, wide, number, seed):
     period = (2.0 * long / alpha_x, 2.0 * wide / alpha_y)
     waves = RandomWaves.drawn((alpha_x, alpha_y), number, seed, period)
@@ -63,7 +63,7 @@ def test_every_periodic_surface_has_the_variances(alpha_x, alpha_y, long, wide, 
     assert np.sum(power * waves.y_number**2) == pytest.approx(alpha_y**2 / 2.0, rel=1e-12)
 
 
-@given(alphas, alphas, st.integers(30, 2000), st.integers(0, 1 << 40))
+@given(alphas, alphas, st.integers(10, 2000), st.integers(0, 1 << 40))
 def test_every_surface_without_a_period_has_the_variances(alpha_x, alpha_y, number, seed):
     waves = RandomWaves.drawn((alpha_x, alpha_y), number, seed)
     power = waves.amplitude**2 / 2.0
@@ -82,6 +82,18 @@ def test_periodic_waves_are_whole_and_none_interferes_with_another(long, wide, n
     assert np.allclose(counts, whole, rtol=0.0, atol=1e-9)
     both = np.concatenate([whole, -whole])
     assert len(np.unique(both, axis=0)) == len(both)
+
+
+@given(st.integers(0, 1 << 40), st.floats(0.0, math.pi), st.sampled_from([None, (80.0, 40.0)]))
+def test_heights_are_correlated_over_two_by_alpha(seed, turn, period):
+    # The transform of the density of wave vectors, exp(-f^2 / alpha^2) / (pi alpha^2).
+    alpha = (1.0, 2.0)
+    waves = RandomWaves.drawn(alpha, 1000, seed, period)
+    x, y = np.cos(turn) / alpha[0], np.sin(turn) / alpha[1]
+    distance = np.linspace(0.0, 8.0, 33)
+    along = waves.x_number * x + waves.y_number * y
+    found = np.cos(np.multiply.outer(distance, along)) @ (waves.amplitude**2 / 2.0)
+    assert np.max(np.abs(found - np.exp(-(distance**2) / 4.0))) < 0.02
 
 
 @pytest.mark.parametrize("number", [1, 2, 3, 5])

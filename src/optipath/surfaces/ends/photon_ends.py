@@ -99,7 +99,7 @@ def photon_ends(
     Examples
     --------
     >>> from optipath.surfaces.samples.sample import Sample
-    >>> found = photon_ends(Sample([(1j, 0.3)], cells=64), "30 deg", photons=1000)
+    >>> found = photon_ends(Sample([(1j, 0.3)]), "30 deg", photons=1000)
     >>> print(found.directions.shape, found.stokes.shape, np.unique(found.ends))
     (1000, 3) (1000, 4) ['up']
     """

@@ -13,7 +13,7 @@ from optipath.errors import SurfaceError, ToleranceWarning, shown
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk.given_beam import UNPOLARISED, given_beam
 from optipath.surfaces.walk.photon_beam import BLOCK
-from optipath.values.whole_numbers import is_whole, whole_number
+from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -93,7 +93,7 @@ def energy(
     what it does not reflect goes through:
 
     >>> from optipath.surfaces.samples.sample import Sample
-    >>> found = energy(Sample([(1.5, 0.5)], cells=160), "40 deg", photons=20_000)
+    >>> found = energy(Sample([(1.5, 0.5)]), "40 deg", photons=16_384)
     >>> bool(0.001 < found.R_m < 0.005), bool(abs(found.scalar.R + found.scalar.T - 1.0) < 1e-12)
     (True, True)
     """
@@ -117,8 +117,7 @@ def energy(
         raise SurfaceError(*faults)
     run = EnergyRun(beam, processors() if threads is None else int(threads))
     if tolerance is None:
-        whole = _PHOTONS if photons is None else int(photons)
-        run.walk(whole, None if progress is None else lambda done: progress(done, whole))
+        run.walk(_PHOTONS if photons is None else int(photons), progress)
         return run.energy
     return walk_until(run, tolerance, _MOST_PHOTONS if photons is None else int(photons), progress)
 
@@ -137,7 +136,7 @@ def walk_until(
     most : int
         How many photons there may be.
     progress : callable or None
-        Told how many there are, and how many it will take as far as is known.
+        As `EnergyRun.walk` takes it; how many it will take is known better and better.
 
     Returns
     -------
@@ -151,7 +150,7 @@ def walk_until(
     # A block on every surface, so that their differences are known.
     wanted = min(2 * BLOCK * run.beam.surfaces, most)
     while True:
-        run.walk(wanted, None if progress is None else lambda done, of=wanted: progress(done, of))
+        run.walk(wanted, progress)
         found = run.energy
         error = float(np.max(found.R_se))
         if error <= tolerance:

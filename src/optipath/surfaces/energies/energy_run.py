@@ -37,7 +37,7 @@ class EnergyRun:
         self.blocks, self.photons = 0, 0
         self._sums = np.zeros((beam.surfaces, OUTCOMES, MOST_COUNTED, beam.lights, SUMS))
 
-    def walk(self, photons: int, progress: Callable[[int], None] | None = None) -> None:
+    def walk(self, photons: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Walk on until there are as many photons in all; what is done stays if it is interrupted.
 
         Parameters
@@ -45,7 +45,7 @@ class EnergyRun:
         photons : int
             How many there are to be; they end with a whole block, or with these.
         progress : callable, optional
-            Told how many there are, whenever a block is done.
+            Told how many there are, and how many there are to be, whenever a block is done.
 
         Raises
         ------
@@ -64,7 +64,7 @@ class EnergyRun:
             ):
                 self._add(walked)
                 if progress is not None:
-                    progress(self.photons)
+                    progress(self.photons, photons)
         finally:
             executor.shutdown(cancel_futures=True)
 

@@ -15,21 +15,21 @@ Numbers: TypeAlias = npt.NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class EnergyShares:
-    """Shares of the light that falls on a sample; with ``_se``, the standard error of each.
+    """Shares of the light that falls on a sample; with ``_se`` behind, the standard error of each.
 
     All have the shape of the wavelengths, () where there is one.
 
     Attributes
     ----------
-    R_s, R_m, R : ndarray
+    R_s, R_m, R, R_s_se, R_m_se, R_se : ndarray
         Reflected after one event, after more, and in all.
-    T_s, T_m, T : ndarray
+    T_s, T_m, T, T_s_se, T_m_se, T_se : ndarray
         Let through after one event, after more, and in all.
-    lost : ndarray
+    lost, lost_se : ndarray
         Gone beside a finite field, or still on its way after as many events as allowed.
-    absorbed : ndarray
+    absorbed, absorbed_se : ndarray
         What is left: 1 - R - T - lost.
-    reflected, transmitted : ndarray, shape (events, ...)
+    reflected, transmitted, reflected_se, transmitted_se : ndarray, shape (events, ...)
         R and T after one event, after two, and so on; the last after as many or more.
     """
 
@@ -116,7 +116,8 @@ def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[
     --------
     One of two photons is reflected, on either surface:
 
-    >>> mean, error = mean_and_error(np.array([2.0, 2.0]), np.array([1.0, 1.0]), np.array([1.0, 1.0]))
+    >>> one = np.array([1.0, 1.0])
+    >>> mean, error = mean_and_error(2.0 * one, one, one)
     >>> print(mean, error.round(3))
     0.5 0.354
     """

@@ -5,9 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-import numpy.typing as npt
-
 from optipath.surfaces.energies.energy_shares import EnergyShares, energy_shares
 from optipath.surfaces.walk.walk_layout import (
     COUNT,
@@ -21,6 +18,9 @@ from optipath.surfaces.walk.walk_layout import (
 )
 
 if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
     from optipath.surfaces.walk.photon_beam import PhotonBeam
 
 
@@ -67,7 +67,9 @@ class Energy(EnergyShares):
         counts = sums[..., 0, COUNT]
         photons = counts.sum(axis=(1, 2))
 
-        def shares(total: npt.NDArray[np.float64], squares: npt.NDArray[np.float64], whole: float) -> EnergyShares:
+        def shares(
+            total: npt.NDArray[np.float64], squares: npt.NDArray[np.float64], whole: float
+        ) -> EnergyShares:
             wanted = (*sums.shape[:3], *shape)
             return energy_shares(
                 photons,

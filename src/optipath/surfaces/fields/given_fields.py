@@ -160,7 +160,7 @@ def period_faults(alpha: Pair, size: Pair) -> list[str]:
     lengths = correlation_lengths(alpha, size)
     if min(lengths) >= FEWEST_LENGTHS:
         return []
-    enough = tuple(float(f"{math.ceil(2e3 * FEWEST_LENGTHS / a) / 1e3:.6g}") for a in alpha)
+    enough = tuple(_rounded_up(min(2.0 * FEWEST_LENGTHS / each, 1e300)) for each in alpha)
     why = (
         f"a periodic surface of {size[0]:.6g} x {size[1]:.6g} and alpha {alpha} has "
         f"{lengths[0]:.3g} x {lengths[1]:.3g} correlation lengths 2/alpha, too few for its waves, "
@@ -200,7 +200,7 @@ def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
             f"{given.shape}"
         )
         return np.zeros((2, 2))
-    kept = np.ascontiguousarray(as_doubles(given)).copy()
+    kept = np.array(as_doubles(given), order="C")
     least = 2 if periodic else 3
     if min(kept.shape) < least:
         faults.append(
@@ -216,6 +216,12 @@ def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
         )
     kept.setflags(write=False)
     return kept
+
+
+def _rounded_up(number: float) -> float:
+    """Return the next larger number of five digits."""
+    step = 10.0 ** (math.floor(math.log10(number)) - 4)
+    return float(f"{math.ceil(number / step) * step:.6g}")
 
 
 def _both(value: Any) -> tuple[Any, ...]:

@@ -66,12 +66,13 @@ class HeightField(TriangleMesh, Unchanging):
 
     def __post_init__(self) -> None:
         faults = period_or_not(self.periodic)
-        heights = heights_of(self.heights, faults, periodic=bool(self.periodic))
+        periodic = not faults and bool(self.periodic)
+        heights = heights_of(self.heights, faults, periodic=periodic)
         size = pair_of("size", self.size, faults)
         alpha = None if self.alpha is None else pair_of("alpha", self.alpha, faults)
         if faults:
             raise SurfaceError(*faults)
-        vars(self).update(heights=heights, size=size, periodic=bool(self.periodic), alpha=alpha)
+        vars(self).update(heights=heights, size=size, periodic=periodic, alpha=alpha)
 
     @classmethod
     def beckmann(
@@ -105,13 +106,14 @@ class HeightField(TriangleMesh, Unchanging):
         cells : int or pair of int, optional
             How many cells there are along x and y; by default 16 for each correlation length.
         waves : int, optional
-            How many cosine waves are drawn, 1000 by default.
+            How many cosine waves are drawn, 1000 by default. Less than 10 have neither these
+            variances nor this density.
         seed : int or SeedSequence, optional
             The same seed gives the same bits; 0 by default.
         periodic : bool, optional
             Whether the surface goes on after its last cells with its first, so that no light is
             lost at its border; it does by default. Wave vectors are rounded for it to whole numbers
-            of waves, and some 570 different ones are left of 1000 on 40 correlation lengths.
+            of waves, and some 560 different ones are left of 1000 on 40 correlation lengths.
 
         Returns
         -------

@@ -128,18 +128,23 @@ def _picture(file: Path) -> Array:
 
 
 def _alone(pictures: Sequence[Any]) -> Any:
-    if len(pictures) == 1:
-        return pictures[0]
-    raise SurfaceError(
-        f"has {len(pictures) or 'no'} pictures; save that of the heights alone, or give its "
-        f"numbers to HeightField.from_heights"
-    )
+    if len(pictures) != 1:
+        raise SurfaceError(
+            f"has {len(pictures) or 'no'} pictures; save that of the heights alone, or give its "
+            f"numbers to HeightField.from_heights"
+        )
+    if pictures[0].keyframe.photometric == _PALETTE:
+        raise SurfaceError(
+            "has numbers of colours in a palette, which are no heights; save heights as grey values"
+        )
+    return pictures[0]
 
 
 def _one_line(fault: Exception) -> str:
     return " ".join(str(fault).split()).rstrip(".;") or type(fault).__name__
 
 
+_PALETTE = 3  # As the specification of TIFF has it.
 _HEIGHTS = "picture of {:.3g} heights"
 _READERS: dict[str, Callable[[Path], Array]] = {
     **dict.fromkeys((".txt", ".csv", ".dat", ".asc"), _text),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import SurfaceError, printable
+from optipath.errors import SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.fields.height_field import HeightField
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _LARGEST = 256 * 1024 * 1024
+_LONGEST = 200
 _NAME = re.compile(r"[\w-][\w. -]*(/[\w-][\w. -]*)*")
 
 
@@ -80,17 +81,21 @@ def _heights(table: Mapping[str, Any], folder: Path) -> HeightField:
 
 def _beside(folder: Path, name: str) -> Path:
     """Return the path of a file of heights, which is in the folder of the sample's."""
-    path = folder / name
-    if not _NAME.fullmatch(name):
+    if not _NAME.fullmatch(name) or len(name) > _LONGEST:
         raise SurfaceError(
-            f"'{printable(name)}' is no name of a file beside that of the sample; write one such "
-            f'as "heights.npy" or "maps/heights.tif"'
+            f"{shown(name)} is no name of a file beside that of the sample; write one such as "
+            f'"heights.npy" or "maps/heights.tif"'
         )
-    if not path.resolve().is_relative_to(folder.resolve()):
-        raise SurfaceError(f"'{name}' leads out of the folder of the sample; put the file into it")
-    if not path.is_file():
-        raise SurfaceError(f"'{name}' is no file beside that of the sample")
-    if path.stat().st_size > _LARGEST:
+    path = folder / name
+    try:
+        if not path.resolve().is_relative_to(folder.resolve()):
+            raise SurfaceError(f"'{name}' leads out of the folder of the sample; put it there")
+        if not path.is_file():
+            raise SurfaceError(f"'{name}' is no file beside that of the sample")
+        size = path.stat().st_size
+    except (OSError, RuntimeError) as error:  # A link that leads to itself is the second.
+        raise SurfaceError(f"'{name}' cannot be read: {error}") from None
+    if size > _LARGEST:
         raise SurfaceError(
             f"'{name}' is larger than {_LARGEST // 1024**2} MiB; cut out a part of it, or give it "
             f"to HeightField.from_file in Python"

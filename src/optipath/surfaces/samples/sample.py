@@ -13,8 +13,8 @@ from optipath.paths.format.faults import Faults
 from optipath.surfaces.fields.given_fields import cells_of
 from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.samples.sample_indices import indices_of
-from optipath.surfaces.samples.sample_layer import layer_of
-from optipath.surfaces.samples.sample_media import BASE, CLEAR_MEDIUM, medium_of
+from optipath.surfaces.samples.sample_layers import layers_of, unused_faults
+from optipath.surfaces.samples.sample_media import CLEAR_MEDIUM, medium_of
 from optipath.values.arrays.read_only import Unchanging, same_fields
 from optipath.values.domains.quantities import YES_OR_NO
 from optipath.values.parameters import Parameter
@@ -23,10 +23,7 @@ from optipath.values.whole_numbers import is_whole, whole_number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
-
     from optipath.surfaces.samples.sample_indices import SampleIndices
-    from optipath.surfaces.samples.sample_layer import SampleLayer
     from optipath.values.materials import Material
 
 _WIDTH = 80.0
@@ -90,35 +87,19 @@ class Sample(Unchanging):
         """Keep what is given as it is meant; refuse all faults."""
         faults = Faults()
         outside = faults.attempt("", medium_of, "outside", self.outside, CLEAR_MEDIUM)
-        layers = self._read_layers(faults)
+        layers = layers_of(self.layers, faults)
         cells = None if self.cells is None else cells_of(self.cells, faults)
         faults += whole_number("surfaces", self.surfaces) + whole_number("seed", self.seed, 0)
         periodic = faults.attempt("", YES_OR_NO.check, "periodic", self.periodic)
         if not isinstance(self.description, str):
             faults.append(f"description must be a text, not {shown(self.description)}")
         if not faults:
-            faults += _unused(layers, cells, periodic=periodic)
+            faults += unused_faults(layers, cells, periodic=bool(periodic))
         if faults:
             raise SurfaceError(*faults)
         surfaces, seed = int(self.surfaces), int(self.seed)
         kept = {"outside": outside, "cells": cells, "surfaces": surfaces, "seed": seed}
         vars(self).update(kept, layers=layers, periodic=periodic)
-
-    def _read_layers(self, faults: Faults) -> tuple[SampleLayer, ...]:
-        if not isinstance(self.layers, (list, tuple)) or not self.layers:
-            faults.append(
-                f"layers is {shown(self.layers)}; give a list with a pair for each interface, the "
-                f"index of refraction below it and its roughness, such as [(1.5, 0.1)]"
-            )
-            return ()
-        last = len(self.layers) - 1
-        found = [
-            faults.attempt(
-                "", layer_of, f"layers[{at}]", given, CLEAR_MEDIUM if at < last else BASE
-            )
-            for at, given in enumerate(self.layers)
-        ]
-        return tuple(layer for layer in found if layer is not None)
 
     @property
     def isotropic(self) -> bool:
@@ -149,8 +130,8 @@ class Sample(Unchanging):
 
         Examples
         --------
-        >>> Sample([(1.5, 0.4)], cells=320).fields(3)
-        (HeightField.beckmann of alpha (0.4, 0.4), 320 x 320 cells, 200 x 200, periodic,)
+        >>> Sample([(1.5, 0.25)], cells=320).fields(3)
+        (HeightField.beckmann of alpha (0.25, 0.25), 320 x 320 cells, 320 x 320, periodic,)
         """
         if not is_whole(surface, 0, self.surfaces - 1):
             raise SurfaceError(
@@ -179,7 +160,7 @@ class Sample(Unchanging):
             periodic=self.periodic,
         )
 
-    def indices(self, wavelength: str | npt.ArrayLike | None = None) -> SampleIndices:
+    def indices(self, wavelength: Any = None) -> SampleIndices:
         """Return the indices of refraction of all media.
 
         Parameters
@@ -239,7 +220,7 @@ class Sample(Unchanging):
         """
         from optipath.surfaces.samples.sample_writer import toml_of  # noqa: PLC0415 - not for all
 
-        return toml_of(self)
+        return toml_of({"description": self.description, **self._unusual()}, self.layers)
 
     @property
     def _media(self) -> dict[str, Any]:
@@ -247,10 +228,14 @@ class Sample(Unchanging):
         below = {f"layers[{place}].index": each.index for place, each in enumerate(self.layers)}
         return {"outside": self.outside, **below}
 
-    def __repr__(self) -> str:
+    def _unusual(self) -> dict[str, Any]:
+        """Return what is given besides the layers, and is not what it is by default."""
         usual = {each.name: each.default for each in dataclasses.fields(self)}
         given = {name: getattr(self, name) for name in usual if name != "layers"}
-        others = [f"{name}={value!r}" for name, value in given.items() if value != usual[name]]
+        return {name: value for name, value in given.items() if value != usual[name]}
+
+    def __repr__(self) -> str:
+        others = [f"{name}={value!r}" for name, value in self._unusual().items()]
         return f"Sample({', '.join([repr([*self.layers]), *others])})"
 
     def __getstate__(self) -> dict[str, Any]:
@@ -259,18 +244,3 @@ class Sample(Unchanging):
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
-
-
-def _unused(layers: Sequence[SampleLayer], cells: Any, *, periodic: bool | None) -> list[str]:
-    """Return a sentence for what is given of random fields and says nothing of those there are."""
-    found = []
-    if cells is not None and not any(layer.is_random for layer in layers):
-        found.append("cells is given, but no interface is random; leave it out")
-    for place, layer in enumerate(layers):
-        heights = layer.roughness if isinstance(layer.roughness, HeightField) else None
-        if not periodic and heights is not None and heights.periodic and not heights.is_flat:
-            found.append(
-                f"periodic is False, but the heights of layers[{place}] are periodic; give those a "
-                f"border, or leave periodic out, which is of random fields"
-            )
-    return found

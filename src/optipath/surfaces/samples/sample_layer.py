@@ -139,4 +139,7 @@ def _alpha_of(owner: str, given: Any) -> float:
     if isinstance(given, Parameter) or is_traced(given):
         what = given.called if isinstance(given, Parameter) else "traced by JAX"
         raise SurfaceError(f"{owner} is {what}; give a number, and make a sample for each")
-    return float(ALPHA.check(owner, given))
+    found = ALPHA.check(owner, given)
+    if found.ndim:
+        raise SurfaceError(f"{owner} has {shown(given)} for one number; give a pair along x and y")
+    return float(found)

@@ -8,6 +8,7 @@ import numpy as np
 
 from optipath.errors import SurfaceError, ValueFault, shown
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.cures import cure
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.domains.indices import IndexDomain, LitBehind
 from optipath.values.domains.no_absorption import NoAbsorption
@@ -99,8 +100,8 @@ def medium_of(owner: str, value: Any, domain: Domain) -> float | complex | Mater
     array = None if several else domain.check(owner, value)
     if array is None or array.ndim:
         raise SurfaceError(
-            f"{owner} is {shown(value)}, but a sample has one index there; give one number, such "
-            f"as 1.5 or 0.5+2.1j, and make a sample for each"
+            f"{owner} is {shown(value)}, but a sample has one index there; give one, such as "
+            f"{cure('1.5 or 0.5+2.1j', '1.5 or { n = 0.5, k = 2.1 }')}, and make a sample for each"
         )
     number = complex(array)
     return number if number.imag else number.real

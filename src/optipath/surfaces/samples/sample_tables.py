@@ -65,22 +65,15 @@ def _sample(document: dict[str, Any], folder: Path) -> Sample:
     faults = Faults(type_faults("the sample", document, TOP))
     if "format" not in document:
         faults.append(f"the sample: 'format' is missing; add format = {FORMAT}")
-    meant = as_meant(document, TOP)
-    given = {
-        key: value
-        for key, value in meant.items()
-        if key != "format" and TOP[key] in (object, type(value))
-    }
-    if "outside" in given:
-        given["outside"] = faults.attempt("outside", _index, given["outside"]) or 1.0
-    if not meant.get("layers"):
+    if not as_meant(document, TOP).get("layers"):
         faults.append("the sample has no layers; add a table [[layers]] for each, from the top")
-    found = [
-        _layer(f"layers[{place}]", table, folder, faults)
-        for place, table in enumerate(given.get("layers", []))
-    ]
-    given["layers"] = found or [(_INDEX, _ROUGHNESS)]
-    made = faults.attempt("", Sample, **given)
+    given = _readable(document, TOP)
+    tables = given.pop("layers", [])
+    outside = faults.attempt("outside", _index, given.pop("outside", 1.0))
+    given |= {"outside": 1.0 if outside is None else outside}
+    layers = [_layer(f"layers[{at}]", table, folder, faults) for at, table in enumerate(tables)]
+    given.pop("format", None)
+    made = faults.attempt("", Sample, layers or [(_INDEX, _ROUGHNESS)], **given)
     if made is None or faults:
         raise SurfaceError(*faults)
     return made
@@ -91,13 +84,21 @@ def _layer(where: str, table: Any, folder: Path, faults: Faults) -> SampleLayer:
     if not isinstance(table, dict):
         faults.append(f"{where} must be a table headed [[layers]], not {shown(table)}")
         return SampleLayer(_INDEX, _ROUGHNESS)
-    faults += (wrong := type_faults(where, table, LAYER))
-    table = as_meant(table, LAYER) if wrong else table
-    if "index" not in table:
+    faults += type_faults(where, table, LAYER)
+    given = _readable(table, LAYER)
+    if "index" not in given:
         faults.append(f"{where}: 'index' is missing; write that of the medium below")
-    index = faults.attempt(f"{where}.index", _index, table.get("index", _INDEX))
-    rough = faults.attempt(where, roughness_of_table, table, folder)
+    index = faults.attempt(f"{where}.index", _index, given.get("index", _INDEX))
+    rough = None
+    if "heights" in given or "heights" not in as_meant(table, LAYER):
+        rough = faults.attempt(where, roughness_of_table, given, folder)
     return SampleLayer(_INDEX if index is None else index, *(rough or (_ROUGHNESS,)))
+
+
+def _readable(table: dict[str, Any], schema: dict[str, Any]) -> dict[str, Any]:
+    """Return what a table has by keys that are known or meant, where it is of the right type."""
+    meant = as_meant(table, schema)
+    return {key: value for key, value in meant.items() if schema[key] in (object, type(value))}
 
 
 def _index(raw: Any) -> Any:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import SurfaceError
@@ -13,17 +12,20 @@ from optipath.paths.format.writer import toml_lines
 from optipath.surfaces.fields.height_field import HeightField
 
 if TYPE_CHECKING:
-    from optipath.surfaces.samples.sample import Sample
+    from collections.abc import Mapping, Sequence
+
     from optipath.surfaces.samples.sample_layer import SampleLayer
 
 
-def toml_of(sample: Sample) -> str:
+def toml_of(options: Mapping[str, Any], layers: Sequence[SampleLayer]) -> str:
     """Return the text of the file of a sample.
 
     Parameters
     ----------
-    sample : Sample
-        What is written.
+    options : mapping of str to Any
+        What stands above the layers: its description, and what is not usual.
+    layers : sequence of SampleLayer
+        From the top.
 
     Returns
     -------
@@ -36,16 +38,11 @@ def toml_of(sample: Sample) -> str:
         With every layer that has no form in a file.
     """
     faults = Faults()
-    top: dict[str, Any] = {"format": FORMAT, "description": sample.description}
-    for field in fields(sample):
-        value = getattr(sample, field.name)
-        if field.name in ("layers", "description") or value == field.default:
-            continue
-        as_it_is = isinstance(value, bool)
-        top[field.name] = value if as_it_is else faults.attempt(field.name, encode, value, "")
-    rows = [
-        faults.attempt(f"layers[{place}]", _row, layer) for place, layer in enumerate(sample.layers)
-    ]
+    top = {"format": FORMAT} | {
+        name: value if isinstance(value, bool) else faults.attempt(name, encode, value, "")
+        for name, value in options.items()
+    }
+    rows = [faults.attempt(f"layers[{at}]", _row, layer) for at, layer in enumerate(layers)]
     if faults:
         raise SurfaceError(*faults)
     return "\n".join([toml_lines("", top), *[toml_lines("[[layers]]", row or {}) for row in rows]])
@@ -60,7 +57,7 @@ def _row(layer: SampleLayer) -> dict[str, Any]:
         return index | {"alpha": 0.0}
     if not layer.file:
         raise SurfaceError(
-            "has heights that are in no file; save them by numpy.save('heights.npy', "
+            "its heights are in no file; save them by numpy.save('heights.npy', "
             'field.heights), and load a sample whose file has heights = "heights.npy"'
         )
     row = index | {"heights": layer.file, "size": [*rough.size]}

@@ -50,7 +50,15 @@ def facet_normal(meshes: Any, layer: int, column: int, line: int, facet: int, si
 
 @nb.njit(error_model="numpy")
 def facet_event(
-    k: Any, x: Any, normal: Any, n1: float, n2: float, base: Any, lights: Any, count: int, state: Any
+    k: Any,
+    x: Any,
+    normal: Any,
+    n1: float,
+    n2: float,
+    base: Any,
+    lights: Any,
+    count: int,
+    state: Any,
 ) -> Any:
     """Reflect a photon at a facet, or refract it, and all of the lights that ride on it.
 
@@ -106,7 +114,5 @@ def facet_event(
 @nb.njit(error_model="numpy")
 def _act(lights: Any, at: int, cos2: float, sin2: float, numbers: Any) -> None:
     """Turn one light into the plane of incidence, and let a Mueller matrix act on it."""
-    found = acted(
-        lights[at], lights[at + 1], lights[at + 2], lights[at + 3], cos2, sin2, *numbers
-    )
+    found = acted(lights[at], lights[at + 1], lights[at + 2], lights[at + 3], cos2, sin2, *numbers)
     lights[at], lights[at + 1], lights[at + 2], lights[at + 3] = found

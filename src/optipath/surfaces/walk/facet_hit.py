@@ -108,14 +108,20 @@ def facet_hit(corners: Any, u: float, v: float, ray: Any, span: Any, side: float
 
 @nb.njit(error_model="numpy")
 def _met(
-    corners: Any, u: float, v: float, ray: Any, enters: float, leaves: float, side: float, facet: int
-) -> float:
+    corners: Any,
+    u: float,
+    v: float,
+    ray: Any,
+    enters: float,
+    leaves: float,
+    side: float,
+    facet: int,
+) -> Any:
     """Return where a ray meets the plane of a facet between two places, or -1."""
     z, dx, dy, dz = ray
     rise_x, rise_y = facet_gradient(corners, facet)
     rate = dz - (dx * rise_x + dy * rise_y)
     above = (z - corners[0]) - (u * rise_x + v * rise_y)
     if side * rate < 0.0 and side * (above + leaves * rate) <= 0.0:
-        # From where it enters: it leaves nowhere that is near if it goes straight down.
-        return min(enters + max((above + enters * rate) / -rate, 0.0), leaves)
+        return min(max(-above / rate, enters), leaves)
     return -1.0

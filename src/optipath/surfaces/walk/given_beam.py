@@ -67,7 +67,7 @@ def given_beam(
     if light is not None and not light[0] > 0.0:
         faults.append("stokes has no intensity; give S0 > 0")
     indices = faults.attempt("", sample.indices, wavelength)
-    if faults:
+    if faults or indices is None or light is None:
         raise SurfaceError(*faults)
     return PhotonBeam(
         sample, cos(incidence), sin(incidence), azimuth, indices, light, int(seed), int(most_events)

@@ -12,8 +12,8 @@ from optipath.surfaces.walk.mesh_pyramid import SHIFT
 from optipath.surfaces.walk.packed_meshes import (
     CELLS_X,
     CELLS_Y,
-    HIGH,
     HEIGHTS,
+    HIGH,
     LEVELS,
     LOW,
     NUMBERS,
@@ -26,11 +26,24 @@ MET, MISSED, LEFT, LOST = 0, 1, 2, 3
 """A facet is met; none is; the ray has left the field at its side; it goes on for too long."""
 
 _MOST_STEPS = 1_000_000
+_FAR = 1e300
+"""In place of an infinite way, which times 0 is no number."""
+
+_FIRST_LEVEL = 3
+"""Where light from outside begins, which is high above most of the mesh."""
 
 
 @nb.njit(error_model="numpy")
 def mesh_hit(
-    meshes: Any, layer: int, x: float, y: float, ray: Any, side: float, column: int, line: int, own: int
+    meshes: Any,
+    layer: int,
+    x: float,
+    y: float,
+    ray: Any,
+    side: float,
+    column: int,
+    line: int,
+    own: int,
 ) -> Any:
     """Return what a ray meets of a mesh.
 
@@ -66,39 +79,33 @@ def mesh_hit(
     z, dx, dy, dz = ray
     about = layer * WHOLES
     across, down, top = wholes[about + CELLS_X], wholes[about + CELLS_Y], wholes[about + LEVELS]
-    first, row = wholes[about + HEIGHTS], wholes[about + CELLS_X] + 1
+    first, periodic = wholes[about + HEIGHTS], wholes[about + PERIODIC] != 0
     inverse_x, inverse_y = 1.0 / dx, 1.0 / dy
+    edge = numbers[layer * NUMBERS + (HIGH if side > 0.0 else LOW)]
     # Beyond this, nothing of the mesh is as high, or as low.
-    leaves = np.inf
-    if side * dz > 0.0:
-        edge = numbers[layer * NUMBERS + (HIGH if side > 0.0 else LOW)]
-        leaves = (edge - z) / dz
-    t, level = 0.0, 0
+    leaves = (edge - z) / dz if side * dz > 0.0 else np.inf
+    t, facet = 0.0, NO_FACET
+    level = 0 if own != NO_FACET else min(_FIRST_LEVEL, top)
     for _ in range(_MOST_STEPS):
         shift = SHIFT * level
         block_x, block_y = column >> shift, line >> shift
-        left, front = block_x << shift, block_y << shift
-        right, back = min(left + (1 << shift), across), min(front + (1 << shift), down)
-        end_x = (right - x) * inverse_x if dx > 0.0 else ((left - x) * inverse_x if dx < 0.0 else np.inf)
-        end_y = (back - y) * inverse_y if dy > 0.0 else ((front - y) * inverse_y if dy < 0.0 else np.inf)
-        end = max(min(end_x, end_y), t)
+        left, right = block_x << shift, min((block_x + 1) << shift, across)
+        front, back = block_y << shift, min((block_y + 1) << shift, down)
+        end_x = _reached(x, dx, inverse_x, left, right)
+        end_y = _reached(y, dy, inverse_y, front, back)
+        end = min(max(min(end_x, end_y), t), _FAR)
         here, there = z + t * dz, z + end * dz
         if level > 0:
-            start = wholes[about + PYRAMID + level] + 2 * (block_y * (((across - 1) >> shift) + 1) + block_x)
-            if not (min(here, there) > extremes[start + 1] if side > 0.0 else max(here, there) < extremes[start]):
+            row = ((across - 1) >> shift) + 1
+            place = wholes[about + PYRAMID + level] + 2 * (block_y * row + block_x)
+            if _is_close(here, there, extremes[place], extremes[place + 1], side):
                 level -= 1
                 continue
         else:
-            corners = corners_of(heights, first + line * row + column, row)
-            low, right_, back_, high = corners
-            if side > 0.0:
-                close = min(here, there) <= max(max(low, right_), max(back_, high))
-            else:
-                close = max(here, there) >= min(min(low, right_), min(back_, high))
-            if close:
-                facet, at = facet_hit(
-                    corners, x - column, y - line, ray, (t, min(end, 1e300)), side, own
-                )
+            corners = corners_of(heights, first + line * (across + 1) + column, across + 1)
+            if _is_close(here, there, min(*corners), max(*corners), side):
+                span = t, end
+                facet, at = facet_hit(corners, x - column, y - line, ray, span, side, own)
                 if facet != NO_FACET:
                     return MET, at, column, line, facet, x, y
         own = NO_FACET
@@ -108,19 +115,40 @@ def mesh_hit(
         if end_x <= end_y:
             column = right if dx > 0.0 else left - 1
             line = min(max(int(np.floor(y + t * dy)), front), back - 1)
-            if column < 0 or column >= across:
-                if wholes[about + PERIODIC] == 0:
-                    return LEFT, t, column, line, NO_FACET, x, y
-                x, column = (x - across, 0) if dx > 0.0 else (x + across, across - 1)
-            outside = (column >> (shift + SHIFT)) != (block_x >> SHIFT)
         else:
             line = back if dy > 0.0 else front - 1
             column = min(max(int(np.floor(x + t * dx)), left), right - 1)
-            if line < 0 or line >= down:
-                if wholes[about + PERIODIC] == 0:
-                    return LEFT, t, column, line, NO_FACET, x, y
-                y, line = (y - down, 0) if dy > 0.0 else (y + down, down - 1)
-            outside = (line >> (shift + SHIFT)) != (block_y >> SHIFT)
-        if outside and level < top:
+        if column < 0 or column >= across or line < 0 or line >= down:
+            if not periodic:
+                return LEFT, t, column, line, NO_FACET, x, y
+            x, column = _wrapped(x, column, across)
+            y, line = _wrapped(y, line, down)
+        above = shift + SHIFT
+        has_left = column >> above != block_x >> SHIFT or line >> above != block_y >> SHIFT
+        if has_left and level < top:
             level += 1
     return LOST, t, column, line, NO_FACET, x, y
+
+
+@nb.njit(error_model="numpy")
+def _reached(start: float, rate: float, inverse: float, low: int, high: int) -> Any:
+    """Return where along one axis a ray leaves a block."""
+    if rate == 0.0:
+        return np.inf
+    return ((high if rate > 0.0 else low) - start) * inverse
+
+
+@nb.njit(error_model="numpy")
+def _is_close(here: float, there: float, low: float, high: float, side: float) -> Any:
+    """Return whether a ray between two heights may meet what is between two others."""
+    return min(here, there) <= high if side > 0.0 else max(here, there) >= low
+
+
+@nb.njit(error_model="numpy")
+def _wrapped(start: float, cell: int, cells: int) -> Any:
+    """Return the start of a ray, and its cell, moved by a period where the cell is beyond."""
+    if cell < 0:
+        return start + cells, cell + cells
+    if cell >= cells:
+        return start - cells, cell - cells
+    return start, cell

@@ -56,12 +56,16 @@ def pyramid_of(vertices: npt.NDArray[np.float64]) -> list[npt.NDArray[np.float64
     for _ in range(levels_of(vertices.shape[1] - 1, vertices.shape[0] - 1)):
         low, high = found[-1][..., 0], found[-1][..., 1]
         found.append(
-            np.stack([_blocks(low, np.minimum, np.inf), _blocks(high, np.maximum, -np.inf)], axis=-1)
+            np.stack(
+                [_blocks(low, np.minimum, np.inf), _blocks(high, np.maximum, -np.inf)], axis=-1
+            )
         )
     return found
 
 
-def _blocks(values: npt.NDArray[np.float64], better: np.ufunc, worst: float) -> npt.NDArray[np.float64]:
+def _blocks(
+    values: npt.NDArray[np.float64], better: np.ufunc, worst: float
+) -> npt.NDArray[np.float64]:
     width = 1 << SHIFT
     for axis in (0, 1):
         missing = -values.shape[axis] % width

@@ -73,7 +73,7 @@ def packed_meshes(fields: Sequence[HeightField]) -> PackedMeshes:
         lowest = float(vertices.min())
         across, down = field.cells
         levels = pyramid_of(vertices)
-        wholes[place, : PYRAMID] = taken, across, down, len(levels) - 1, field.periodic
+        wholes[place, :PYRAMID] = taken, across, down, len(levels) - 1, field.periodic
         for level, values in enumerate(levels[1:], 1):
             wholes[place, PYRAMID + level] = told
             told += values.size
@@ -82,4 +82,6 @@ def packed_meshes(fields: Sequence[HeightField]) -> PackedMeshes:
         heights.append(vertices.ravel())
         extremes += [values.ravel() for values in levels[1:]]
     extremes.append(np.zeros(1))
-    return PackedMeshes(wholes.ravel(), numbers.ravel(), np.concatenate(heights), np.concatenate(extremes))
+    return PackedMeshes(
+        wholes.ravel(), numbers.ravel(), np.concatenate(heights), np.concatenate(extremes)
+    )

@@ -113,14 +113,16 @@ def photon_walk(
             above = side > 0.0
             n1, n2 = media[layer + (not above)], media[layer + above]
             before = k
-            reflected, k, x, plane = facet_event(
-                k, x, normal, n1, n2, base, lights, count, state
-            )
+            reflected, k, x, plane = facet_event(k, x, normal, n1, n2, base, lights, count, state)
             events += 1
             if record[0] != 0.0:
                 at = RECORD * events
                 record[at + LAYER], record[at + COLUMN], record[at + LINE] = layer, column, line
-                record[at + FACET], record[at + SIDE], record[at + REFLECTED] = facet, side, reflected
+                record[at + FACET], record[at + SIDE], record[at + REFLECTED] = (
+                    facet,
+                    side,
+                    reflected,
+                )
                 for place in range(5):
                     record[at + COS + place] = plane[place]
                 record[at + N1], record[at + N2] = n1, n2
