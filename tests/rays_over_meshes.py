@@ -1,6 +1,7 @@
 """Where rays meet meshes, in exact fractions: where the height above the surface comes to 0."""
 
 from fractions import Fraction
+from itertools import pairwise
 from math import ceil, floor
 
 import numpy as np
@@ -27,7 +28,7 @@ def first_meeting(field, start, direction, side):
     """
     above = height_above(field, start, direction)
     times = crossings(field, start, direction)
-    for begin, end in zip(times, times[1:], strict=False):
+    for begin, end in pairwise(times):
         first, last = side * above(begin), side * above(end)
         if last < first and last <= 0:
             return float(begin + (end - begin) * max(first, 0) / (max(first, 0) - last))
@@ -67,5 +68,6 @@ def crossings(field, start, direction):
 def exactly(start, direction):
     """Both as fractions, by axis."""
     return [
-        *zip(*([Fraction(float(each)) for each in one] for one in (start, direction)), strict=True)
+        (Fraction(float(one)), Fraction(float(step)))
+        for one, step in zip(start, direction, strict=True)
     ]

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 from uncompiled import uncompiled
 
 pytest.importorskip("numba")

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+
 from rays_over_meshes import first_meeting, height_above
 from uncompiled import uncompiled
 
