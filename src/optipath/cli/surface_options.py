@@ -29,6 +29,7 @@ INCIDENCE = click.Option(
 PHOTONS = click.Option(
     ["--photons"],
     type=_whole,
+    metavar="NUMBER",
     help="How many photons are walked, such as 1e7; 1e6 by default. With --tolerance, at most.",
 )
 TOLERANCE = click.Option(
@@ -53,23 +54,32 @@ STOKES = click.Option(
     metavar="S0,S1,S2,S3",
     help="The light; the x of its frame is horizontal.",
 )
-SEED = click.Option(["--seed"], type=_whole, default=0, help="Of the photons.")
+SEED = click.Option(["--seed"], type=_whole, metavar="NUMBER", default=0, help="Of the photons.")
 EVENTS = click.Option(
     ["--most-events"],
     type=_whole,
+    metavar="NUMBER",
     default=1000,
     help="After how many events a photon is given up.",
 )
 THREADS = click.Option(
-    ["--threads"], type=_whole, help="How many walk at a time; by default one a processor."
+    ["--threads"],
+    type=_whole,
+    metavar="NUMBER",
+    help="How many walk at a time; by default one a processor.",
 )
 SURFACES = click.Option(
-    ["--surfaces"], type=_whole, help="How many surfaces are drawn, in place of the sample's."
+    ["--surfaces"],
+    type=_whole,
+    metavar="NUMBER",
+    help="How many surfaces are drawn, in place of the sample's.",
 )
 CELLS = click.Option(
     ["--cells"], metavar="N|N,N", help="Cells of random surfaces along x and y, ditto."
 )
-SAMPLE_SEED = click.Option(["--sample-seed"], type=_whole, help="Of random surfaces, ditto.")
+SAMPLE_SEED = click.Option(
+    ["--sample-seed"], type=_whole, metavar="NUMBER", help="Of random surfaces, ditto."
+)
 
 WALKING = (INCIDENCE, PHOTONS, TOLERANCE, WAVELENGTHS, AZIMUTH, STOKES, SEED, EVENTS, THREADS)
 REDRAWING = (SURFACES, CELLS, SAMPLE_SEED)
