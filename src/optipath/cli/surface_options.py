@@ -7,6 +7,7 @@ from contextlib import suppress
 import click
 
 from optipath.errors import shown
+from optipath.surfaces.samples.sample_files import sample_names
 
 
 def _whole(text: str) -> int:
@@ -19,7 +20,12 @@ def _whole(text: str) -> int:
     raise click.BadParameter(f"{shown(text)} is no whole number; write one such as 1000, or 1e6")
 
 
-SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]")
+def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
+    """Return the samples whose names begin so, for shells."""
+    return [name for name in sample_names() if name.startswith(incomplete)]
+
+
+SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]", shell_complete=_names)
 INCIDENCE = click.Option(
     ["--incidence", "incidences"],
     metavar="DEG",
