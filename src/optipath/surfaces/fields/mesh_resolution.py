@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import NamedTuple
+
+import numpy as np
 
 from optipath.errors import MeshWarning
 from optipath.values.calls_up import calls_up
@@ -17,24 +18,12 @@ _OF_SMOOTH = 5
 """The largest alpha at which little light is scattered twice, and how many cells do there."""
 
 
-class MeshCost(NamedTuple):
-    """What light was found on meshes of too few cells, and on fine ones; alpha 1, index 1.5.
+MISSING = {2: 0.13, 3: 0.072, 4: 0.046, 5: 0.031, 8: 0.012, 16: 0.003}
+"""By cells a correlation length, what share of the light of several events is not transmitted.
 
-    Attributes
-    ----------
-    cells : tuple of int
-        From how many to how many a correlation length the coarse meshes had.
-    coarse, fine : float
-        The share of light that is transmitted after several events, at an incidence of 1 rad.
-    """
-
-    cells: tuple[int, int]
-    coarse: float
-    fine: float
-
-
-COST = MeshCost(cells=(2, 5), coarse=0.052, fine=0.060)
-"""M. Wang et al., Optics Express 25(19) (2017), Table 1, beside meshes of 16 cells."""
+Of alpha 1, index 1.5 and an incidence of 1 rad, beside 32 cells on the same 16 surfaces; at alpha
+0.3 it is much the same. docs/surfaces.md has the table, and the command for it.
+"""
 
 
 def correlation_lengths(
@@ -107,9 +96,8 @@ def warn_of_coarse(
     had = min(have / length for have, length in zip(cells, lengths, strict=True))
     warnings.warn(
         f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
-        f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and light is scattered too "
-        f"little, most of all light of several events (at alpha 1, {_off():.0%} less of it with "
-        f"{COST.cells[0]} to {COST.cells[1]} cells a length); cells={enough} are enough",
+        f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and {_missing(had)} of the "
+        f"light that is transmitted after several events; cells={enough} are enough",
         MeshWarning,
         stacklevel=calls_up(),
     )
@@ -120,5 +108,7 @@ def _cells(each: int, lengths: float) -> int:
     return max(2, math.ceil(min(each * lengths * (1.0 - 1e-12), 1e18)))
 
 
-def _off() -> float:
-    return 1.0 - COST.coarse / COST.fine
+def _missing(cells: float) -> str:
+    """Return the share of light that is lost with so many cells a correlation length."""
+    share = np.interp(math.log(cells), np.log([*MISSING]), [*MISSING.values()])
+    return f"{'more than' if cells < min(MISSING) else 'about'} {100.0 * share:.2g} %"
