@@ -54,9 +54,7 @@ BY_WIDTH = [
 ]
 BY_WAVES = [GLASS._replace(waves=n, surfaces=64) for n in (30, 100, 300, 1000, 3000)]
 BY_KIND = [GLASS._replace(lengths=80, cells=8, kind=kind) for kind in ("finite", "independent")]
-BY_DIRECTION = [
-    Case("1j", alpha, theta, surfaces=8) for alpha in ALPHAS for theta in INCIDENCES
-]
+BY_DIRECTION = [Case("1j", alpha, theta, surfaces=8) for alpha in ALPHAS for theta in INCIDENCES]
 USUAL = [
     Case(index, alpha, theta, surfaces=32)
     for index in ("1.5", "1j")
@@ -65,8 +63,8 @@ USUAL = [
 ]
 LARGE = [case._replace(lengths=80, waves=5000, surfaces=24) for case in USUAL]
 AT_A_BORDER = [
-    Case("1.5", alpha, theta, kind="finite", surfaces=8)
-    for alpha in (0.1, 1.0)
+    Case("1.5", alpha, theta, lengths=lengths, kind="finite", surfaces=8)
+    for alpha, lengths in ((0.1, 20), (0.1, 40), (1.0, 40))
     for theta in (0.0, 0.5, 1.0, 1.5)
 ]
 
@@ -123,9 +121,119 @@ def keep(file):
     return known
 
 
-CASES = [
-    *(BY_CELLS + BY_WAVES + BY_WIDTH + BY_KIND + USUAL + LARGE + BY_DIRECTION + AT_A_BORDER),
-]
+CASES = BY_CELLS + BY_WAVES + BY_WIDTH + BY_KIND + USUAL + LARGE + BY_DIRECTION + AT_A_BORDER
+
+
+def number(shares, name):
+    """Return a share with its standard error, as a table has it."""
+    mean, error, _ = shares[name]
+    return f"{mean:.5f} ± {error:.5f}"
+
+
+def percent(shares, name):
+    """Return how much a share differs from surface to surface, where there is enough of it."""
+    mean, _, spread = shares[name]
+    return f"{100 * spread / mean:.1f} %" if mean > 1e-3 else ""
+
+
+def table(heads, rows):
+    """Print a table as documents have it."""
+    for row in (heads, ["---"] * len(heads), *rows):
+        print("|", " | ".join(str(each) for each in row), "|")
+    print()
+
+
+def tables(known):
+    """Print the tables of docs/surfaces.md."""
+    rows = []
+    for case in BY_CELLS:
+        finest = known[case._replace(cells=CELLS[-1])]["T_m"][0]
+        apart = f"{100 * (known[case]['T_m'][0] / finest - 1):+.1f} %" if finest > 1e-3 else ""
+        rows.append([case.alpha, case.cells, *(number(known[case], s) for s in SHARES[:4]), apart])
+    table(["alpha", "cells", *SHARES[:4], "T_m, beside 32 cells"], rows)
+    for cases, name in ((BY_WIDTH[:4], "T_m"), (BY_WIDTH[4:], "R_m"), (BY_WAVES + BY_KIND, "T_m")):
+        heads = ["width", "waves", "kind", name, "one surface beside others", "lost"]
+        found = [(case, known[case]) for case in cases]
+        table(
+            heads,
+            [
+                [c.lengths, c.waves, c.kind, number(k, name), percent(k, name), k["lost"][0]]
+                for c, k in found
+            ],
+        )
+    rows = []
+    for usual, large in zip(USUAL, LARGE, strict=True):
+        row = [usual.index, usual.alpha, usual.incidence]
+        for name in SHARES[:4]:
+            one, other = known[usual][name], known[large][name]
+            row.append(beside(one, other) if other[0] > 1e-4 else "")
+        rows.append(row)
+    table(["index", "alpha", "incidence", *SHARES[:4]], rows)
+    rows = [
+        [c.alpha, c.lengths, c.incidence, f"{100 * known[c]['lost'][0]:.2f} %"] for c in AT_A_BORDER
+    ]
+    table(["alpha", "width", "incidence", "lost"], rows)
+
+
+def beside(one, other):
+    """Return by how much a share differs from another, with the standard error of that."""
+    error = np.hypot(one[1], other[1]) / other[0]
+    return f"{100 * (one[0] / other[0] - 1):+.2f} ± {100 * error:.2f} %"
+
+
+def by_cells(axes, known):
+    """Draw what is transmitted after several events, over the cells a correlation length."""
+    shares = [known[GLASS._replace(cells=cells)]["T_m"] for cells in CELLS]
+    axes.errorbar(CELLS, [s[0] for s in shares], [s[1] for s in shares], marker="o", capsize=3)
+    axes.axhline(0.052, color="C1", linestyle="--", label="M. Wang et al. (2017), table 1")
+    axes.axhline(0.053, color="C2", linestyle=":", label="E. Heitz et al. (2016)")
+    axes.set_xscale("log", base=2)
+    axes.set_xticks(CELLS, CELLS)
+    axes.set(xlabel="cells a correlation length", ylabel="T_m", title="the mesh")
+    axes.legend(fontsize="small")
+
+
+def by_choice(axes, known, cases, what, title):
+    """Draw the same over what the surface is made of, and how much one surface is apart."""
+    places = [getattr(case, what) for case in cases]
+    shares = np.array([known[case]["T_m"] for case in cases])
+    axes.errorbar(places, shares[:, 0], shares[:, 2], fmt="none", capsize=6, color="C0", alpha=0.4)
+    axes.errorbar(places, shares[:, 0], shares[:, 1], marker="o", capsize=3, color="C0")
+    axes.set_xscale("log")
+    axes.set_xticks(places, places)
+    axes.minorticks_off()
+    axes.set(xlabel=title, ylim=(0.048, 0.068), title="faint: one surface")
+
+
+def draw(known, folder):
+    """Draw the pictures of docs/surfaces.md."""
+    figure, axes = plt.subplots(1, 3, figsize=(11.0, 3.8), layout="constrained")
+    figure.suptitle("Transmitted after several events: index 1.5, alpha 1, incidence 1 rad")
+    by_cells(axes[0], known)
+    by_choice(axes[1], known, BY_WIDTH[:4], "lengths", "width of the field, correlation lengths")
+    by_choice(axes[2], known, BY_WAVES, "waves", "random waves")
+    save(figure, folder / "surface-convergence.png")
+    figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
+    for alpha in ALPHAS:
+        shares = [known[case]["R_m"] for case in BY_DIRECTION if case.alpha == alpha]
+        means, errors = [s[0] for s in shares], [s[1] for s in shares]
+        axes.errorbar(INCIDENCES, means, errors, marker="o", capsize=3, label=f"alpha {alpha}")
+    axes.set(xlabel="incidence (rad)", ylabel="R_m", xlim=(-0.02, 1.6), ylim=(0.0, None))
+    axes.set_title("A perfect reflector: the share of light that is reflected several times")
+    axes.legend()
+    save(figure, folder / "surface-mirror.png")
+
+
+def save(figure, file):
+    """Write a picture."""
+    for each in figure.axes:
+        each.grid(visible=True, alpha=0.3)
+    drawn = io.BytesIO()
+    figure.savefig(drawn, dpi=110, format="png")
+    write_file(file, drawn.getvalue())
+
 
 if __name__ == "__main__":
-    keep(Path(sys.argv[1]))
+    found = keep(Path(sys.argv[1]))
+    tables(found)
+    draw(found, Path(sys.argv[2]))
