@@ -25,7 +25,8 @@ def main(command: str) -> None:
             done += 1
     if not all(op.load_sample(name).fields() for name in op.sample_names()):
         raise SystemExit("a sample without layers")
-    print(f"{done} runs of {len(op.preset_names())} presets, {len(op.sample_names())} samples, from {op.__file__}")
+    counts = f"{done} runs of {len(op.preset_names())} presets, {len(op.sample_names())} samples"
+    print(f"{counts} from {op.__file__}")
 
 
 main(sys.argv[1])

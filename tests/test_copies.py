@@ -35,6 +35,7 @@ GIVEN = {
     "Rotator": (0.1,),
     "RefractingVertex": (1.5, [[0, 0, 1], [0, 0, 0], [0, 0, -1]], 1),
     "SpecularVertex": (1.5, CORNER, 1),
+    "Sample": ([(1.5, 0.1), (2.4, (0.1, 0.2))],),
     "Srgb": (np.full(3, 0.2), np.full(3, 0.2)),
     "VerticesByAngles": ((0.1,),),
     "Waveplate": (1e-3, 0.01, [5e-7, 6e-7]),

@@ -55,7 +55,7 @@ flint: op.Material = op.Material.sellmeier(
 gold_there: op.Material = gold.at(["516 nm", 5.2e-7])
 shortest: float = gold.span[0]
 rough: op.surfaces.HeightField = op.surfaces.HeightField.beckmann(0.3, 0.4, size=(100.0, 80.0))
-varnished: op.Sample = op.Sample([(1.5, 0.1), (op.Material(0.2, 3.4), (0.1, 0.2)), (1j, rough)])
+varnished: op.Sample = op.Sample([(1.5, 0.1), (1.6, (0.1, 0.2)), (op.Material(0.2, 3.4), rough)])
 drawn: tuple[op.surfaces.HeightField, ...] = varnished.fields(3)
 base_n: np.ndarray = op.load_sample("gold-rough").indices(["500 nm", 6e-7]).n
 smoothed: op.LayerStack = varnished.smooth("30 deg")

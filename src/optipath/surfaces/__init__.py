@@ -8,7 +8,7 @@ from optipath.spelling import closest
 if TYPE_CHECKING:
     from optipath.surfaces.ends.photon_ends import photon_ends
     from optipath.surfaces.energies.energy import energy
-    from optipath.surfaces.facet_model import single_scattering
+    from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
 
 __all__ = ["HeightField", "energy", "photon_ends", "single_scattering"]
@@ -17,7 +17,7 @@ _HOMES = {
     "HeightField": "fields.height_field",
     "energy": "energies.energy",
     "photon_ends": "ends.photon_ends",
-    "single_scattering": "facet_model",
+    "single_scattering": "facets.facet_model",
 }
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 

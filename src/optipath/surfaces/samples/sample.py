@@ -23,8 +23,6 @@ from optipath.values.whole_numbers import is_whole, whole_number
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    import numpy.typing as npt
-
     from optipath.surfaces.samples.sample_indices import SampleIndices
     from optipath.values.materials import Material
 
@@ -162,7 +160,7 @@ class Sample(Unchanging):
             periodic=self.periodic,
         )
 
-    def indices(self, wavelength: str | npt.ArrayLike | None = None) -> SampleIndices:
+    def indices(self, wavelength: Any = None) -> SampleIndices:
         """Return the indices of refraction of all media.
 
         Parameters

@@ -10,7 +10,7 @@ from optipath.elements.single_boundary import number_within, parts_of
 from optipath.errors import SurfaceError, ValueFault, unknown
 from optipath.kernels.facets.smith_masking import MASKINGS
 from optipath.paths.format.faults import Faults
-from optipath.surfaces.directions import frame_along
+from optipath.surfaces.facets.directions import frame_along
 from optipath.surfaces.samples.sample_media import depends_on_wavelength
 from optipath.values.arrays.shapes import check_broadcast, first_place
 from optipath.values.domains.domain import Domain

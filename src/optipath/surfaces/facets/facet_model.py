@@ -9,7 +9,7 @@ import numpy as np
 from optipath.kernels.catalogue import REFLECTION
 from optipath.kernels.facets.facet_scattering import FacetScattering
 from optipath.light.mueller.matrix import Mueller
-from optipath.surfaces.facet_inputs import read_facets
+from optipath.surfaces.facets.facet_inputs import read_facets
 from optipath.values.arrays.jax_values import is_traced, namespace
 from optipath.values.arrays.kernel_values import kernel_values
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optipath.errors import SurfaceError
-from optipath.surfaces.directions import frame_along
+from optipath.surfaces.facets.directions import frame_along
 
 
 def test_x_is_the_normal_cross_the_direction():

@@ -1,0 +1,1 @@
+"""The single-scattering model: rough surfaces as facets that light meets once."""
