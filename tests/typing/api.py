@@ -60,7 +60,7 @@ drawn: tuple[op.surfaces.HeightField, ...] = varnished.fields(3)
 base_n: np.ndarray = op.load_sample("gold-rough").indices(["500 nm", 6e-7]).n
 smoothed: op.LayerStack = varnished.smooth("30 deg")
 ready: list[str] = op.sample_names()
-as_file: str = varnished.to_toml()
+as_file: str = op.load_sample("glass-rough").to_toml()
 scanned = op.surfaces.HeightField.from_heights([[0.0, 1.0, 0.0]] * 3, size=2.0, periodic=False)
 steepness: tuple[float, float] = scanned.mean_square_slopes
 film: op.Light = (

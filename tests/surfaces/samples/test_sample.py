@@ -154,20 +154,6 @@ def refused(*given, **others):
     return error.value.faults
 
 
-@pytest.mark.parametrize("layers", [[], (), None, 1.5, "glass", {(1.5, 0.1)}])
-def test_layers_must_be_a_list_of_some(layers):
-    (fault,) = refused(layers)
-    assert fault.startswith("layers is ")
-    assert fault.endswith("its roughness, such as [(1.5, 0.1)]")
-
-
-@pytest.mark.parametrize("layer", [1.5, (1.5,), (1.5, 0.1, 0.2), None, "1.5"])
-def test_a_layer_must_be_a_pair(layer):
-    (fault,) = refused([(1.5, 0.1), layer])
-    assert fault.startswith("layers[1] is ")
-    assert fault.endswith("roughness, such as (1.5, 0.1)")
-
-
 @pytest.mark.parametrize(
     ("option", "value", "sentence"),
     [
@@ -188,19 +174,6 @@ def test_an_option_that_is_none_is_told_with_the_cure(option, value, sentence):
     assert refused([(1.5, 0.1)], **{option: value}) == (sentence,)
 
 
-@pytest.mark.parametrize("roughness", [0, HeightField.flat(), heights()])
-def test_cells_of_no_random_interface_are_refused(roughness):
-    assert refused([(1.5, roughness)], cells=640) == (
-        "cells is given, but no interface is random; leave it out",
-    )
-
-
-def test_periodic_heights_in_a_sample_that_is_not_to_be_periodic_are_refused():
-    (fault,) = refused([(1.5, 0.1), (2.4, heights(periodic=True))], periodic=False)
-    assert fault.startswith("periodic is False, but the heights of layers[1] are periodic")
-    op.Sample([(1.5, 0.1), (2.4, heights()), (1.5, HeightField.flat())], periodic=False)
-
-
 def test_all_faults_are_told_at_once():
     layers = [(1.5j, -0.1), 3, (0, np.nan)]
     others = {"outside": -1, "cells": 0, "surfaces": 0, "seed": -1, "periodic": "no"}
@@ -209,10 +182,6 @@ def test_all_faults_are_told_at_once():
         "outside", "layers[0].index", "layers[0].alpha", "layers[1]", "layers[2].index",
         "layers[2].alpha", "cells", "surfaces", "seed", "periodic",
     ]  # fmt: skip
-
-
-def test_equal_media_may_be_neighbours():
-    assert op.Sample([(1.0, 0.1), (1.0, 0.1)]).indices().inner == (1.0,)
 
 
 def test_smooth_is_the_stack_of_the_same_media_by_the_parameter_incidence():
