@@ -44,14 +44,17 @@ class Case(NamedTuple):
 GLASS = Case("1.5", 1.0, 1.0)
 CELLS = 2, 3, 4, 5, 8, 16, 32
 ALPHAS, INCIDENCES = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0), (0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
-GRAZING = Case("1j", 0.1, 1.5)
+GRAZING, STEEP = Case("1j", 0.1, 1.5), Case("1.5", 1.0, 1.5)
+WIDTHS = (10, 1000, 64), (20, 1000, 64), (40, 1000, 64), (80, 5000, 32), (160, 5000, 16)
 
 BY_CELLS = [GLASS._replace(alpha=a, cells=c) for a in (0.1, 0.3, 1.0) for c in CELLS]
-BY_WIDTH = [
-    case._replace(lengths=n, waves=waves, surfaces=surfaces)
-    for case in (GLASS, GRAZING)
-    for n, waves, surfaces in ((10, 1000, 64), (20, 1000, 64), (40, 1000, 64), (80, 5000, 32))
-]
+BY_WIDTH = {
+    name: [
+        case._replace(lengths=lengths, waves=waves, surfaces=surfaces)
+        for lengths, waves, surfaces in WIDTHS[:count]
+    ]
+    for name, case, count in (("T_m", GLASS, 4), ("T_s", STEEP, 5), ("R_m", GRAZING, 4))
+}
 BY_WAVES = [GLASS._replace(waves=n, surfaces=64) for n in (30, 100, 300, 1000, 3000)]
 BY_KIND = [GLASS._replace(lengths=80, cells=8, kind=kind) for kind in ("finite", "independent")]
 BY_DIRECTION = [Case("1j", alpha, theta, surfaces=8) for alpha in ALPHAS for theta in INCIDENCES]
@@ -121,7 +124,10 @@ def keep(file):
     return known
 
 
-CASES = BY_CELLS + BY_WAVES + BY_WIDTH + BY_KIND + USUAL + LARGE + BY_DIRECTION + AT_A_BORDER
+CASES = [
+    *(BY_CELLS + BY_WAVES + BY_KIND + USUAL + LARGE + BY_DIRECTION + AT_A_BORDER),
+    *sum(BY_WIDTH.values(), []),
+]
 
 
 def number(shares, name):
@@ -151,7 +157,7 @@ def tables(known):
         apart = f"{100 * (known[case]['T_m'][0] / finest - 1):+.1f} %" if finest > 1e-3 else ""
         rows.append([case.alpha, case.cells, *(number(known[case], s) for s in SHARES[:4]), apart])
     table(["alpha", "cells", *SHARES[:4], "T_m, beside 32 cells"], rows)
-    for cases, name in ((BY_WIDTH[:4], "T_m"), (BY_WIDTH[4:], "R_m"), (BY_WAVES + BY_KIND, "T_m")):
+    for name, cases in (*BY_WIDTH.items(), ("T_m", BY_WAVES + BY_KIND)):
         heads = ["width", "waves", "kind", name, "one surface beside others", "lost"]
         found = [(case, known[case]) for case in cases]
         table(
@@ -210,7 +216,7 @@ def draw(known, folder):
     figure, axes = plt.subplots(1, 3, figsize=(11.0, 3.8), layout="constrained")
     figure.suptitle("Transmitted after several events: index 1.5, alpha 1, incidence 1 rad")
     by_cells(axes[0], known)
-    by_choice(axes[1], known, BY_WIDTH[:4], "lengths", "width of the field, correlation lengths")
+    by_choice(axes[1], known, BY_WIDTH["T_m"], "lengths", "width of the field, correlation lengths")
     by_choice(axes[2], known, BY_WAVES, "waves", "random waves")
     save(figure, folder / "surface-convergence.png")
     figure, axes = plt.subplots(figsize=(7.0, 4.2), layout="constrained")
