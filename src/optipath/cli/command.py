@@ -15,7 +15,15 @@ from click.shell_completion import shell_complete
 
 from optipath.cli.interrupts import interruptible
 from optipath.cli.whole_help import WholeHelp
-from optipath.errors import INTERRUPTED, LoopWarning, OptipathError, did_you_mean, printable
+from optipath.errors import (
+    INTERRUPTED,
+    LoopWarning,
+    MeshWarning,
+    OptipathError,
+    ToleranceWarning,
+    did_you_mean,
+    printable,
+)
 from optipath.values.cures import of_files
 from optipath.values.written_units import units_are_written
 
@@ -34,6 +42,7 @@ _COMMANDS = (
     "presets",
     "run",
     "show",
+    "surface",
     "sweep",
 )
 
@@ -135,6 +144,8 @@ def _run(arguments: Sequence[str]) -> int:
     try:
         with warnings.catch_warnings(), units_are_written(), of_files():
             warnings.simplefilter("always", LoopWarning)
+            for once in (MeshWarning, ToleranceWarning):  # The same of each surface.
+                warnings.simplefilter("default", once)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
             _invoke(arguments)
         sys.stdout.flush()

@@ -5,7 +5,13 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import (
+    BarColumn,
+    Progress,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
 
 from optipath.cli.console import PlainConsole
 
@@ -14,14 +20,27 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def progress_bar(total: float) -> Iterator[Callable[..., None]]:
-    """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``."""
-    columns = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+def progress_bar(total: float, *, remaining: bool = False) -> Iterator[Callable[..., None]]:
+    """Show a bar; what is yielded takes what is being done, and ``advance`` or ``completed``.
+
+    Parameters
+    ----------
+    total : float
+        What is completed at the end.
+    remaining : bool, optional
+        Whether the time is told that what is left will take, too.
+
+    Yields
+    ------
+    callable
+    """
+    told = TextColumn("{task.description}"), BarColumn(), TimeElapsedColumn()
+    left = (TextColumn("left:"), TimeRemainingColumn()) if remaining else ()
     console = PlainConsole(stderr=True)
     if not console.is_terminal:  # Older versions of rich end even a bar that is not shown.
         yield lambda *_, **_change: None
         return
-    with Progress(*columns, console=console, transient=True) as bar:
+    with Progress(*told, *left, console=console, transient=True) as bar:
         task = bar.add_task("", total=total)
 
         def tell(what: str, **change: Any) -> None:

@@ -23,6 +23,7 @@ from optipath.surfaces.walk.walk_layout import (
     END_X,
     EVENTS,
     OUTCOME,
+    OUTCOME_NAMES,
 )
 from optipath.values.whole_numbers import whole_number
 
@@ -62,9 +63,6 @@ class PhotonEnds:
     x: Numbers
     stokes: Numbers
     scalar: Numbers
-
-
-_WORDS = np.array(["up", "down", "sideways", "stuck"])
 
 
 def photon_ends(
@@ -137,7 +135,7 @@ def _ends_of(beam: PhotonBeam, found: Numbers) -> PhotonEnds:
     stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
     shape = (len(found), *beam.indices.n.shape)
     return PhotonEnds(
-        ends=_WORDS[found[:, OUTCOME].astype(int)],
+        ends=np.array(OUTCOME_NAMES)[found[:, OUTCOME].astype(int)],
         events=found[:, EVENTS].astype(int),
         directions=k,
         x=np.stack(np.broadcast_arrays(*x), axis=-1),

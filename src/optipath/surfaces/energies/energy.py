@@ -2,29 +2,27 @@
 
 from __future__ import annotations
 
-import os
 import warnings
 from math import ceil
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import SurfaceError, ToleranceWarning, shown
-from optipath.surfaces.energies.energy_run import EnergyRun
-from optipath.surfaces.walk.given_beam import UNPOLARISED, given_beam
+from optipath.errors import ToleranceWarning
+from optipath.surfaces.energies.given_run import given_run
+from optipath.surfaces.walk.given_beam import UNPOLARISED
 from optipath.surfaces.walk.photon_beam import BLOCK
-from optipath.values.whole_numbers import whole_number
+from optipath.values.calls_up import calls_up
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     import numpy.typing as npt
 
+    from optipath.surfaces.energies.energy_run import EnergyRun
     from optipath.surfaces.energies.energy_table import Energy
     from optipath.surfaces.samples.sample import Sample
-
-_PHOTONS, _MOST_PHOTONS = 1_000_000, 1_000_000_000
-"""How many there are by default, and how many at most where a tolerance is given."""
 
 _AIM = 1.1
 """How many times as many photons are walked as the error so far asks for."""
@@ -97,29 +95,46 @@ def energy(
     >>> bool(0.001 < found.R_m < 0.005), bool(abs(found.scalar.R + found.scalar.T - 1.0) < 1e-12)
     (True, True)
     """
-    faults = [] if photons is None else whole_number("photons", photons)
-    faults += [] if threads is None else whole_number("threads", threads)
-    if tolerance is not None and not (np.isreal(tolerance) and 0.0 < tolerance < 1.0):
-        faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
-    try:
-        beam = given_beam(
-            sample,
-            incidence,
-            azimuth,
-            wavelength=wavelength,
-            stokes=stokes,
-            seed=seed,
-            most_events=most_events,
-        )
-    except SurfaceError as error:
-        faults += error.faults
-    if faults:
-        raise SurfaceError(*faults)
-    run = EnergyRun(beam, processors() if threads is None else int(threads))
-    if tolerance is None:
-        run.walk(_PHOTONS if photons is None else int(photons), progress)
-        return run.energy
-    return walk_until(run, tolerance, _MOST_PHOTONS if photons is None else int(photons), progress)
+    run, most = given_run(
+        sample,
+        incidence,
+        photons,
+        tolerance=tolerance,
+        threads=threads,
+        azimuth=azimuth,
+        wavelength=wavelength,
+        stokes=stokes,
+        seed=seed,
+        most_events=most_events,
+    )
+    return walk_wanted(run, most, tolerance, progress)
+
+
+def walk_wanted(
+    run: EnergyRun,
+    most: int,
+    tolerance: float | None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Energy:
+    """Walk as many photons as are wanted.
+
+    Parameters
+    ----------
+    run : EnergyRun
+        What has been walked; it has what is done where this is interrupted.
+    most : int
+        How many photons there are to be; with a tolerance, how many at most.
+    tolerance, progress
+        As `energy` takes them.
+
+    Returns
+    -------
+    Energy
+    """
+    if tolerance is not None:
+        return walk_until(run, tolerance, most, progress)
+    run.walk(most, progress)
+    return run.energy
 
 
 def walk_until(
@@ -158,18 +173,11 @@ def walk_until(
         if run.photons >= most:
             warnings.warn(
                 f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
-                f"the tolerance of {tolerance:g}; allow more photons, or more surfaces= of the "
-                f"sample where these differ",
+                f"the tolerance of {tolerance:g}; allow more {cure('photons', '--photons')}, or "
+                f"more {cure('surfaces=', '--surfaces')} of the sample where these differ",
                 ToleranceWarning,
-                stacklevel=3,
+                stacklevel=calls_up(),
             )
             return found
         factor = min(_AIM * (error / tolerance) ** 2, 8.0)
         wanted = min(BLOCK * ceil(factor * run.photons / BLOCK), most)
-
-
-def processors() -> int:
-    """Return how many processors this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
 
@@ -13,12 +14,13 @@ from optipath.surfaces.walk.walk_code import walk_code
 from optipath.surfaces.walk.walk_layout import MOST_COUNTED, OUTCOMES, SUMS
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
+    from concurrent.futures import Future
 
     from optipath.surfaces.walk.photon_beam import PhotonBeam, WalkedBlock
 
-_FEWEST = 32
-"""How many blocks are handed out at a time, at least."""
+_AHEAD = 4
+"""How many blocks a thread are handed out before the first of them is waited for."""
 
 
 class EnergyRun:
@@ -55,18 +57,29 @@ class EnergyRun:
         walk_code()
         last = -(-photons // BLOCK)
         todo = range(self.blocks, last)
-        for surface in {number % self.beam.surfaces for number in todo}:
+        for surface in {number % self.beam.surfaces for number in todo[: self.beam.surfaces]}:
             self.beam.meshes(surface)
         executor = ThreadPoolExecutor(self.threads)
         try:
-            for walked in executor.map(
-                self.beam.block, todo, [min(BLOCK, photons - BLOCK * number) for number in todo]
-            ):
+            for walked in self._in_order(executor, todo, photons):
                 self._add(walked)
                 if progress is not None:
                     progress(self.photons, photons)
         finally:
             executor.shutdown(cancel_futures=True)
+
+    def _in_order(
+        self, executor: ThreadPoolExecutor, todo: range, photons: int
+    ) -> Iterator[WalkedBlock]:
+        """Yield blocks in their order; no more are handed out than keep all threads at work."""
+        waiting: deque[Future[WalkedBlock]] = deque()
+        for number in todo:
+            size = min(BLOCK, photons - BLOCK * number)
+            waiting.append(executor.submit(self.beam.block, number, size))
+            if len(waiting) > _AHEAD * self.threads:
+                yield waiting.popleft().result()
+        for future in waiting:
+            yield future.result()
 
     def _add(self, walked: WalkedBlock) -> None:
         self.beam.checked(walked, self.blocks)

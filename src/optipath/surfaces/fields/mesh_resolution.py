@@ -9,6 +9,7 @@ import numpy as np
 
 from optipath.errors import MeshWarning
 from optipath.values.calls_up import calls_up
+from optipath.values.cures import cure
 
 CONVERGED = 16
 """How many cells a correlation length needs where light is scattered several times."""
@@ -97,7 +98,7 @@ def warn_of_coarse(
     warnings.warn(
         f"a mesh of {cells[0]} x {cells[1]} cells has {had:.4g} a correlation length 2/alpha, and "
         f"needs {needed} at alpha {max(alpha):.4g}: slopes are lost, and {_missing(had)} of the "
-        f"light that is transmitted after several events; cells={enough} are enough",
+        f"light that is transmitted after several events; {_cure(enough)} are enough",
         MeshWarning,
         stacklevel=calls_up(),
     )
@@ -106,6 +107,10 @@ def warn_of_coarse(
 def _cells(each: int, lengths: float) -> int:
     # The rounding of a product is no cell more; what no machine has memory for is told as such.
     return max(2, math.ceil(min(each * lengths * (1.0 - 1e-12), 1e18)))
+
+
+def _cure(cells: tuple[int, ...]) -> str:
+    return cure(f"cells={cells}", f"--cells {','.join(map(str, cells))}")
 
 
 def _missing(cells: float) -> str:

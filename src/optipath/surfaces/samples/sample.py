@@ -12,6 +12,7 @@ from optipath.errors import SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.fields.given_fields import cells_of
 from optipath.surfaces.fields.height_field import HeightField
+from optipath.surfaces.samples.replaying import Replaying
 from optipath.surfaces.samples.sample_indices import indices_of
 from optipath.surfaces.samples.sample_layers import layers_of, unused_faults
 from optipath.surfaces.samples.sample_media import CLEAR_MEDIUM, medium_of
@@ -31,7 +32,7 @@ _WIDTH = 80.0
 
 
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
-class Sample(Unchanging):
+class Sample(Replaying, Unchanging):
     """Rough or flat interfaces one below the other, and the media between them.
 
     Heights over x and y, lengths of the fields and wavelengths are no part of each other: light

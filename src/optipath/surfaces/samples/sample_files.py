@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from optipath.errors import PresetError, SurfaceError
 from optipath.paths.presets.toml_files import file_of, names_in, presets_folder, text_of
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     from os import PathLike
@@ -25,6 +26,20 @@ def sample_names() -> list[str]:
     True
     """
     return names_in(_folder())
+
+
+def sample_descriptions() -> dict[str, str]:
+    """Return what each sample that comes with the library is, by name, without making it.
+
+    Examples
+    --------
+    >>> sample_descriptions()["glass-rough"]
+    'A rough surface of glass'
+    """
+    from optipath.paths.presets.toml_text import parsed  # noqa: PLC0415 - not for every import
+
+    files = {name: _folder() / f"{name}.toml" for name in sample_names()}
+    return {name: parsed(text_of(f, _WHAT), str(f))["description"] for name, f in files.items()}
 
 
 def load_sample(sample: str | PathLike[str]) -> Sample:
@@ -49,13 +64,15 @@ def load_sample(sample: str | PathLike[str]) -> Sample:
     >>> load_sample("glass-on-glass").layers
     ((1.5, 0.1), (2.4, 0.1))
     """
-    from optipath.surfaces.samples.sample_tables import sample_of_text  # noqa: PLC0415 - not for every import
-
     try:
-        path = file_of(sample, _WHAT, _folder(), "op.sample_names()")
+        names = cure("op.sample_names()", "`optipath surface`")
+        path = file_of(sample, _WHAT, _folder(), names)
         text = text_of(path, _WHAT)
     except PresetError as error:
         raise SurfaceError(*error.faults) from None
+    # A wrong name is told at once.
+    from optipath.surfaces.samples.sample_tables import sample_of_text  # noqa: PLC0415
+
     return sample_of_text(text, path)
 
 

@@ -11,6 +11,7 @@ from optipath.errors import OptipathError, SurfaceError
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.samples.sample_media import BASE, CLEAR_MEDIUM, depends_on_wavelength
 from optipath.values.arrays.jax_values import is_traced
+from optipath.values.cures import cure
 from optipath.values.curves.curve_value import CurveValue
 from optipath.values.resolved import THERE
 from optipath.values.use import Use
@@ -52,6 +53,11 @@ class SampleIndices(NamedTuple):
     def opaque(self) -> bool:
         """Whether all light that meets the last interface is reflected or absorbed there."""
         return bool(np.all(self.k))
+
+    @property
+    def base(self) -> Any:
+        """That of the base as one number n + ik, or an array of such."""
+        return (self.n + 1j * self.k)[()]
 
 
 def indices_of(media: Mapping[str, Any], wavelength: Any) -> SampleIndices:
@@ -100,7 +106,8 @@ def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     if wavelength is None and dependent is None:
         return {}
     if wavelength is None:
-        raise SurfaceError(f"{dependent} depends on the wavelength; give one, wavelength='550 nm'")
+        how = cure("wavelength='550 nm'", "--wavelength '550 nm'")
+        raise SurfaceError(f"{dependent} depends on the wavelength; give one, {how}")
     if dependent is None:
         raise SurfaceError("wavelength is given, but no medium depends on it; leave it out")
     if is_traced(wavelength):

@@ -63,9 +63,13 @@ def given_beam(
     if incidence is not None and cos(incidence) < _LEAST_COSINE:
         faults.append("incidence is 90 deg, along the sample, where no light gets to it; give less")
     faults += whole_number("seed", seed, 0) + whole_number("most_events", most_events)
-    light = faults.attempt("", _one, "stokes", stokes, _STOKES)
+    light = faults.attempt("", _one, "stokes", stokes, _STOKES.unphysical)
     if light is not None and not light[0] > 0.0:
         faults.append("stokes has no intensity; give S0 > 0")
+    elif light is not None and not _STOKES.allows(np.array(light)):
+        faults.append(
+            f"stokes is {[*light]}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
+        )
     indices = faults.attempt("", sample.indices, wavelength)
     if faults or indices is None or light is None:
         raise SurfaceError(*faults)

@@ -43,6 +43,8 @@ class WalkedBlock(NamedTuple):
         As `walk_layout` says.
     record : ndarray, shape (events + 1, RECORD)
         The photon that was wanted.
+    starts : ndarray, shape (2 layers,)
+        Where on each mesh the last photon has started, along x and along y.
     lights : ndarray, shape (lights, CARRIED)
         The lights of the last photon.
     ends : ndarray, shape (photons, ENDS + CARRIED lights)
@@ -52,6 +54,7 @@ class WalkedBlock(NamedTuple):
     photons: int
     sums: npt.NDArray[np.float64]
     record: npt.NDArray[np.float64]
+    starts: npt.NDArray[np.float64]
     lights: npt.NDArray[np.float64]
     ends: npt.NDArray[np.float64]
 
@@ -141,7 +144,7 @@ class PhotonBeam:
             *map(address, (state, starts, lights, sums, record, ends)),
             int(keeps),
         )
-        return WalkedBlock(found, sums, record, lights, ends)
+        return WalkedBlock(found, sums, record, starts, lights, ends)
 
     def checked(self, walked: WalkedBlock, number: int) -> WalkedBlock:
         """Return a block; refuse one that is none.

@@ -9,6 +9,9 @@ OPAQUE = 0.0
 UP, DOWN, SIDEWAYS, STUCK, NEVER = range(5)
 """How a photon ends: above, below, beside the field, on its way; or it has met nothing at all."""
 
+OUTCOME_NAMES = ("up", "down", "sideways", "stuck")
+"""What they are called."""
+
 OUTCOMES, MOST_COUNTED = 4, 16
 """How many ends are counted, and up to how many events are told apart."""
 

@@ -1,0 +1,82 @@
+"""``optipath surface``: what share of light a rough sample sends back and lets through."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+from click.core import ParameterSource
+
+from optipath.cli.console import JSON, PlainConsole, cell, headed, say, say_json, title
+from optipath.cli.misplaced import StrictCommand
+from optipath.cli.surface_options import REDRAWING, SAMPLE, WALKING
+from optipath.errors import listed
+from optipath.surfaces.samples.sample_files import load_sample, sample_descriptions
+
+if TYPE_CHECKING:
+    from optipath.cli.energy_outcome import EnergyOutcome
+
+
+def _surface(sample: str | None, *, as_json: bool, **options: Any) -> None:
+    """List rough samples, or tell what share of light one of them sends back and lets through."""
+    if sample is None:
+        _list_samples(as_json=as_json)
+    else:
+        _walk(sample, as_json=as_json, **options)
+
+
+surface = click.command("surface", cls=StrictCommand, params=[SAMPLE, *WALKING, *REDRAWING, JSON])(
+    _surface
+)
+
+
+def _walk(sample: str, *, as_json: bool, **options: Any) -> None:
+    """Walk photons from each direction, and tell of them at once, or all in one JSON object."""
+    loaded = load_sample(sample)
+    # Neither a list of samples nor a wrong name needs numbers.
+    from optipath.cli.energy_outcome import energy_as_json, walked  # noqa: PLC0415
+    from optipath.cli.given_walk import given_walks  # noqa: PLC0415
+    from optipath.cli.photon_bar import photon_bar  # noqa: PLC0415
+    from optipath.cli.printed_energy import print_energy  # noqa: PLC0415
+
+    walks = given_walks(loaded, **options)
+    found: list[EnergyOutcome] = []
+    try:
+        for walk in walks:
+            with photon_bar(walk.direction) as progress:
+                found.append(walked(walk, progress))
+            if not as_json:
+                if len(found) == 1:
+                    PlainConsole().print(title(sample, loaded.description))
+                say("")
+                print_energy(found[-1])
+            if found[-1].interrupted:
+                raise KeyboardInterrupt
+    finally:
+        if as_json and found:
+            several = [energy_as_json(outcome) for outcome in found]
+            one = several[0] if len(walks) == 1 else {"directions": several}
+            say_json({"sample": sample, **one})
+
+
+def _list_samples(*, as_json: bool) -> None:
+    context = click.get_current_context()
+    options = [one for one in context.command.params if one.name not in ("sample", "as_json")]
+    given = [
+        one.opts[0]
+        for one in options
+        if context.get_parameter_source(one.name or "") is not ParameterSource.DEFAULT
+    ]
+    descriptions = sample_descriptions()
+    if given:
+        names = ", ".join(descriptions)
+        raise click.UsageError(
+            f"SAMPLE is missing, beside {listed(given)}; give a file or one of: {names}"
+        )
+    if as_json:
+        say_json(descriptions)
+        return
+    table = headed("sample", "what it is", box=None)
+    for name, description in descriptions.items():
+        table.add_row(cell(name), cell(description))
+    PlainConsole().print(table)

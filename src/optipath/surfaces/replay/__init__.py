@@ -1,0 +1,1 @@
+"""One photon of a sample, event by event, and as a path of elements."""
