@@ -126,7 +126,7 @@ def keep(file):
 
 CASES = [
     *(BY_CELLS + BY_WAVES + BY_KIND + USUAL + LARGE + BY_DIRECTION + AT_A_BORDER),
-    *sum(BY_WIDTH.values(), []),
+    *(case for cases in BY_WIDTH.values() for case in cases),
 ]
 
 
