@@ -29,9 +29,9 @@ PHOTONS = 3 * 16_384
 
 
 class Case(NamedTuple):
-    """Light on many surfaces of one kind; ``1j`` is the index of a perfect reflector."""
+    """Light on many surfaces of one kind."""
 
-    index: str
+    index: str  # below each interface, from the top; 1j of a perfect reflector
     alpha: float
     incidence: float
     lengths: int = 40  # correlation lengths 2 / alpha along each side
@@ -47,7 +47,7 @@ ALPHAS, INCIDENCES = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0), (0.0, 0.25, 0.5, 0.75, 1.0,
 GRAZING, STEEP = Case("1j", 0.1, 1.5), Case("1.5", 1.0, 1.5)
 WIDTHS = (10, 1000, 64), (20, 1000, 64), (40, 1000, 64), (80, 5000, 32), (160, 5000, 16)
 
-BY_CELLS = [GLASS._replace(alpha=a, cells=c) for a in (0.1, 0.3, 1.0) for c in CELLS]
+BY_CELLS = [GLASS._replace(alpha=a, cells=c) for a in (0.3, 1.0) for c in CELLS]
 BY_WIDTH = {
     name: [
         case._replace(lengths=lengths, waves=waves, surfaces=surfaces)
@@ -66,16 +66,16 @@ USUAL = [
 ]
 LARGE = [case._replace(lengths=80, waves=5000, surfaces=24) for case in USUAL]
 AT_A_BORDER = [
-    Case("1.5", alpha, theta, lengths=lengths, kind="finite", surfaces=8)
+    Case("1.5 2.4", alpha, theta, lengths=lengths, kind="finite", surfaces=8)
     for alpha, lengths in ((0.1, 20), (0.1, 40), (1.0, 40))
     for theta in (0.0, 0.5, 1.0, 1.5)
 ]
 
 
 @functools.lru_cache(maxsize=32)
-def heights(lengths, cells, waves, kind, number):
+def heights(lengths, cells, waves, kind, number, layer):
     """Return the heights of one surface of alpha 1; others have the same ones further apart."""
-    seed = np.random.SeedSequence(0, spawn_key=(number, 0))  # as the fields of a sample have it
+    seed = np.random.SeedSequence(0, spawn_key=(number, layer))  # as a sample's fields have it
     size, side = 2.0 * lengths, lengths * cells
     if kind != "independent":
         with warnings.catch_warnings():
@@ -92,14 +92,19 @@ def heights(lengths, cells, waves, kind, number):
     return drawn.heights(places, places)
 
 
+def field_of(case, number, layer):
+    """Return one of the fields of a case."""
+    surface = heights(case.lengths, case.cells, case.waves, case.kind, number, layer)
+    size = (2.0 * case.lengths / case.alpha,) * 2
+    return HeightField(surface, size, case.kind == "periodic", (case.alpha, case.alpha))
+
+
 def measured(case):
     """Return mean, standard error and, without the photons' chance, spread over surfaces."""
     found = []
     for number in range(case.surfaces):
-        surface = heights(case.lengths, case.cells, case.waves, case.kind, number)
-        size = (2.0 * case.lengths / case.alpha,) * 2
-        field = HeightField(surface, size, case.kind == "periodic", (case.alpha, case.alpha))
-        sample = op.Sample([(complex(case.index), field)])
+        layers = enumerate(case.index.split())
+        sample = op.Sample([(complex(n), field_of(case, number, layer)) for layer, n in layers])
         one = energy(sample, case.incidence, photons=PHOTONS, seed=number, threads=1)
         found.append([[getattr(one, name + end) for name in SHARES] for end in ("", "_se")])
     means, errors = np.moveaxis(np.array(found), 1, 0)
@@ -115,19 +120,18 @@ def keep(file):
     if file.exists():
         for row in json.loads(file.read_text("utf-8")):
             known[Case(*row["case"])] = row["shares"]
-    for case in dict.fromkeys(CASES):
+    for case in CASES:
         if case not in known:
             known[case] = measured(case)
             print(*case, known[case], file=sys.stderr, flush=True)
-            rows = [json.dumps({"case": each, "shares": known[each]}) for each in known]
-            write_file(file, f"[{(',' + chr(10)).join(rows)}]\n".encode())
+            rows = [{"case": each, "shares": known[each]} for each in CASES if each in known]
+            text = ",\n".join(json.dumps(row) for row in rows)
+            write_file(file, f"[{text}]\n".encode())
     return known
 
 
-CASES = [
-    *(BY_CELLS + BY_WAVES + BY_KIND + USUAL + LARGE + BY_DIRECTION + AT_A_BORDER),
-    *(case for cases in BY_WIDTH.values() for case in cases),
-]
+_ALL = [BY_CELLS, BY_WAVES, BY_KIND, USUAL, LARGE, BY_DIRECTION, AT_A_BORDER, *BY_WIDTH.values()]
+CASES = list(dict.fromkeys(case for cases in _ALL for case in cases))
 
 
 def number(shares, name):
