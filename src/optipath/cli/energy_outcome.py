@@ -92,7 +92,7 @@ def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:
     if given.wavelengths is not None:
         found["wavelength"] = plain(given.wavelengths.shown)
         units["wavelength"] = given.wavelengths.unit
-    found |= {"units": units, "surfaces": beam.surfaces, "seed": beam.seed}
+    found |= {"units": units, "seed": beam.seed}
     if given.tolerance is not None:
         found["tolerance"] = given.tolerance
     found |= {"interrupted": outcome.interrupted, "seconds": outcome.seconds}

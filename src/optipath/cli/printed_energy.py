@@ -78,7 +78,7 @@ def print_energy(outcome: EnergyOutcome) -> None:
 def _walked(outcome: EnergyOutcome) -> str:
     """Say how many photons there were, and what has become of those that are lost."""
     energy, beam = outcome.energy, outcome.given.run.beam
-    surfaces = "one surface" if beam.surfaces == 1 else f"{beam.surfaces:,} surfaces"
+    surfaces = "one surface" if energy.surfaces == 1 else f"{energy.surfaces:,} surfaces"
     said = f"{energy.photons:,} photons on {surfaces}, seed {beam.seed}, {outcome.seconds:.1f} s"
     if outcome.interrupted:
         said += f"; interrupted, {outcome.given.wanted:,} were wanted"

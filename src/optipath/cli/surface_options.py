@@ -78,7 +78,7 @@ SURFACES = click.Option(
     ["--surfaces"],
     type=_whole,
     metavar="NUMBER",
-    help="How many surfaces are drawn, in place of the sample's.",
+    help="How many surfaces take turns, in place of the sample's.",
 )
 CELLS = click.Option(
     ["--cells"], metavar="N|N,N", help="Cells of random surfaces along x and y, ditto."

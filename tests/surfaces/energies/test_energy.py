@@ -142,11 +142,10 @@ def test_light_that_meets_nothing_of_a_finite_field_is_told():
         surfaces.energy(op.Sample([(1.5, field)]), "89.9999 deg", photons=100)
 
 
-def test_photons_are_walked_no_longer_where_the_surfaces_differ():
-    # One of these is flat, and one steep.
-    two = op.Sample([(1.5, 0.5)], surfaces=2)
-    steep = surfaces.HeightField([[0.0, 1.0], [0.0, 1.0]], 2.0, periodic=True)
-    vars(two)["_drawn"] = {0: (surfaces.HeightField.flat(),), 1: (steep,)}
-    with pytest.warns(op.ToleranceWarning, match="since the surfaces differ; take more surfaces="):
-        found = surfaces.energy(two, "70 deg", tolerance=1e-4)
-    assert found.photons < 10_000_000
+def test_many_photons_get_new_surfaces_so_that_the_error_goes_on_falling():
+    sample = op.Sample([(1.5, 0.5)], surfaces=1)
+    few, many = [
+        surfaces.energy(sample, "40 deg", photons=photons) for photons in (1 << 20, (1 << 20) + 1)
+    ]
+    assert (few.surfaces, many.surfaces) == (1, 2)
+    assert sample.fields(1)[0] != sample.fields(0)[0]

@@ -127,9 +127,9 @@ def test_too_few_cells_are_warned_of_when_they_are_drawn():
         sample.fields()
 
 
-@pytest.mark.parametrize("surface", [-1, 8, 0.5, True, None])
+@pytest.mark.parametrize("surface", [-1, 0.5, True, None])
 def test_a_surface_that_there_is_not_is_refused(surface):
-    with pytest.raises(op.SurfaceError, match=r"is none of the sample's; give one of 0 \.\. 7"):
+    with pytest.raises(op.SurfaceError, match="surface must be a whole number of 0 or more"):
         op.Sample([(1.5, 0.4)]).fields(surface)
 
 

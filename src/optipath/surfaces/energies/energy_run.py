@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.surfaces.energies.energy_table import Energy
+from optipath.surfaces.walk.kept_meshes import kept_meshes
 from optipath.surfaces.walk.photon_beam import BLOCK
 from optipath.surfaces.walk.walk_code import walk_code
 from optipath.surfaces.walk.walk_layout import MOST_COUNTED, OUTCOMES, SUMS
@@ -16,6 +17,8 @@ from optipath.surfaces.walk.walk_layout import MOST_COUNTED, OUTCOMES, SUMS
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from concurrent.futures import Future
+
+    import numpy.typing as npt
 
     from optipath.surfaces.walk.photon_beam import PhotonBeam, WalkedBlock
 
@@ -37,7 +40,7 @@ class EnergyRun:
     def __init__(self, beam: PhotonBeam, threads: int) -> None:
         self.beam, self.threads = beam, threads
         self.blocks, self.photons = 0, 0
-        self._sums = np.zeros((beam.surfaces, OUTCOMES, MOST_COUNTED, beam.lights, SUMS))
+        self._sums: list[npt.NDArray[np.float64]] = []
 
     def walk(self, photons: int, progress: Callable[[int, int], None] | None = None) -> None:
         """Walk on until there are as many photons in all; what is done stays if it is interrupted.
@@ -57,8 +60,6 @@ class EnergyRun:
         walk_code()
         last = -(-photons // BLOCK)
         todo = range(self.blocks, last)
-        for surface in {number % self.beam.surfaces for number in todo[: self.beam.surfaces]}:
-            self.beam.meshes(surface)
         executor = ThreadPoolExecutor(self.threads)
         try:
             for walked in self._in_order(executor, todo, photons):
@@ -75,6 +76,8 @@ class EnergyRun:
         waiting: deque[Future[WalkedBlock]] = deque()
         for number in todo:
             size = min(BLOCK, photons - BLOCK * number)
+            # Here and not by a thread, whose warnings nobody would know where from.
+            kept_meshes(self.beam.sample).of(self.beam.surface(number))
             waiting.append(executor.submit(self.beam.block, number, size))
             if len(waiting) > _AHEAD * self.threads:
                 yield waiting.popleft().result()
@@ -83,10 +86,13 @@ class EnergyRun:
 
     def _add(self, walked: WalkedBlock) -> None:
         self.beam.checked(walked, self.blocks)
-        self._sums[self.blocks % len(self._sums)] += walked.sums
+        surface = self.beam.surface(self.blocks)
+        if surface == len(self._sums):
+            self._sums.append(np.zeros((OUTCOMES, MOST_COUNTED, self.beam.lights, SUMS)))
+        self._sums[surface] += walked.sums
         self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
 
     @property
     def energy(self) -> Energy:
         """What is known so far."""
-        return Energy.of(self.beam, self._sums)
+        return Energy.of(self.beam, np.array(self._sums))

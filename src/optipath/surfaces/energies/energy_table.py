@@ -38,6 +38,8 @@ class Energy(EnergyShares):
         error than two separate runs.
     photons : int
         How many there were.
+    surfaces : int
+        On how many realisations of random surfaces.
     sideways, stuck : int
         How many of them were lost beside a finite field, and after as many events as allowed.
     """
@@ -45,6 +47,7 @@ class Energy(EnergyShares):
     scalar: EnergyShares
     difference: EnergyShares
     photons: int
+    surfaces: int
     sideways: int
     stuck: int
 
@@ -86,6 +89,7 @@ class Energy(EnergyShares):
             scalar=shares(scalar, scalar_squares, 1.0),
             difference=shares(polarised - scalar, apart, 0.0),
             photons=int(photons.sum()),
+            surfaces=len(photons),
             sideways=int(counts[:, SIDEWAYS].sum()),
             stuck=int(counts[:, STUCK].sum()),
         )

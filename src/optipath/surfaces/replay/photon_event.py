@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from optipath.surfaces.walk.kept_meshes import kept_meshes
 from optipath.surfaces.walk.packed_meshes import HIGH, NUMBERS
 from optipath.surfaces.walk.walk_layout import (
     COLUMN,
@@ -148,7 +149,7 @@ def _on_mesh(
 ) -> Vector:
     """Return a point of the walk as that of a layer's own field, in the cell that was met."""
     field = beam.sample.fields(surface)[layer]
-    top = beam.meshes(surface).numbers[NUMBERS * layer + HIGH]
+    top = kept_meshes(beam.sample).of(surface).numbers[NUMBERS * layer + HIGH]
     shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
     found: Vector = position + np.array(shift)
     if field.periodic:

@@ -90,7 +90,7 @@ def replayed_photon(
 
 
 def _photon_of(beam: PhotonBeam, number: int, walked: WalkedBlock) -> Photon:
-    surface = number // BLOCK % beam.surfaces
+    surface = beam.surface(number // BLOCK)
     ends = walked.record[0]
     first, start_x, last, x = (
         ends[place : place + 3].copy() for place in (FIRST_K, FIRST_X, LAST_K, LAST_X)

@@ -19,7 +19,7 @@ from optipath.surfaces.samples.sample_media import CLEAR_MEDIUM, medium_of
 from optipath.values.arrays.read_only import Unchanging, same_fields
 from optipath.values.domains.quantities import YES_OR_NO
 from optipath.values.parameters import Parameter
-from optipath.values.whole_numbers import is_whole, whole_number
+from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -51,8 +51,9 @@ class Sample(Replaying, Unchanging):
         How many cells random fields have along x and y; 640, which are 16 a correlation length
         2 / alpha, by default.
     surfaces : int, optional
-        How many times random fields are drawn. Statistics of one finite field differ a little
-        from those that are meant, so light is spread over several.
+        How many realisations of random fields light is spread over at a time, since the
+        statistics of one finite field differ a little from those that are meant. After some
+        million photons each, others are drawn.
     seed : int, optional
         What random fields begin with. Surface number i of layer number j has the seed
         ``SeedSequence(seed, spawn_key=(i, j))``.
@@ -108,12 +109,13 @@ class Sample(Replaying, Unchanging):
         return all(layer.isotropic for layer in self.layers)
 
     def fields(self, surface: int = 0) -> tuple[HeightField, ...]:
-        """Return the heights of all interfaces, from the top; random ones are drawn once and kept.
+        """Return the heights of all interfaces, from the top.
 
         Parameters
         ----------
         surface : int, optional
-            Which of the surfaces, from 0.
+            Which realisation of those that are random, from 0. As many as take turns are kept;
+            others are drawn when they are asked for, with the same bits.
 
         Returns
         -------
@@ -122,7 +124,7 @@ class Sample(Replaying, Unchanging):
         Raises
         ------
         SurfaceError
-            If there is no such surface, or the memory for it.
+            If that is no number of a surface, or there is no memory for it.
 
         Warns
         -----
@@ -134,15 +136,14 @@ class Sample(Replaying, Unchanging):
         >>> Sample([(1.5, 0.25)], cells=320).fields(3)
         (HeightField.beckmann of alpha (0.25, 0.25), 320 x 320 cells, 320 x 320, periodic,)
         """
-        if not is_whole(surface, 0, self.surfaces - 1):
-            raise SurfaceError(
-                f"surface {shown(surface)} is none of the sample's; give one of 0 .. "
-                f"{self.surfaces - 1}"
-            )
+        if faults := whole_number("surface", surface, 0):
+            raise SurfaceError(*faults)
         known: dict[int, tuple[HeightField, ...]] = vars(self).setdefault("_drawn", {})
         if surface not in known:
-            places = range(len(self.layers))
-            known[surface] = tuple(self._field(int(surface), place) for place in places)
+            drawn = tuple(self._field(int(surface), place) for place in range(len(self.layers)))
+            if len(known) >= self.surfaces:
+                known.pop(next(iter(known)))
+            known[surface] = drawn
         return known[surface]
 
     def _field(self, surface: int, place: int) -> HeightField:

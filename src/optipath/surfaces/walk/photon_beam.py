@@ -12,7 +12,7 @@ import numpy.typing as npt
 from optipath.errors import SurfaceError
 from optipath.kernels.carriers.carried import carry
 from optipath.kernels.numbers.primitives import FLOAT
-from optipath.surfaces.walk.packed_meshes import PackedMeshes, packed_meshes
+from optipath.surfaces.walk.kept_meshes import kept_meshes
 from optipath.surfaces.walk.walk_code import walk_code
 from optipath.surfaces.walk.walk_layout import (
     CARRIED,
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 BLOCK = 1 << 14
 """How many photons share a stream of random numbers, and one realisation of the surfaces."""
+
+TURNS = 64
+"""How many blocks are walked over a random surface before another is drawn in its place."""
 
 
 class WalkedBlock(NamedTuple):
@@ -63,8 +66,9 @@ class WalkedBlock(NamedTuple):
 class PhotonBeam:
     """What is needed to walk any block of photons; blocks do not depend on each other.
 
-    Block b walks over realisation b of the sample's surfaces, counted round and round, with the
-    random numbers of child b of the seed (`numpy.random.SeedSequence`).
+    Blocks take the sample's surfaces in turn, and after `TURNS` of them new ones, so that the
+    error of many photons goes down. Block b has the random numbers of child b of the seed
+    (`numpy.random.SeedSequence`).
 
     Attributes
     ----------
@@ -101,8 +105,29 @@ class PhotonBeam:
 
     @property
     def surfaces(self) -> int:
-        """How many realisations of the surfaces there are; one where nothing is random."""
-        return self.sample.surfaces if any(each.is_random for each in self.sample.layers) else 1
+        """How many realisations of the surfaces take turns; one where nothing is random."""
+        return self.sample.surfaces if self._is_random else 1
+
+    @property
+    def _is_random(self) -> bool:
+        return any(each.is_random for each in self.sample.layers)
+
+    def surface(self, number: int) -> int:
+        """Return over which realisation of the surfaces a block is walked.
+
+        Parameters
+        ----------
+        number : int
+            The block.
+
+        Returns
+        -------
+        int
+        """
+        if not self._is_random:
+            return 0
+        drawn, place = divmod(number, TURNS * self.surfaces)
+        return drawn * self.surfaces + place % self.surfaces
 
     def block(
         self, number: int, photons: int = BLOCK, wanted: int = -1, *, keeps: bool = False
@@ -126,7 +151,7 @@ class PhotonBeam:
         """
         from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
 
-        meshes = self.meshes(number % self.surfaces)
+        meshes = kept_meshes(self.sample).of(self.surface(number))
         layers, count = len(self.sample.layers), self.lights
         stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
         state = np.array(stream.state["state"]["state"], np.uint64)
@@ -173,23 +198,6 @@ class PhotonBeam:
         if not np.isfinite(walked.sums).all():
             raise SurfaceError(f"photons of block {number} come to what is no number")
         return walked
-
-    def meshes(self, surface: int) -> PackedMeshes:
-        """Return a realisation of the sample's surfaces as compiled code takes it, kept with it.
-
-        Parameters
-        ----------
-        surface : int
-            Which.
-
-        Returns
-        -------
-        PackedMeshes
-        """
-        known: dict[int, PackedMeshes] = vars(self.sample).setdefault("_packed", {})
-        if surface not in known:
-            known[surface] = packed_meshes(self.sample.fields(surface))
-        return known[surface]
 
     @cached_property
     def _given(self) -> tuple[npt.NDArray[np.float64], ...]:
