@@ -98,12 +98,11 @@ def facet_event(
             lights[CARRIED * each + 4] *= 0.5 * (numbers[0] + numbers[1])
         return True, (rx, ry, rz), (sx, sy, sz), (c, s, cos2, sin2, 1.0)
     Fs, Fp, B, C, S, Ts, Tp, Bt, Ct, tx, ty, tz = boundary(n1, n2, c, s, *k, *normal)
-    share = 0.5 * (Fs + Fp)
-    reflected = uniform(state) < share
+    reflected = uniform(state) < 0.5 * (Fs + Fp)
     if not reflected:
-        share = 1.0 - share
         Fs, Fp, B, C, S = Ts, Tp, Bt, Ct, 0.0
         rx, ry, rz = tx, ty, tz
+    share = 0.5 * (Fs + Fp)
     weight = 1.0 / share
     numbers = weight * Fs, weight * Fp, weight * B, weight * C, weight * S
     for each in range(count):
