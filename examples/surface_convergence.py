@@ -66,10 +66,11 @@ USUAL = [
     for theta in (0.0, 1.0, 1.5)
 ]
 LARGE = [case._replace(lengths=80, waves=5000, surfaces=24) for case in USUAL]
+BORDER_INCIDENCES = 0.0, 0.5, 1.0, 1.5
 AT_A_BORDER = [
     Case("1.5 2.4", alpha, theta, lengths=lengths, kind="finite", surfaces=8)
     for alpha, lengths in ((0.1, 20), (0.1, 40), (1.0, 40))
-    for theta in (0.0, 0.5, 1.0, 1.5)
+    for theta in BORDER_INCIDENCES
 ]
 
 
@@ -141,10 +142,10 @@ def number(shares, name):
     return f"{mean:.5f} ± {error:.5f}"
 
 
-def percent(shares, name):
-    """Return how much a share differs from surface to surface, where there is enough of it."""
+def apart(shares, name):
+    """Return how far one surface is from others, where that is more than the photons' chance."""
     mean, _, spread = shares[name]
-    return f"{100 * spread / mean:.1f} %" if mean > 1e-3 else ""
+    return f"{100 * spread / mean:.1f} %" if spread else "-"
 
 
 def table(heads, rows):
@@ -154,36 +155,54 @@ def table(heads, rows):
     print()
 
 
-def tables(known):
-    """Print the tables of docs/surfaces.md."""
+def table_of_cells(known):
+    """Print what meshes of more and more cells give."""
     names, rows = (*SHARES[:4], *SHARES[-2:]), []
     for case in BY_CELLS:
         finest = known[case._replace(cells=CELLS[-1])]["T_m"][0]
         missing = f"{100 * (1 - known[case]['T_m'][0] / finest):.1f} %"
         rows.append([case.alpha, case.cells, *(number(known[case], s) for s in names), missing])
     table(["alpha", "cells", *names, "missing of T_m"], rows)
-    for name, cases in (*BY_WIDTH.items(), ("T_m", BY_WAVES + BY_KIND)):
-        heads = ["width", "waves", "kind", name, "one surface beside others", "lost"]
-        found = [(case, known[case]) for case in cases]
-        table(
-            heads,
-            [
-                [c.lengths, c.waves, c.kind, number(k, name), percent(k, name), k["lost"][0]]
-                for c, k in found
-            ],
-        )
+
+
+def table_of_widths(known):
+    """Print what wider and wider fields give, and how far one surface is from others."""
+    rows = [[width, waves, surfaces] for width, waves, surfaces in WIDTHS]
+    for name, cases in BY_WIDTH.items():
+        for row, case in zip(rows, cases, strict=True):
+            row += [number(known[case], name), apart(known[case], name)]
+    heads = ["T_m", "apart", "T_s, 1.5 rad", "apart", "R_m, mirror", "apart"]
+    table(["width", "waves", "surfaces", *heads], rows)
+
+
+def table_of_waves(known):
+    """Print what more and more waves give, and those that are drawn independently."""
+    rows = []
+    for case in BY_WAVES + BY_KIND:
+        shares = known[case]
+        lost = f"{100 * shares['lost'][0]:.2f} %"
+        what = [case.kind, case.lengths, case.cells, case.waves]
+        rows.append([*what, number(shares, "T_m"), apart(shares, "T_m"), lost])
+    table(["kind", "width", "cells", "waves", "T_m", "apart", "lost"], rows)
+
+
+def table_beside_large(known):
+    """Print how far fields as samples have them are from larger ones."""
     rows = []
     for usual, large in zip(USUAL, LARGE, strict=True):
-        row = [usual.index, usual.alpha, usual.incidence]
-        for name in SHARES[:4]:
-            one, other = known[usual][name], known[large][name]
-            row.append(beside(one, other) if other[0] > 1e-4 else "")
-        rows.append(row)
+        pairs = [(known[usual][name], known[large][name]) for name in SHARES[:4]]
+        differences = [beside(*pair) if 1e-4 < pair[1][0] < 1.0 else "" for pair in pairs]
+        rows.append([usual.index, usual.alpha, usual.incidence, *differences])
     table(["index", "alpha", "incidence", *SHARES[:4]], rows)
-    rows = [
-        [c.alpha, c.lengths, c.incidence, f"{100 * known[c]['lost'][0]:.2f} %"] for c in AT_A_BORDER
-    ]
-    table(["alpha", "width", "incidence", "lost"], rows)
+
+
+def table_of_borders(known):
+    """Print how much light two layers of finite fields lose, by width and incidence."""
+    rows = {}
+    for case in AT_A_BORDER:
+        lost = f"{100 * known[case]['lost'][0]:.1f} %"
+        rows.setdefault((case.alpha, case.lengths), []).append(lost)
+    table(["alpha", "width", *BORDER_INCIDENCES], [[*what, *lost] for what, lost in rows.items()])
 
 
 def beside(one, other):
@@ -202,8 +221,8 @@ def by_cells(axes, known):
     axes.axhline(0.053, color="C3", linestyle=":", label="E. Heitz et al. (2016)")
     axes.set_xscale("log", base=2)
     axes.set_xticks(CELLS, CELLS)
-    axes.set(xlabel="cells a correlation length", title="faint, beside: one surface")
-    axes.legend(fontsize="small")
+    axes.set(xlabel="cells a correlation length", ylabel="T_m")
+    axes.legend(loc="upper left", fontsize="small")
 
 
 def by_choice(axes, known, cases, what, title):
@@ -215,13 +234,16 @@ def by_choice(axes, known, cases, what, title):
     axes.set_xscale("log")
     axes.set_xticks(places, places)
     axes.minorticks_off()
-    axes.set(xlabel=title, ylim=(0.048, 0.066))
+    axes.set(xlabel=title)
 
 
 def draw(known, folder):
     """Draw the pictures of docs/surfaces.md."""
-    figure, axes = plt.subplots(1, 3, figsize=(11.0, 3.8), layout="constrained")
-    figure.suptitle("Transmitted after several events: index 1.5, alpha 1, incidence 1 rad")
+    figure, axes = plt.subplots(1, 3, sharey=True, figsize=(11.0, 4.0), layout="constrained")
+    figure.suptitle(
+        "Transmitted after several events: index 1.5, alpha 1, incidence 1 rad (faint: one surface)"
+    )
+    axes[0].set_ylim(0.048, 0.066)
     by_cells(axes[0], known)
     by_choice(axes[1], known, BY_WIDTH["T_m"], "lengths", "width of the field, correlation lengths")
     by_choice(axes[2], known, BY_WAVES, "waves", "random waves")
@@ -246,7 +268,10 @@ def save(figure, file):
     write_file(file, drawn.getvalue())
 
 
+TABLES = table_of_borders, table_of_cells, table_of_widths, table_of_waves, table_beside_large
+
 if __name__ == "__main__":
     found = keep(Path(sys.argv[1]))
-    tables(found)
+    for each in TABLES:
+        each(found)
     draw(found, Path(sys.argv[2]))
