@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import optipath as op
+from optipath.surfaces.replay.event_path import event_path
 from rough_samples import drawn_sample, polarised, rough
 
 pytest.importorskip("numba")
@@ -57,6 +58,11 @@ def test_nodes_are_called_by_the_order_of_events():
     facets = [f"facet-{number}" for number in range(1, len(photon.events) + 1)]
     assert [*path] == ["source", *facets, "detector"]
     assert path.element("facet-2").index == 1j
+
+
+def test_a_photon_that_met_nothing_leaves_as_it_came():
+    light = event_path(op.Source(3.0, [1.0, 0.5, 0.0, 0.0]), [], None, "").trace()
+    assert np.array_equal(light.stokes, [3.0, 1.5, 0.0, 0.0])
 
 
 def test_what_a_facet_does_is_seen_on_the_way():

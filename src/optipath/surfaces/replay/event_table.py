@@ -39,9 +39,14 @@ def event_table(events: Iterable[PhotonEvent]) -> str:
 def _row(number: int, event: PhotonEvent) -> tuple[str, ...]:
     what = "reflected" if event.reflected else "refracted"
     media = f"{_index(event.n1)} | {_index(event.n2)}"
-    angles = [f"{degrees(angle):.3f} deg" for angle in (event.incidence, event.turn)]
-    where = [f"{length:.3f}" for length in event.on_mesh]
+    angles = [f"{_rounded(degrees(angle))} deg" for angle in (event.incidence, event.turn)]
+    where = map(_rounded, event.on_mesh)
     return str(number), str(event.layer), what, media, *angles, f"{event.probability:.6f}", *where
+
+
+def _rounded(number: float) -> str:
+    # Adding 0 turns -0 into 0.
+    return f"{round(number, 3) + 0.0:.3f}"
 
 
 def _index(index: Any) -> str:

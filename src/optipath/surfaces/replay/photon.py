@@ -115,7 +115,7 @@ class Photon:
 
     def __repr__(self) -> str:
         count = len(self.events)
-        events = f"{count} event{'s' if count > 1 else ''}"
+        events = f"{count} event{'s' if count != 1 else ''}"
         return f"<Photon {self.number} of seed {self.seed}: {self.end} after {events}>"
 
     def __str__(self) -> str:

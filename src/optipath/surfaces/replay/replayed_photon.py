@@ -96,7 +96,7 @@ def _photon_of(beam: PhotonBeam, number: int, walked: WalkedBlock) -> Photon:
         ends[place : place + 3].copy() for place in (FIRST_K, FIRST_X, LAST_K, LAST_X)
     )
     count = int(ends[EVENTS])
-    directions = [*walked.record[2 : count + 1, DIRECTION : DIRECTION + 3].copy(), last]
+    directions = [*walked.record[2 : count + 1, DIRECTION : DIRECTION + 3].copy(), last][:count]
     shape = beam.indices.n.shape
     carried = walked.lights.T[:4]
     return Photon(
