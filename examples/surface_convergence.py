@@ -12,6 +12,7 @@ import io
 import json
 import sys
 import warnings
+from operator import attrgetter
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,7 +24,7 @@ from optipath.surfaces import HeightField, energy
 from optipath.surfaces.fields.random_waves import RandomWaves
 from optipath.values.written_files import write_file
 
-SHARES = "R_s", "R_m", "T_s", "T_m", "lost"
+SHARES = "R_s", "R_m", "T_s", "T_m", "lost", "scalar.R_m", "scalar.T_m"
 PHOTONS = 3 * 16_384
 """How many walk over each surface."""
 
@@ -45,15 +46,15 @@ GLASS = Case("1.5", 1.0, 1.0)
 CELLS = 2, 3, 4, 5, 8, 16, 32
 ALPHAS, INCIDENCES = (0.1, 0.2, 0.3, 0.5, 0.7, 1.0), (0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5)
 GRAZING, STEEP = Case("1j", 0.1, 1.5), Case("1.5", 1.0, 1.5)
-WIDTHS = (10, 1000, 64), (20, 1000, 64), (40, 1000, 64), (80, 5000, 32), (160, 5000, 16)
+WIDTHS = (10, 1000, 64), (20, 1000, 64), (40, 1000, 64), (80, 5000, 32)
 
 BY_CELLS = [GLASS._replace(alpha=a, cells=c) for a in (0.3, 1.0) for c in CELLS]
 BY_WIDTH = {
     name: [
         case._replace(lengths=lengths, waves=waves, surfaces=surfaces)
-        for lengths, waves, surfaces in WIDTHS[:count]
+        for lengths, waves, surfaces in WIDTHS
     ]
-    for name, case, count in (("T_m", GLASS, 4), ("T_s", STEEP, 5), ("R_m", GRAZING, 4))
+    for name, case in (("T_m", GLASS), ("T_s", STEEP), ("R_m", GRAZING))
 }
 BY_WAVES = [GLASS._replace(waves=n, surfaces=64) for n in (30, 100, 300, 1000, 3000)]
 BY_KIND = [GLASS._replace(lengths=80, cells=8, kind=kind) for kind in ("finite", "independent")]
@@ -65,10 +66,11 @@ USUAL = [
     for theta in (0.0, 1.0, 1.5)
 ]
 LARGE = [case._replace(lengths=80, waves=5000, surfaces=24) for case in USUAL]
+BORDER_INCIDENCES = 0.0, 0.5, 1.0, 1.5
 AT_A_BORDER = [
     Case("1.5 2.4", alpha, theta, lengths=lengths, kind="finite", surfaces=8)
     for alpha, lengths in ((0.1, 20), (0.1, 40), (1.0, 40))
-    for theta in (0.0, 0.5, 1.0, 1.5)
+    for theta in BORDER_INCIDENCES
 ]
 
 
@@ -106,7 +108,7 @@ def measured(case):
         layers = enumerate(case.index.split())
         sample = op.Sample([(complex(n), field_of(case, number, layer)) for layer, n in layers])
         one = energy(sample, case.incidence, photons=PHOTONS, seed=number, threads=1)
-        found.append([[getattr(one, name + end) for name in SHARES] for end in ("", "_se")])
+        found.append([[attrgetter(name + end)(one) for name in SHARES] for end in ("", "_se")])
     means, errors = np.moveaxis(np.array(found), 1, 0)
     spread = means.var(axis=0, ddof=1)
     alone = np.sqrt(np.maximum(spread - np.mean(errors**2, axis=0), 0.0))
@@ -140,10 +142,10 @@ def number(shares, name):
     return f"{mean:.5f} ± {error:.5f}"
 
 
-def percent(shares, name):
-    """Return how much a share differs from surface to surface, where there is enough of it."""
+def apart(shares, name):
+    """Return how far one surface is from others, where that is more than the photons' chance."""
     mean, _, spread = shares[name]
-    return f"{100 * spread / mean:.1f} %" if mean > 1e-3 else ""
+    return f"{100 * spread / mean:.1f} %" if spread else "-"
 
 
 def table(heads, rows):
@@ -153,36 +155,54 @@ def table(heads, rows):
     print()
 
 
-def tables(known):
-    """Print the tables of docs/surfaces.md."""
-    rows = []
+def table_of_cells(known):
+    """Print what meshes of more and more cells give."""
+    names, rows = (*SHARES[:4], *SHARES[-2:]), []
     for case in BY_CELLS:
         finest = known[case._replace(cells=CELLS[-1])]["T_m"][0]
-        apart = f"{100 * (known[case]['T_m'][0] / finest - 1):+.1f} %" if finest > 1e-3 else ""
-        rows.append([case.alpha, case.cells, *(number(known[case], s) for s in SHARES[:4]), apart])
-    table(["alpha", "cells", *SHARES[:4], "T_m, beside 32 cells"], rows)
-    for name, cases in (*BY_WIDTH.items(), ("T_m", BY_WAVES + BY_KIND)):
-        heads = ["width", "waves", "kind", name, "one surface beside others", "lost"]
-        found = [(case, known[case]) for case in cases]
-        table(
-            heads,
-            [
-                [c.lengths, c.waves, c.kind, number(k, name), percent(k, name), k["lost"][0]]
-                for c, k in found
-            ],
-        )
+        missing = f"{100 * (1 - known[case]['T_m'][0] / finest):.1f} %"
+        rows.append([case.alpha, case.cells, *(number(known[case], s) for s in names), missing])
+    table(["alpha", "cells", *names, "missing of T_m"], rows)
+
+
+def table_of_widths(known):
+    """Print what wider and wider fields give, and how far one surface is from others."""
+    rows = [[width, waves, surfaces] for width, waves, surfaces in WIDTHS]
+    for name, cases in BY_WIDTH.items():
+        for row, case in zip(rows, cases, strict=True):
+            row += [number(known[case], name), apart(known[case], name)]
+    heads = ["T_m", "apart", "T_s, 1.5 rad", "apart", "R_m, mirror", "apart"]
+    table(["width", "waves", "surfaces", *heads], rows)
+
+
+def table_of_waves(known):
+    """Print what more and more waves give, and those that are drawn independently."""
+    rows = []
+    for case in BY_WAVES + BY_KIND:
+        shares = known[case]
+        lost = f"{100 * shares['lost'][0]:.2f} %"
+        what = [case.kind, case.lengths, case.cells, case.waves]
+        rows.append([*what, number(shares, "T_m"), apart(shares, "T_m"), lost])
+    table(["kind", "width", "cells", "waves", "T_m", "apart", "lost"], rows)
+
+
+def table_beside_large(known):
+    """Print how far fields as samples have them are from larger ones."""
     rows = []
     for usual, large in zip(USUAL, LARGE, strict=True):
-        row = [usual.index, usual.alpha, usual.incidence]
-        for name in SHARES[:4]:
-            one, other = known[usual][name], known[large][name]
-            row.append(beside(one, other) if other[0] > 1e-4 else "")
-        rows.append(row)
+        pairs = [(known[usual][name], known[large][name]) for name in SHARES[:4]]
+        differences = [beside(*pair) if 1e-4 < pair[1][0] < 1.0 else "" for pair in pairs]
+        rows.append([usual.index, usual.alpha, usual.incidence, *differences])
     table(["index", "alpha", "incidence", *SHARES[:4]], rows)
-    rows = [
-        [c.alpha, c.lengths, c.incidence, f"{100 * known[c]['lost'][0]:.2f} %"] for c in AT_A_BORDER
-    ]
-    table(["alpha", "width", "incidence", "lost"], rows)
+
+
+def table_of_borders(known):
+    """Print how much light two layers of finite fields lose, by width and incidence."""
+    rows = {}
+    for case in AT_A_BORDER:
+        lost = f"{100 * known[case]['lost'][0]:.1f} %"
+        rows.setdefault((case.alpha, case.lengths), []).append(lost)
+    table(["alpha", "width", *BORDER_INCIDENCES], [[*what, *lost] for what, lost in rows.items()])
 
 
 def beside(one, other):
@@ -193,14 +213,16 @@ def beside(one, other):
 
 def by_cells(axes, known):
     """Draw what is transmitted after several events, over the cells a correlation length."""
-    shares = [known[GLASS._replace(cells=cells)]["T_m"] for cells in CELLS]
-    axes.errorbar(CELLS, [s[0] for s in shares], [s[1] for s in shares], marker="o", capsize=3)
-    axes.axhline(0.052, color="C1", linestyle="--", label="M. Wang et al. (2017), table 1")
-    axes.axhline(0.053, color="C2", linestyle=":", label="E. Heitz et al. (2016)")
+    for name, label in (("T_m", "T_m"), ("scalar.T_m", "T_m without polarisation")):
+        shares = [known[GLASS._replace(cells=cells)][name] for cells in CELLS]
+        means, errors = [s[0] for s in shares], [s[1] for s in shares]
+        axes.errorbar(CELLS, means, errors, marker="o", capsize=3, label=label)
+    axes.axhline(0.052, color="C2", linestyle="--", label="M. Wang et al. (2017), table 1")
+    axes.axhline(0.053, color="C3", linestyle=":", label="E. Heitz et al. (2016)")
     axes.set_xscale("log", base=2)
     axes.set_xticks(CELLS, CELLS)
-    axes.set(xlabel="cells a correlation length", ylabel="T_m", title="the mesh")
-    axes.legend(fontsize="small")
+    axes.set(xlabel="cells a correlation length", ylabel="T_m")
+    axes.legend(loc="upper left", fontsize="small")
 
 
 def by_choice(axes, known, cases, what, title):
@@ -212,13 +234,16 @@ def by_choice(axes, known, cases, what, title):
     axes.set_xscale("log")
     axes.set_xticks(places, places)
     axes.minorticks_off()
-    axes.set(xlabel=title, ylim=(0.048, 0.068), title="faint: one surface")
+    axes.set(xlabel=title)
 
 
 def draw(known, folder):
     """Draw the pictures of docs/surfaces.md."""
-    figure, axes = plt.subplots(1, 3, figsize=(11.0, 3.8), layout="constrained")
-    figure.suptitle("Transmitted after several events: index 1.5, alpha 1, incidence 1 rad")
+    figure, axes = plt.subplots(1, 3, sharey=True, figsize=(11.0, 4.0), layout="constrained")
+    figure.suptitle(
+        "Transmitted after several events: index 1.5, alpha 1, incidence 1 rad (faint: one surface)"
+    )
+    axes[0].set_ylim(0.048, 0.066)
     by_cells(axes[0], known)
     by_choice(axes[1], known, BY_WIDTH["T_m"], "lengths", "width of the field, correlation lengths")
     by_choice(axes[2], known, BY_WAVES, "waves", "random waves")
@@ -243,7 +268,10 @@ def save(figure, file):
     write_file(file, drawn.getvalue())
 
 
+TABLES = table_of_borders, table_of_cells, table_of_widths, table_of_waves, table_beside_large
+
 if __name__ == "__main__":
     found = keep(Path(sys.argv[1]))
-    tables(found)
+    for each in TABLES:
+        each(found)
     draw(found, Path(sys.argv[2]))

@@ -1,5 +1,6 @@
 """The examples, run as their users run them."""
 
+import json
 import runpy
 import subprocess
 import sys
@@ -43,3 +44,29 @@ def test_the_example_prints_an_index_within_its_deviations():
         check=True,
     )
     assert done.stdout.startswith("n = 0.6")
+
+
+def test_the_convergence_of_surfaces_is_measured_with_all_light_accounted_for():
+    pytest.importorskip("numba")
+    example = runpy.run_path(EXAMPLES / "surface_convergence.py")
+    case = example["Case"]("1j", 1.0, 0.5, lengths=10, cells=4, waves=100, surfaces=2)
+    found = example["measured"](case)
+    assert found["R_s"][0] + found["R_m"][0] == pytest.approx(1.0, abs=1e-6)
+    assert found["R_m"][0] > 10.0 * found["R_m"][1] > 0.0
+
+
+def test_independent_waves_are_drawn_with_the_variances_of_their_paper():
+    example = runpy.run_path(EXAMPLES / "surface_convergence.py")
+    squares = [
+        (np.mean(drawn**2), np.mean((np.diff(drawn) * 2.5) ** 2))
+        for drawn in (example["heights"](20, 5, 1000, "independent", n, 0) for n in range(8))
+    ]
+    # E. Heitz (2015): the variance of heights is 1, and of slopes 1/2 at alpha 1; the cells are
+    # 0.4 wide, and a field differs from others by a tenth of it.
+    np.testing.assert_allclose(np.mean(squares, axis=0), (1.0, 0.5), rtol=0.1)
+
+
+def test_the_documents_have_every_case_of_the_convergence_of_surfaces():
+    example = runpy.run_path(EXAMPLES / "surface_convergence.py")
+    stored = json.loads((EXAMPLES.parent / "docs" / "surfaces.json").read_text("utf-8"))
+    assert {example["Case"](*row["case"]) for row in stored} == set(example["CASES"])
