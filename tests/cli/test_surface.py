@@ -5,12 +5,14 @@ import re
 import sys
 from contextlib import contextmanager
 
+import click
 import numpy as np
 import pytest
 
 import optipath as op
 from optipath.cli import main
 from optipath.cli.printed_energy import measured
+from optipath.cli.surface_command import surface
 from optipath.engines.automatic import is_installed
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk import walk_code
@@ -71,6 +73,11 @@ def test_without_a_sample_those_that_there_are_are_listed(capsys):
     assert all(name in out for name in op.sample_names())
     assert list(found(capsys)) == op.sample_names()
     assert found(capsys)["glass-rough"] == op.load_sample("glass-rough").description
+
+
+def test_a_shell_completes_names_of_samples():
+    completed = surface.params[0].shell_complete(click.Context(surface), "glass-on")
+    assert [one.value for one in completed] == ["glass-on-glass", "glass-on-gold"]
 
 
 @COMPILED
@@ -255,6 +262,8 @@ def test_a_wrong_sample_is_told(given, wrong, capsys):
         ("--incidence sixty", "give an angle such as '45 deg'"),
         ("--incidence 60nm", "is no angle"),
         ("--incidence nan", "not finite"),
+        ("--incidence 0:80:1001", "--incidence gives 1,001 values, of which each has tables"),
+        ("--wavelength 400nm:700nm:1001", "--wavelength gives 1,001 values"),
         ("--photons 0", "photons must be a whole number of 1 or more, not 0"),
         ("--photons 1e30", "photons is 1000000000000000019884624838656; give 1,000,000,000,000"),
         ("--photons 1e999", "'1e999' is no whole number; write one such as 1000, or 1e6"),

@@ -58,6 +58,9 @@ rough: op.surfaces.HeightField = op.surfaces.HeightField.beckmann(0.3, 0.4, size
 varnished: op.Sample = op.Sample([(1.5, 0.1), (1.6, (0.1, 0.2)), (op.Material(0.2, 3.4), rough)])
 drawn: tuple[op.surfaces.HeightField, ...] = varnished.fields(3)
 base_n: np.ndarray = op.load_sample("gold-rough").indices(["500 nm", 6e-7]).n
+replayed: op.surfaces.Photon = varnished.photon(3, "30 deg", azimuth=0.2, most_events=100)
+replayed_way: op.PathGraph = replayed.path()
+met_at: float = replayed.events[0].incidence
 smoothed: op.LayerStack = varnished.smooth("30 deg")
 ready: list[str] = op.sample_names()
 as_file: str = op.load_sample("glass-rough").to_toml()

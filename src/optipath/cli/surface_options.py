@@ -7,6 +7,7 @@ from contextlib import suppress
 import click
 
 from optipath.errors import shown
+from optipath.surfaces.samples.sample_files import sample_names
 
 
 def _whole(text: str) -> int:
@@ -19,7 +20,12 @@ def _whole(text: str) -> int:
     raise click.BadParameter(f"{shown(text)} is no whole number; write one such as 1000, or 1e6")
 
 
-SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]")
+def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
+    """Return the samples whose names begin so, for shells."""
+    return [name for name in sample_names() if name.startswith(incomplete)]
+
+
+SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]", shell_complete=_names)
 INCIDENCE = click.Option(
     ["--incidence", "incidences"],
     metavar="DEG",
@@ -29,6 +35,7 @@ INCIDENCE = click.Option(
 PHOTONS = click.Option(
     ["--photons"],
     type=_whole,
+    metavar="NUMBER",
     help="How many photons are walked, such as 1e7; 1e6 by default. With --tolerance, at most.",
 )
 TOLERANCE = click.Option(
@@ -53,23 +60,32 @@ STOKES = click.Option(
     metavar="S0,S1,S2,S3",
     help="The light; the x of its frame is horizontal.",
 )
-SEED = click.Option(["--seed"], type=_whole, default=0, help="Of the photons.")
+SEED = click.Option(["--seed"], type=_whole, metavar="NUMBER", default=0, help="Of the photons.")
 EVENTS = click.Option(
     ["--most-events"],
     type=_whole,
+    metavar="NUMBER",
     default=1000,
     help="After how many events a photon is given up.",
 )
 THREADS = click.Option(
-    ["--threads"], type=_whole, help="How many walk at a time; by default one a processor."
+    ["--threads"],
+    type=_whole,
+    metavar="NUMBER",
+    help="How many walk at a time; by default one a processor.",
 )
 SURFACES = click.Option(
-    ["--surfaces"], type=_whole, help="How many surfaces are drawn, in place of the sample's."
+    ["--surfaces"],
+    type=_whole,
+    metavar="NUMBER",
+    help="How many surfaces are drawn, in place of the sample's.",
 )
 CELLS = click.Option(
     ["--cells"], metavar="N|N,N", help="Cells of random surfaces along x and y, ditto."
 )
-SAMPLE_SEED = click.Option(["--sample-seed"], type=_whole, help="Of random surfaces, ditto.")
+SAMPLE_SEED = click.Option(
+    ["--sample-seed"], type=_whole, metavar="NUMBER", help="Of random surfaces, ditto."
+)
 
 WALKING = (INCIDENCE, PHOTONS, TOLERANCE, WAVELENGTHS, AZIMUTH, STOKES, SEED, EVENTS, THREADS)
 REDRAWING = (SURFACES, CELLS, SAMPLE_SEED)

@@ -13,6 +13,9 @@ from optipath.values.parameters import Parameter
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+_MOST = 1000
+"""How many values there may be of which each has tables."""
+
 _INCIDENCE, _AZIMUTH = (Parameter(name, unit="deg") for name in ("incidence", "azimuth"))
 
 
@@ -27,6 +30,7 @@ def incidences_of(texts: Sequence[str]) -> list[AxisValues]:
     if not texts:
         raise SurfaceError("--incidence is missing; give the angle of incidence: --incidence 60")
     several = [_values(text, _INCIDENCE, "deg") for text in texts]
+    _refuse_many("--incidence", sum([len(one.given) for one in several]))
     return [
         AxisValues(one.shown[at], one.unit, one.given[at])
         for one in several
@@ -39,6 +43,7 @@ def wavelengths_of(text: str | None) -> AxisValues | None:
     if text is None:
         return None
     found = _values(text, WAVELENGTH, "")
+    _refuse_many("--wavelength", len(found.given))
     return found if axis_given(WAVELENGTH, text, ()) else found.reshaped(())
 
 
@@ -82,6 +87,14 @@ def numbers_of(option: str, text: str, kind: Any, counts: tuple[int, ...]) -> tu
             f"{shown(text)}"
         )
     return found
+
+
+def _refuse_many(option: str, count: int) -> None:
+    if count > _MOST:
+        raise SurfaceError(
+            f"{option} gives {count:,} values, of which each has tables of its own; give "
+            f"{_MOST:,} at most"
+        )
 
 
 def _values(text: str, parameter: Parameter, unit: str) -> AxisValues:

@@ -10,11 +10,13 @@ if TYPE_CHECKING:
     from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
+    from optipath.surfaces.replay.photon import Photon
 
-__all__ = ["HeightField", "energy", "photon_ends", "single_scattering"]
+__all__ = ["HeightField", "Photon", "energy", "photon_ends", "single_scattering"]
 
 _HOMES = {
     "HeightField": "fields.height_field",
+    "Photon": "replay.photon",
     "energy": "energies.energy",
     "photon_ends": "ends.photon_ends",
     "single_scattering": "facets.facet_model",

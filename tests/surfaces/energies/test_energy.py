@@ -140,3 +140,13 @@ def test_light_that_meets_nothing_of_a_finite_field_is_told():
     field = surfaces.HeightField.from_heights(peak, size=1e-3, periodic=False)
     with pytest.raises(op.SurfaceError, match="photons meet nothing of the sample"):
         surfaces.energy(op.Sample([(1.5, field)]), "89.9999 deg", photons=100)
+
+
+def test_photons_are_walked_no_longer_where_the_surfaces_differ():
+    # One of these is flat, and one steep.
+    two = op.Sample([(1.5, 0.5)], surfaces=2)
+    steep = surfaces.HeightField([[0.0, 1.0], [0.0, 1.0]], 2.0, periodic=True)
+    vars(two)["_drawn"] = {0: (surfaces.HeightField.flat(),), 1: (steep,)}
+    with pytest.warns(op.ToleranceWarning, match="since the surfaces differ; take more surfaces="):
+        found = surfaces.energy(two, "70 deg", tolerance=1e-4)
+    assert found.photons < 10_000_000

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 import optipath as op
-from rough_samples import drawn_sample, polarised
+from rough_samples import drawn_sample, polarised, rough
 
 pytest.importorskip("numba")
 
 SETS = 200 if "OPTIPATH_SETS" in os.environ else 20
-PHOTONS = 100 if "OPTIPATH_SETS" in os.environ else 8
+PHOTONS = 100 if "OPTIPATH_SETS" in os.environ else 6
 
 
 @pytest.mark.parametrize("seed", range(SETS))
@@ -38,6 +38,15 @@ def test_the_light_of_a_refraction_along_a_facet_is_that_of_the_walk():
     sample = op.Sample([(1.5, 0.0)])
     photons = (sample.photon(number, np.pi / 2 - 1e-3) for number in range(2000))
     photon = next(each for each in photons if each.end == "down")
+    stokes = photon.path().trace().stokes
+    assert np.all(np.abs(stokes - photon.stokes) <= 1e-12 * photon.stokes[0])
+
+
+def test_the_light_of_a_long_way_is_that_of_the_walk():
+    """Light that is held between a mirror and diamond, and meets some hundred facets."""
+    sample = op.Sample([(2.4, rough(0.1)), (1j, rough(0.1, seed=1))])
+    photons = (sample.photon(number, 0.5) for number in range(2000))
+    photon = next(each for each in photons if len(each.events) > 100)
     stokes = photon.path().trace().stokes
     assert np.all(np.abs(stokes - photon.stokes) <= 1e-12 * photon.stokes[0])
 

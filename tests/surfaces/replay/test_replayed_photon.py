@@ -45,6 +45,17 @@ def test_a_photon_ends_where_it_ended_among_all():
         assert photon.scalar == found.scalar[number]
 
 
+def test_light_and_frame_are_those_among_all():
+    """Turned to the frame of those, across the meridional plane, it has their Stokes vector."""
+    sample, photons = brushed(0.5 + 2.1j), 50
+    found = photon_ends(sample, 0.8, photons, stokes=STOKES)
+    for number in range(photons):
+        photon = sample.photon(number, 0.8, stokes=STOKES)
+        frame = op.Frame.from_direction(photon.frame.z, found.x[number])
+        light = op.Light(photon.stokes, frame=photon.frame).in_frame(frame)
+        assert light.stokes == pytest.approx(found.stokes[number], abs=1e-12)
+
+
 def test_photons_of_the_second_block_are_on_the_second_surface():
     sample = op.Sample([(1.5, (0.3, 0.2))], cells=200, surfaces=2)
     number = BLOCK + 5

@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 _AIM = 1.1
 """How many times as many photons are walked as the error so far asks for."""
 
+_GROWN, _STALLED = 8, 0.9
+"""With so many times as many photons, an error that is no less than so much of what it was is that
+of the surfaces, which differ, and more photons would change nothing."""
+
 
 def energy(
     sample: Sample,
@@ -164,20 +168,32 @@ def walk_until(
     """
     # A block on every surface, so that their differences are known.
     wanted = min(2 * BLOCK * run.beam.surfaces, most)
+    known: list[tuple[int, float]] = []
     while True:
         run.walk(wanted, progress)
         found = run.energy
         error = float(np.max(found.R_se))
         if error <= tolerance:
             return found
-        if run.photons >= most:
-            warnings.warn(
-                f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
-                f"the tolerance of {tolerance:g}; allow more {cure('photons', '--photons')}, or "
-                f"more {cure('surfaces=', '--surfaces')} of the sample where these differ",
-                ToleranceWarning,
-                stacklevel=calls_up(),
-            )
+        known.append((run.photons, error))
+        stalled = any(
+            run.photons >= _GROWN * photons and error > _STALLED * was for photons, was in known
+        )
+        if stalled or run.photons >= most:
+            wrong = _not_reached(run, error, tolerance, stalled=stalled)
+            warnings.warn(wrong, ToleranceWarning, calls_up())
             return found
-        factor = min(_AIM * (error / tolerance) ** 2, 8.0)
+        factor = min(_AIM * (error / tolerance) ** 2, _GROWN)
         wanted = min(BLOCK * ceil(factor * run.photons / BLOCK), most)
+
+
+def _not_reached(run: EnergyRun, error: float, tolerance: float, *, stalled: bool) -> str:
+    """Say why a tolerance is not reached, and what would help."""
+    surfaces = f"more {cure('surfaces=', '--surfaces')} of the sample"
+    wrong = (
+        f"the standard error of R is {error:.2g} after {run.photons} photons, more than the "
+        f"tolerance of {tolerance:g}"
+    )
+    if stalled:
+        return f"{wrong}, since the surfaces differ; take {surfaces}"
+    return f"{wrong}; allow more {cure('photons', '--photons')}, or {surfaces} where these differ"

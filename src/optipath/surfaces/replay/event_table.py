@@ -26,7 +26,7 @@ def event_table(events: Iterable[PhotonEvent]) -> str:
     Returns
     -------
     str
-        Angles are in degrees; x, y and z are the point on the mesh of the layer.
+        x, y and z are the point on the mesh of the layer.
     """
     rows = [_HEADS, *(_row(number, event) for number, event in enumerate(events, 1))]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
@@ -39,7 +39,7 @@ def event_table(events: Iterable[PhotonEvent]) -> str:
 def _row(number: int, event: PhotonEvent) -> tuple[str, ...]:
     what = "reflected" if event.reflected else "refracted"
     media = f"{_index(event.n1)} | {_index(event.n2)}"
-    angles = [f"{degrees(angle):.3f}" for angle in (event.incidence, event.turn)]
+    angles = [f"{degrees(angle):.3f} deg" for angle in (event.incidence, event.turn)]
     where = [f"{length:.3f}" for length in event.on_mesh]
     return str(number), str(event.layer), what, media, *angles, f"{event.probability:.6f}", *where
 

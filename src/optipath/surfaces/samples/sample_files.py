@@ -34,7 +34,7 @@ def sample_descriptions() -> dict[str, str]:
     Examples
     --------
     >>> sample_descriptions()["glass-rough"]
-    'A rough surface of glass'
+    'A rough face of glass, lit from the air'
     """
     from optipath.paths.presets.toml_text import parsed  # noqa: PLC0415 - not for every import
 
