@@ -21,10 +21,12 @@ from optipath.surfaces.walk.walk_layout import (
     END_K,
     END_LIGHTS,
     END_X,
+    ENDS,
     EVENTS,
     OUTCOME,
     OUTCOME_NAMES,
 )
+from optipath.values.arrays.memory import refuse_too_large
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
@@ -101,21 +103,23 @@ def photon_ends(
     >>> print(found.directions.shape, found.stokes.shape, np.unique(found.ends))
     (1000, 3) (1000, 4) ['up']
     """
-    faults = whole_number("photons", photons)
-    try:
-        beam = given_beam(
-            sample,
-            incidence,
-            azimuth,
-            wavelength=wavelength,
-            stokes=stokes,
-            seed=seed,
-            most_events=most_events,
-        )
-    except SurfaceError as error:
-        faults += error.faults
-    if faults:
-        raise SurfaceError(*faults)
+    beam = given_beam(
+        sample,
+        incidence,
+        azimuth,
+        wavelength=wavelength,
+        stokes=stokes,
+        seed=seed,
+        most_events=most_events,
+        beside=whole_number("photons", photons),
+    )
+    refuse_too_large(
+        (int(photons),),
+        16 * (ENDS + CARRIED * beam.lights),
+        cure="give fewer photons",
+        error=SurfaceError,
+        what="ends of {:.3g} photons",
+    )
     blocks = range(-(-photons // BLOCK))
     return _ends_of(beam, np.concatenate([_block(beam, number, photons) for number in blocks]))
 

@@ -6,7 +6,7 @@ import os
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import SurfaceError, shown
+from optipath.errors import shown
 from optipath.surfaces.energies.energy_run import EnergyRun
 from optipath.surfaces.walk.given_beam import given_beam
 from optipath.values.whole_numbers import is_whole, whole_number
@@ -55,12 +55,7 @@ def given_run(
     faults = _faults("photons", photons, _MOST) + _faults("threads", threads, _MOST_THREADS)
     if tolerance is not None and not _is_error(tolerance):
         faults.append(f"tolerance is {shown(tolerance)}; give a standard error within 0 .. 1")
-    try:
-        beam = given_beam(sample, incidence, **light)
-    except SurfaceError as error:
-        raise SurfaceError(*faults, *error.faults) from None
-    if faults:
-        raise SurfaceError(*faults)
+    beam = given_beam(sample, incidence, **light, beside=faults)
     usual = _USUAL if tolerance is None else _MOST_WITH_TOLERANCE
     run = EnergyRun(beam, processors() if threads is None else int(threads))
     return run, usual if photons is None else int(photons)

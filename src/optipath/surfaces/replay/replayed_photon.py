@@ -62,21 +62,16 @@ def replayed_photon(
     SurfaceError
         With all faults at once.
     """
-    faults = whole_number("number", number, 0)
-    try:
-        beam = given_beam(
-            sample,
-            incidence,
-            azimuth,
-            wavelength=wavelength,
-            stokes=stokes,
-            seed=seed,
-            most_events=most_events,
-        )
-    except SurfaceError as error:
-        faults += error.faults
-    if faults:
-        raise SurfaceError(*faults)
+    beam = given_beam(
+        sample,
+        incidence,
+        azimuth,
+        wavelength=wavelength,
+        stokes=stokes,
+        seed=seed,
+        most_events=most_events,
+        beside=whole_number("number", number, 0),
+    )
     refuse_too_large(
         (beam.most_events + 1,),
         8 * RECORD,

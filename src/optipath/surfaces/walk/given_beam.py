@@ -16,6 +16,8 @@ from optipath.values.domains.states import StokesDomain
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
 
     from optipath.values.domains.domain import Domain
@@ -35,6 +37,7 @@ def given_beam(
     stokes: npt.ArrayLike = UNPOLARISED,
     seed: int = 0,
     most_events: int = 1000,
+    beside: Sequence[str] = (),
 ) -> PhotonBeam:
     """Return the photons that a user asks for.
 
@@ -42,6 +45,8 @@ def given_beam(
     ----------
     sample, incidence, azimuth, wavelength, stokes, seed, most_events
         As `energy` takes them.
+    beside : sequence of str, optional
+        Faults of what else is asked for, told with the others.
 
     Returns
     -------
@@ -54,10 +59,11 @@ def given_beam(
     """
     if not isinstance(sample, Sample):
         raise SurfaceError(
+            *beside,
             f"sample is {shown(sample)}; give an op.Sample, such as op.Sample([(1.5, 0.1)]), or "
-            f"op.load_sample(name)"
+            f"op.load_sample(name)",
         )
-    faults = Faults()
+    faults = Faults(beside)
     incidence = faults.attempt("", _one, "incidence", incidence, INCIDENCE)
     azimuth = faults.attempt("", _one, "azimuth", azimuth, ANGLE)
     if incidence is not None and cos(incidence) < _LEAST_COSINE:
