@@ -24,13 +24,14 @@ def first_meeting(field, start, direction, side):
     """Where a ray meets a field; None where it does not.
 
     The ray is straight between its crossings of the lines of the mesh, where the surface is flat:
-    it meets the surface in the first piece in which it comes nearer and is not above at its end.
+    it meets the surface in the first piece in which it comes nearer and gets below. To touch is not
+    to meet.
     """
     above = height_above(field, start, direction)
     times = crossings(field, start, direction)
     for begin, end in pairwise(times):
         first, last = side * above(begin), side * above(end)
-        if last < first and last <= 0:
+        if last < min(first, 0):
             return float(begin + (end - begin) * max(first, 0) / (max(first, 0) - last))
     return None
 
