@@ -5,6 +5,7 @@ import pytest
 
 import optipath as op
 from optipath import surfaces
+from optipath.surfaces.walk.photon_beam import BLOCK, TURNS
 
 pytest.importorskip("numba")
 
@@ -144,8 +145,6 @@ def test_light_that_meets_nothing_of_a_finite_field_is_told():
 
 def test_many_photons_get_new_surfaces_so_that_the_error_goes_on_falling():
     sample = op.Sample([(1.5, 0.5)], surfaces=1)
-    few, many = [
-        surfaces.energy(sample, "40 deg", photons=photons) for photons in (1 << 20, (1 << 20) + 1)
-    ]
+    few, many = [surfaces.energy(sample, "40 deg", photons=BLOCK * TURNS + more) for more in (0, 1)]
     assert (few.surfaces, many.surfaces) == (1, 2)
     assert sample.fields(1)[0] != sample.fields(0)[0]

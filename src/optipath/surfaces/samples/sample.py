@@ -80,7 +80,7 @@ class Sample(Replaying, Unchanging):
     layers: Sequence[Any]
     outside: float | Material = 1.0
     cells: int | tuple[int, int] | None = None
-    surfaces: int = 8
+    surfaces: int = 16
     seed: int = 0
     periodic: bool = True
     description: str = ""

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 BLOCK = 1 << 14
 """How many photons share a stream of random numbers, and one realisation of the surfaces."""
 
-TURNS = 64
+TURNS = 32
 """How many blocks are walked over a random surface before another is drawn in its place."""
 
 
