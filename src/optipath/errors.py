@@ -114,8 +114,8 @@ class MeshWarning(UserWarning):
     """A mesh is too coarse for its roughness."""
 
 
-class ToleranceWarning(UserWarning):
-    """A tolerance was not reached."""
+class PhotonWarning(UserWarning):
+    """Photons do not say what they were asked for."""
 
 
 class LoopWarning(UserWarning):

@@ -20,7 +20,7 @@ from optipath.errors import (
     LoopWarning,
     MeshWarning,
     OptipathError,
-    ToleranceWarning,
+    PhotonWarning,
     did_you_mean,
     printable,
 )
@@ -144,7 +144,7 @@ def _run(arguments: Sequence[str]) -> int:
     try:
         with warnings.catch_warnings(), units_are_written(), of_files():
             warnings.simplefilter("always", LoopWarning)
-            for once in (MeshWarning, ToleranceWarning):  # The same of each surface.
+            for once in (MeshWarning, PhotonWarning):  # The same of each surface.
                 warnings.simplefilter("default", once)
             warnings.showwarning = _tell  # type: ignore[assignment] # all that it is given
             _invoke(arguments)

@@ -90,7 +90,7 @@ def test_photons_are_walked_until_the_error_is_small_enough():
 
 
 def test_a_tolerance_that_is_not_reached_is_told():
-    with pytest.warns(op.ToleranceWarning, match="after 20000 photons, more than the tolerance"):
+    with pytest.warns(op.PhotonWarning, match="after 20000 photons, more than the tolerance"):
         found = surfaces.energy(GLASS, "40 deg", photons=20_000, tolerance=1e-6)
     assert found.photons == 20_000
 

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import ToleranceWarning
+from optipath.errors import PhotonWarning
+from optipath.surfaces.energies.checked_energy import checked_energy
 from optipath.surfaces.energies.given_run import given_run
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 from optipath.surfaces.walk.photon_beam import BLOCK
@@ -85,8 +86,9 @@ def energy(
 
     Warns
     -----
-    ToleranceWarning
-        If the tolerance is not reached.
+    PhotonWarning
+        If the tolerance is not reached, or so few photons carry so much of the light that the
+        errors are not to be trusted.
 
     Examples
     --------
@@ -137,7 +139,7 @@ def walk_wanted(
     if tolerance is not None:
         return walk_until(run, tolerance, most, progress)
     run.walk(most, progress)
-    return run.energy
+    return checked_energy(run)
 
 
 def walk_until(
@@ -162,14 +164,14 @@ def walk_until(
 
     Warns
     -----
-    ToleranceWarning
-        If it is not reached.
+    PhotonWarning
+        If it is not reached; or as `checked_energy` does.
     """
     # A block on every surface, so that their differences are known.
     wanted = min(2 * BLOCK * run.beam.surfaces, most)
     while True:
         run.walk(wanted, progress)
-        found = run.energy
+        found = checked_energy(run)
         error = float(np.max(found.R_se))
         if error <= tolerance:
             return found
@@ -177,7 +179,7 @@ def walk_until(
             warnings.warn(
                 f"the standard error of R is {error:.2g} after {run.photons} photons, more than "
                 f"the tolerance of {tolerance:g}; allow more {cure('photons', '--photons')}",
-                ToleranceWarning,
+                PhotonWarning,
                 calls_up(),
             )
             return found
