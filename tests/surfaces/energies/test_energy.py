@@ -5,7 +5,7 @@ import pytest
 
 import optipath as op
 from optipath import surfaces
-from optipath.surfaces.walk.photon_beam import BLOCK, TURNS
+from optipath.surfaces.walk.photon_beam import TURN
 
 pytest.importorskip("numba")
 
@@ -63,8 +63,8 @@ def test_wavelengths_ride_on_the_same_photons():
     found = surfaces.energy(gold, "40 deg", photons=20_000, wavelength=colours)
     assert found.R.shape == (3,)
     alone = [surfaces.energy(gold, "40 deg", photons=20_000, wavelength=each) for each in colours]
-    assert np.array_equal(found.R, [each.R for each in alone])
-    assert np.array_equal(found.scalar.R_m, [each.scalar.R_m for each in alone])
+    assert np.allclose(found.R, [each.R for each in alone], rtol=1e-13)
+    assert np.allclose(found.scalar.R_m, [each.scalar.R_m for each in alone], rtol=1e-13)
 
 
 def test_a_brighter_source_has_the_same_shares():
@@ -145,6 +145,33 @@ def test_light_that_meets_nothing_of_a_finite_field_is_told():
 
 def test_many_photons_get_new_surfaces_so_that_the_error_goes_on_falling():
     sample = op.Sample([(1.5, 0.5)], surfaces=1)
-    few, many = [surfaces.energy(sample, "40 deg", photons=BLOCK * TURNS + more) for more in (0, 1)]
+    few, many = [surfaces.energy(sample, "40 deg", photons=TURN + more) for more in (0, 1)]
     assert (few.surfaces, many.surfaces) == (1, 2)
     assert sample.fields(1)[0] != sample.fields(0)[0]
+
+
+def test_few_photons_are_spread_over_the_surfaces():
+    assert surfaces.energy(GLASS, "40 deg", photons=16 * 512).surfaces == 16
+
+
+def test_of_one_photon_no_error_is_known():
+    assert np.isnan(surfaces.energy(GLASS, "40 deg", photons=1).R_se)
+    with pytest.warns(op.PhotonWarning, match="the standard error of R is nan after 1 photons"):
+        surfaces.energy(GLASS, "40 deg", photons=1, tolerance=0.01)
+
+
+def test_given_maps_of_one_size_stay_in_register():
+    # A step of glass whose lower face has the same step, 4 to the side or above each other.
+    heights = np.repeat([[0.0] * 4 + [4.0] * 4], 8, axis=0)
+    above, aside = [
+        op.Sample(
+            [
+                (1.5, surfaces.HeightField.from_heights(heights, 8.0, periodic=True)),
+                (1.0, surfaces.HeightField.from_heights(lower, 8.0, periodic=True)),
+            ]
+        )
+        for lower in (heights, np.roll(heights, 4, axis=1))
+    ]
+    found = [surfaces.energy(each, "30 deg", photons=50_000) for each in (above, aside)]
+    apart = abs(float(found[0].T - found[1].T))
+    assert apart > 10.0 * float(np.hypot(found[0].T_se, found[1].T_se))

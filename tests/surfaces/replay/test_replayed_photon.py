@@ -11,7 +11,7 @@ pytest.importorskip("numba")
 
 from optipath.surfaces.ends.photon_ends import photon_ends
 from optipath.surfaces.energies.energy import energy
-from optipath.surfaces.walk.photon_beam import BLOCK
+from optipath.surfaces.walk.photon_beam import BLOCK, PORTION
 
 STOKES = [1.0, 0.3, -0.5, 0.2]
 
@@ -56,9 +56,9 @@ def test_light_and_frame_are_those_among_all():
         assert light.stokes == pytest.approx(found.stokes[number], abs=1e-12)
 
 
-def test_photons_of_the_second_block_are_on_the_second_surface():
+def test_photons_of_other_portions_and_blocks_are_on_other_surfaces():
     sample = op.Sample([(1.5, (0.3, 0.2))], cells=200, surfaces=2)
-    number = BLOCK + 5
+    number = BLOCK + PORTION + 5
     photon = sample.photon(number, 0.8)
     assert photon.surface == 1
     assert photon.frame.z == pytest.approx(

@@ -125,8 +125,7 @@ def photon_ends(
 
 
 def _block(beam: PhotonBeam, number: int, photons: int) -> Numbers:
-    walked = beam.block(number, min(BLOCK, photons - BLOCK * number), keeps=True)
-    return beam.checked(walked, number).ends
+    return beam.block(number, min(BLOCK, photons - BLOCK * number), keeps=True).ends
 
 
 def _ends_of(beam: PhotonBeam, found: Numbers) -> PhotonEnds:

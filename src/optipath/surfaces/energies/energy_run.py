@@ -12,7 +12,6 @@ from optipath.surfaces.energies.energy_table import Energy
 from optipath.surfaces.walk.kept_meshes import kept_meshes
 from optipath.surfaces.walk.photon_beam import BLOCK
 from optipath.surfaces.walk.walk_code import walk_code
-from optipath.surfaces.walk.walk_layout import MOST_COUNTED, OUTCOMES, SUMS
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -20,7 +19,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.surfaces.walk.photon_beam import PhotonBeam, WalkedBlock
+    from optipath.surfaces.walk.photon_beam import PhotonBeam
+    from optipath.surfaces.walk.walked_block import WalkedBlock
 
 _AHEAD = 4
 """How many blocks a thread are handed out before the first of them is waited for."""
@@ -73,11 +73,13 @@ class EnergyRun:
         self, executor: ThreadPoolExecutor, todo: range, photons: int
     ) -> Iterator[WalkedBlock]:
         """Yield blocks in their order; no more are handed out than keep all threads at work."""
+        kept = kept_meshes(self.beam.sample)
         waiting: deque[Future[WalkedBlock]] = deque()
         for number in todo:
             size = min(BLOCK, photons - BLOCK * number)
             # Here and not by a thread, whose warnings nobody would know where from.
-            kept_meshes(self.beam.sample).of(self.beam.surface(number))
+            for _, _, surface in self.beam.portions(number, size):
+                kept.of(surface)
             waiting.append(executor.submit(self.beam.block, number, size))
             if len(waiting) > _AHEAD * self.threads:
                 yield waiting.popleft().result()
@@ -85,11 +87,10 @@ class EnergyRun:
             yield future.result()
 
     def _add(self, walked: WalkedBlock) -> None:
-        self.beam.checked(walked, self.blocks)
-        surface = self.beam.surface(self.blocks)
-        if surface == len(self._sums):
-            self._sums.append(np.zeros((OUTCOMES, MOST_COUNTED, self.beam.lights, SUMS)))
-        self._sums[surface] += walked.sums
+        for surface, sums in walked.sums.items():
+            while len(self._sums) <= surface:
+                self._sums.append(np.zeros_like(sums))
+            self._sums[surface] += sums
         self.blocks, self.photons = self.blocks + 1, self.photons + walked.photons
 
     @property

@@ -126,6 +126,7 @@ def mean_and_error(photons: Numbers, total: Numbers, squares: Numbers) -> tuple[
     count, surfaces = photons.sum(), len(photons)
     each = photons.reshape(-1, *[1] * (total.ndim - 1))
     mean, means = total.sum(axis=0) / count, total / each
-    within = (squares - total * means).sum(axis=0) / max(count - surfaces, 1.0)
-    between = (each * (means - mean) ** 2).sum(axis=0) / max(surfaces - 1, 1)
-    return mean, np.sqrt(np.maximum(np.maximum(within, between), 0.0) / count)
+    # Of one photon, or one surface, nobody knows how it differs from others.
+    within = (squares - total * means).sum(axis=0) / (count - surfaces or np.nan)
+    between = (each * (means - mean) ** 2).sum(axis=0) / (surfaces - 1 or np.nan)
+    return mean, np.sqrt(np.fmax(within, between).clip(min=0.0) / count)

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 class Energy(EnergyShares):
     """What becomes of the light that falls on a sample; the shares are those of `EnergyShares`.
 
+    Standard errors are over the photons, and over the realisations of random surfaces that they
+    fell on. Of one surface nothing is known of others; of one photon nothing at all (NaN).
+
     Attributes
     ----------
     scalar : EnergyShares
@@ -89,7 +92,7 @@ class Energy(EnergyShares):
             scalar=shares(scalar, scalar_squares, 1.0),
             difference=shares(polarised - scalar, apart, 0.0),
             photons=int(photons.sum()),
-            surfaces=len(photons),
+            surfaces=int((photons > 0.0).sum()),
             sideways=int(counts[:, SIDEWAYS].sum()),
             stuck=int(counts[:, STUCK].sum()),
         )

@@ -31,7 +31,8 @@ from optipath.surfaces.walk.walk_layout import (
 )
 
 if TYPE_CHECKING:
-    from optipath.surfaces.walk.photon_beam import PhotonBeam, WalkedBlock
+    from optipath.surfaces.walk.photon_beam import PhotonBeam
+    from optipath.surfaces.walk.walked_block import WalkedBlock
 
 Vector = npt.NDArray[np.float64]
 
@@ -149,7 +150,7 @@ def _on_mesh(
 ) -> Vector:
     """Return a point of the walk as that of a layer's own field, in the cell that was met."""
     field = beam.sample.fields(surface)[layer]
-    top = kept_meshes(beam.sample).of(surface).numbers[NUMBERS * layer + HIGH]
+    top = kept_meshes(beam.sample).of(surface).meshes.numbers[NUMBERS * layer + HIGH]
     shift = *starts[2 * layer : 2 * layer + 2], field.heights.max() - top
     found: Vector = position + np.array(shift)
     if field.periodic:

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.surfaces.samples.sample import Sample
-    from optipath.surfaces.walk.photon_beam import PhotonBeam, WalkedBlock
+    from optipath.surfaces.walk.photon_beam import PhotonBeam
+    from optipath.surfaces.walk.walked_block import WalkedBlock
 
 
 def replayed_photon(
@@ -80,12 +81,12 @@ def replayed_photon(
         what="record of {:.3g} events",
     )
     block, place = divmod(int(number), BLOCK)
-    walked = beam.checked(beam.block(block, wanted=place), block)
+    walked = beam.block(block, wanted=place)
     return _photon_of(beam, int(number), walked)
 
 
 def _photon_of(beam: PhotonBeam, number: int, walked: WalkedBlock) -> Photon:
-    surface = beam.surface(number // BLOCK)
+    surface = beam.surface(number)
     ends = walked.record[0]
     first, start_x, last, x = (
         ends[place : place + 3].copy() for place in (FIRST_K, FIRST_X, LAST_K, LAST_X)

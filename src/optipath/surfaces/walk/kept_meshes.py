@@ -3,16 +3,31 @@
 from __future__ import annotations
 
 from threading import Lock
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from optipath.surfaces.walk.packed_meshes import packed_meshes
+from optipath.surfaces.fields.height_field import HeightField
+from optipath.surfaces.walk.packed_meshes import PackedMeshes, packed_meshes
 
 if TYPE_CHECKING:
     from optipath.surfaces.samples.sample import Sample
-    from optipath.surfaces.walk.packed_meshes import PackedMeshes
 
 _MORE = 8
 """How many are kept besides those in turn, for blocks that are walked a little earlier or later."""
+
+
+class PlacedMeshes(NamedTuple):
+    """Meshes, and where they are in memory.
+
+    Attributes
+    ----------
+    meshes : PackedMeshes
+        The arrays.
+    addresses : tuple of int
+        Where each of them is.
+    """
+
+    meshes: PackedMeshes
+    addresses: tuple[int, ...]
 
 
 class KeptMeshes:
@@ -26,10 +41,10 @@ class KeptMeshes:
 
     def __init__(self, sample: Sample) -> None:
         self._sample = sample
-        self._known: dict[int, PackedMeshes] = {}
+        self._known: dict[int, PlacedMeshes] = {}
         self._lock = Lock()
 
-    def of(self, surface: int) -> PackedMeshes:
+    def of(self, surface: int) -> PlacedMeshes:
         """Return a realisation.
 
         Parameters
@@ -39,13 +54,17 @@ class KeptMeshes:
 
         Returns
         -------
-        PackedMeshes
+        PlacedMeshes
         """
+        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
+
         with self._lock:
             if surface not in self._known:
                 if len(self._known) >= self._sample.surfaces + _MORE:
                     self._known.pop(next(iter(self._known)))
-                self._known[surface] = packed_meshes(self._sample.fields(surface))
+                given = [isinstance(each.roughness, HeightField) for each in self._sample.layers]
+                meshes = packed_meshes(self._sample.fields(surface), given)
+                self._known[surface] = PlacedMeshes(meshes, tuple(map(address, meshes)))
             return self._known[surface]
 
 

@@ -23,6 +23,10 @@ HEIGHTS, CELLS_X, CELLS_Y, LEVELS, PERIODIC, PYRAMID = range(6)
 CELL_X, CELL_Y, LOW, HIGH = range(NUMBERS)
 """The places of the others."""
 
+ENDED, SHIFTED, IN_REGISTER = range(3)
+"""How a mesh stands: it ends at its border; or is periodic, and shifted at random for every photon;
+or periodic, and stays as it is against others of its kind."""
+
 GAP = 2.0
 """The empty space between two meshes, in standard deviations of the rougher one's heights."""
 
@@ -48,18 +52,21 @@ class PackedMeshes(NamedTuple):
     extremes: npt.NDArray[np.float64]
 
 
-def packed_meshes(fields: Sequence[HeightField]) -> PackedMeshes:
+def packed_meshes(fields: Sequence[HeightField], given: Sequence[bool] = ()) -> PackedMeshes:
     """Return meshes as compiled code takes them, far enough from each other not to touch.
 
     Parameters
     ----------
     fields : sequence of HeightField
         From the top.
+    given : sequence of bool, optional
+        Which of them a user has given; those of one size stay in register.
 
     Returns
     -------
     PackedMeshes
     """
+    standing = _standing(fields, given)
     wholes = np.zeros((len(fields), WHOLES), np.int64)
     numbers = np.zeros((len(fields), NUMBERS))
     heights: list[npt.NDArray[np.float64]] = []
@@ -73,7 +80,7 @@ def packed_meshes(fields: Sequence[HeightField]) -> PackedMeshes:
         lowest = float(vertices.min())
         across, down = field.cells
         levels = pyramid_of(vertices)
-        wholes[place, :PYRAMID] = taken, across, down, len(levels) - 1, field.periodic
+        wholes[place, :PYRAMID] = taken, across, down, len(levels) - 1, standing[place]
         for level, values in enumerate(levels[1:], 1):
             wholes[place, PYRAMID + level] = told
             told += values.size
@@ -85,3 +92,13 @@ def packed_meshes(fields: Sequence[HeightField]) -> PackedMeshes:
     return PackedMeshes(
         wholes.ravel(), numbers.ravel(), np.concatenate(heights), np.concatenate(extremes)
     )
+
+
+def _standing(fields: Sequence[HeightField], given: Sequence[bool]) -> list[int]:
+    """Return how each mesh stands; those that are given stay in register with the first of them."""
+    found = [SHIFTED if field.periodic else ENDED for field in fields]
+    places = [place for place, is_given in enumerate(given) if is_given and found[place] == SHIFTED]
+    for place in places:
+        if fields[place].size == fields[places[0]].size:
+            found[place] = IN_REGISTER
+    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
@@ -23,52 +23,31 @@ from optipath.surfaces.walk.walk_layout import (
     RECORD,
     SUMS,
 )
+from optipath.surfaces.walk.walked_block import WalkedBlock
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_indices import SampleIndices
 
 BLOCK = 1 << 14
-"""How many photons share a stream of random numbers, and one realisation of the surfaces."""
+"""How many photons share a stream of random numbers."""
 
-TURNS = 32
-"""How many blocks are walked over a random surface before another is drawn in its place."""
+PORTION = 1 << 9
+"""How many of them walk over one realisation of the surfaces before the next takes its turn."""
 
-
-class WalkedBlock(NamedTuple):
-    """What has become of the photons of a block.
-
-    Attributes
-    ----------
-    photons : int
-        How many there were.
-    sums : ndarray, shape (OUTCOMES, MOST_COUNTED, lights, SUMS)
-        As `walk_layout` says.
-    record : ndarray, shape (events + 1, RECORD)
-        The photon that was wanted.
-    starts : ndarray, shape (2 layers,)
-        Where on each mesh the last photon has started, along x and along y.
-    lights : ndarray, shape (lights, CARRIED)
-        The lights of the last photon.
-    ends : ndarray, shape (photons, ENDS + CARRIED lights)
-        The end of every photon, where these are kept.
-    """
-
-    photons: int
-    sums: npt.NDArray[np.float64]
-    record: npt.NDArray[np.float64]
-    starts: npt.NDArray[np.float64]
-    lights: npt.NDArray[np.float64]
-    ends: npt.NDArray[np.float64]
+TURN = 1 << 19
+"""How many photons walk over a realisation before another is drawn in its place."""
 
 
 @dataclass(frozen=True)
 class PhotonBeam:
     """What is needed to walk any block of photons; blocks do not depend on each other.
 
-    Blocks take the sample's surfaces in turn, and after `TURNS` of them new ones, so that the
-    error of many photons goes down. Block b has the random numbers of child b of the seed
-    (`numpy.random.SeedSequence`).
+    The sample's surfaces take turns, each for a `PORTION` of photons, and after a `TURN` of them
+    others take their places, so that the error of many photons goes down. Block b has the random
+    numbers of child b of the seed (`numpy.random.SeedSequence`).
 
     Attributes
     ----------
@@ -112,13 +91,13 @@ class PhotonBeam:
     def _is_random(self) -> bool:
         return any(each.is_random for each in self.sample.layers)
 
-    def surface(self, number: int) -> int:
-        """Return over which realisation of the surfaces a block is walked.
+    def surface(self, photon: int) -> int:
+        """Return over which realisation of the surfaces a photon walks.
 
         Parameters
         ----------
-        number : int
-            The block.
+        photon : int
+            Its number, of all photons.
 
         Returns
         -------
@@ -126,8 +105,26 @@ class PhotonBeam:
         """
         if not self._is_random:
             return 0
-        drawn, place = divmod(number, TURNS * self.surfaces)
+        drawn, place = divmod(photon // PORTION, TURN // PORTION * self.surfaces)
         return drawn * self.surfaces + place % self.surfaces
+
+    def portions(self, number: int, photons: int) -> Iterator[tuple[int, int, int]]:
+        """Yield the portions of a block: the first photon, how many, and over which surface.
+
+        Parameters
+        ----------
+        number : int
+            The block.
+        photons : int
+            How many photons of it are wanted.
+
+        Yields
+        ------
+        tuple of int
+        """
+        for first in range(0, photons, PORTION):
+            surface = self.surface(BLOCK * number + first)
+            yield first, min(PORTION, photons - first), surface
 
     def block(
         self, number: int, photons: int = BLOCK, wanted: int = -1, *, keeps: bool = False
@@ -148,56 +145,44 @@ class PhotonBeam:
         Returns
         -------
         WalkedBlock
-        """
-        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
-
-        meshes = kept_meshes(self.sample).of(self.surface(number))
-        layers, count = len(self.sample.layers), self.lights
-        stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
-        state = np.array(stream.state["state"]["state"], np.uint64)
-        starts, lights = np.zeros(2 * layers), np.zeros((count, CARRIED))
-        sums = np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS))
-        record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
-        media, base, source = self._given
-        azimuth = np.nan if self.sample.isotropic else self.azimuth
-        photons = photons if wanted < 0 else wanted + 1
-        ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
-        found = walk_code()(
-            *map(address, (*meshes, media, base)),
-            *(layers, self.cos, self.sin, azimuth, address(source)),
-            *(count, photons, self.most_events, wanted),
-            *map(address, (state, starts, lights, sums, record, ends)),
-            int(keeps),
-        )
-        return WalkedBlock(found, sums, record, starts, lights, ends)
-
-    def checked(self, walked: WalkedBlock, number: int) -> WalkedBlock:
-        """Return a block; refuse one that is none.
-
-        Parameters
-        ----------
-        walked : WalkedBlock
-            What was walked.
-        number : int
-            Which block it is.
-
-        Returns
-        -------
-        WalkedBlock
 
         Raises
         ------
         SurfaceError
             If photons meet nothing, or come to what is no number.
         """
-        if not walked.photons:
-            raise SurfaceError(
-                "photons meet nothing of the sample: its finite fields are too small for this "
-                "incidence; give larger or periodic ones"
+        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
+
+        count, photons = self.lights, photons if wanted < 0 else wanted + 1
+        stream = np.random.SFC64(np.random.SeedSequence(self.seed, spawn_key=(number,)))
+        state = np.array(stream.state["state"]["state"], np.uint64)
+        starts, lights = np.zeros(2 * len(self.sample.layers)), np.zeros((count, CARRIED))
+        record = np.zeros((1 if wanted < 0 else 1 + self.most_events, RECORD))
+        ends = np.zeros((photons if keeps else 1, ENDS + CARRIED * count))
+        azimuth = np.nan if self.sample.isotropic else self.azimuth
+        media, base, source = map(address, self._given)
+        before = (media, base, len(self.sample.layers), self.cos, self.sin, azimuth, source, count)
+        behind = [address(each) for each in (state, starts, lights)]
+        code, kept, to_record = walk_code(), kept_meshes(self.sample), address(record)
+        sums: dict[int, npt.NDArray[np.float64]] = {}
+        for first, size, surface in self.portions(number, photons):
+            own = sums.setdefault(surface, np.zeros((OUTCOMES, MOST_COUNTED, count, SUMS)))
+            last = wanted - first if first <= wanted else -1
+            place = address(ends) + keeps * first * ends.strides[0]
+            found = code(
+                *kept.of(surface).addresses,
+                *before,
+                *(size, self.most_events, last if last < size else -1),
+                *(*behind, address(own), to_record, place, int(keeps)),
             )
-        if not np.isfinite(walked.sums).all():
+            if not found:
+                raise SurfaceError(
+                    "photons meet nothing of the sample: its finite fields are too small for this "
+                    "incidence; give larger or periodic ones"
+                )
+        if not all(np.isfinite(own).all() for own in sums.values()):
             raise SurfaceError(f"photons of block {number} come to what is no number")
-        return walked
+        return WalkedBlock(photons, sums, record, starts, lights, ends)
 
     @cached_property
     def _given(self) -> tuple[npt.NDArray[np.float64], ...]:

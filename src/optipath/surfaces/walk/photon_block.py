@@ -12,6 +12,8 @@ from optipath.surfaces.walk.packed_meshes import (
     CELL_Y,
     CELLS_X,
     CELLS_Y,
+    ENDED,
+    IN_REGISTER,
     NUMBERS,
     PERIODIC,
     WHOLES,
@@ -130,16 +132,19 @@ def photon_block(
 
 @nb.njit(error_model="numpy")
 def _start(meshes: Any, layers: int, starts: Any, state: Any) -> None:
-    """Draw where on each mesh a photon starts; meshes that end somewhere have one place."""
+    """Draw where on each mesh a photon starts; one place for all that end, or are in register."""
     wholes, numbers = meshes[0], meshes[1]
-    ended = -1
+    ended = in_register = -1
     for layer in range(layers):
         about, sizes = layer * WHOLES, layer * NUMBERS
-        if wholes[about + PERIODIC] == 0 and ended >= 0:
-            starts[2 * layer], starts[2 * layer + 1] = starts[2 * ended], starts[2 * ended + 1]
+        standing, other = wholes[about + PERIODIC], -1
+        if standing == ENDED:
+            ended, other = (layer, -1) if ended < 0 else (ended, ended)
+        elif standing == IN_REGISTER:
+            in_register, other = (layer, -1) if in_register < 0 else (in_register, in_register)
+        if other >= 0:
+            starts[2 * layer], starts[2 * layer + 1] = starts[2 * other], starts[2 * other + 1]
             continue
-        if wholes[about + PERIODIC] == 0:
-            ended = layer
         width = wholes[about + CELLS_X] * numbers[sizes + CELL_X]
         depth = wholes[about + CELLS_Y] * numbers[sizes + CELL_Y]
         starts[2 * layer], starts[2 * layer + 1] = width * uniform(state), depth * uniform(state)
