@@ -30,7 +30,7 @@ INCIDENCE = click.Option(
     ["--incidence", "incidences"],
     metavar="DEG",
     multiple=True,
-    help="The angle of incidence; several by 10,20,30, by 0:80:9 (start:stop:count), or repeated.",
+    help="The angle of incidence; several by '10, 20', by 0:80:9 (start:stop:count), or repeated.",
 )
 PHOTONS = click.Option(
     ["--photons"],

@@ -23,8 +23,11 @@ def test_a_material_is_asked_for_its_index_at_the_wavelength():
 
 
 WRONG = [
-    ({"alpha": 0.0}, "alpha is 0, and a flat surface has no density of slopes; give an alpha"),
-    ({"alpha_y": [0.3, -1.0, 2.0]}, "alpha_y is -1 at 1, and a flat surface"),
+    (
+        {"alpha": 0.0},
+        "alpha is 0; give one above 0, or for a flat surface, whose slopes have no density",
+    ),
+    ({"alpha_y": [0.3, -1.0, 2.0]}, "alpha_y is -1 at 1; give one above 0"),
     ({"alpha": np.nan}, "alpha is nan; give a finite alpha"),
     ({"alpha": (0.1, 0.2)}, "may be along x and y, or of two surfaces"),
     ({"alpha": op.Parameter("a")}, "alpha follows from the parameter 'a'"),

@@ -207,7 +207,7 @@ def test_the_size_that_is_offered_is_taken_and_little_larger_than_needed(alpha_x
     assert offered == pytest.approx((20.0 / alpha_x, 20.0 / alpha_y), rel=2e-4)
 
 
-@pytest.mark.parametrize("asked", [{"size": 1e9}, {"size": 1e200}, {"cells": 10**7}])
+@pytest.mark.parametrize("asked", [{"size": 1e9}, {"size": 1e20}, {"cells": 10**7}])
 def test_a_mesh_larger_than_the_memory_is_refused(asked):
     (fault,) = faults_of(HeightField.beckmann, 1.0, **{"size": 400.0} | asked)
     assert fault.startswith("a mesh of ")
@@ -263,3 +263,10 @@ def test_a_field_says_what_it_is():
     assert repr(field) == (
         "HeightField.beckmann of alpha (0.3, 0.2), 240 x 200 cells, 100 x 120.5, periodic"
     )
+
+
+def test_lengths_whose_ratios_have_no_squares_are_refused():
+    (fault,) = faults_of(HeightField.from_heights, MAP, 1e-300)
+    assert fault == "size is 1e-300; give it in a unit of which it is 1e-30 .. 1e+30"
+    (fault,) = faults_of(HeightField.from_heights, 1e300 * np.array(MAP), 1.0)
+    assert "give them in a unit in which they are numbers of 1e+30 at most" in fault

@@ -149,3 +149,18 @@ def test_the_extra_for_pictures_is_named_where_it_is_missing(tmp_path, monkeypat
     monkeypatch.setitem(sys.modules, "tifffile", None)
     with pytest.raises(op.OptipathError, match=r"pip install 'optipath\[tiff\]'"):
         HeightField.from_file(written(tmp_path, "a.tif", ""), 1.0)
+
+
+def test_a_mark_of_utf_8_before_the_first_number_is_no_number(tmp_path):
+    (tmp_path / "a.csv").write_bytes(b"\xef\xbb\xbf" + b"0,1,2\n3,4,5\n6,7,8\n")
+    field = HeightField.from_file(tmp_path / "a.csv", 1.0)
+    assert np.array_equal(field.heights, np.arange(9.0).reshape(3, 3))
+
+
+def test_a_picture_that_is_cut_short_is_told_so(tmp_path):
+    tifffile = pytest.importorskip("tifffile")
+    tifffile.imwrite(tmp_path / "a.tif", np.ones((40, 40)))
+    whole = (tmp_path / "a.tif").read_bytes()
+    (tmp_path / "a.tif").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(op.SurfaceError, match="it may be cut short, so save it again"):
+        HeightField.from_file(tmp_path / "a.tif", 1.0)

@@ -67,7 +67,9 @@ def test_heights_that_are_in_no_file_cannot_be_written(tmp_path):
     with pytest.raises(op.SurfaceError) as error:
         op.Sample([(1.5, heights), (2.4, 0.1), (1.5, heights)]).to_toml()
     first, second = error.value.faults
-    assert first.startswith("layers[0]: its heights are in no file; save them by numpy.save(")
+    assert first.startswith(
+        "layers[0]: its heights are in no file that it knows of; save them by numpy.save("
+    )
     assert second.startswith("layers[2]: its heights are in no file")
     # The cure, as it says.
     np.save(tmp_path / "heights.npy", heights.heights)

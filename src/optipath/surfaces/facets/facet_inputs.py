@@ -38,8 +38,8 @@ class PositiveAlpha(Domain):
     def _check_numbers(self, owner: str, array: Any, rounding: float) -> None:
         if array.dtype.kind == "f" and np.any(bad := array <= 0.0):
             raise ValueFault(
-                f"{owner} is {array[bad].flat[0]:g}{first_place(bad)}, and a flat surface has no "
-                f"density of slopes; give an alpha above 0, or take an Interface"
+                f"{owner} is {array[bad].flat[0]:g}{first_place(bad)}; give one above 0, or for a "
+                f"flat surface, whose slopes have no density, take an Interface"
             )
         super()._check_numbers(owner, array, rounding)
 

@@ -22,6 +22,10 @@ FEWEST_LENGTHS = 10
 """How many correlation lengths a period needs, to have enough different waves."""
 
 
+_FARTHEST = 1e30
+"""The largest length, and one over the least, whose ratios to others still have squares."""
+
+
 def length_faults(what: str, value: object, cure: str = "") -> list[str]:
     """Return the sentence for what is no positive number; none for one that is.
 
@@ -68,6 +72,9 @@ def pair_of(what: str, value: Any, faults: list[str]) -> Pair:
     """
     both = _both(value)
     if len(both) == 2 and not any(length_faults(what, each) for each in both):
+        if not all(1.0 / _FARTHEST <= each <= _FARTHEST for each in both):
+            limits = f"{1.0 / _FARTHEST:g} .. {_FARTHEST:g}"
+            faults.append(f"{what} is {shown(value)}; give it in a unit of which it is {limits}")
         return float(both[0]), float(both[1])
     faults.append(
         f"{what} must be a positive number, or two of them for x and y, not {shown(value)}"
@@ -213,6 +220,11 @@ def heights_of(heights: Any, faults: list[str], *, periodic: bool) -> Array:
             f"{len(bad)} of {kept.size} heights {'is' if len(bad) == 1 else 'are'} not finite, "
             f"the first {kept[row, column]} at heights[{row}, {column}]; cut these out, or fill "
             f"them with heights around them"
+        )
+    elif (steepest := np.abs(kept).max(initial=0.0)) > _FARTHEST:
+        faults.append(
+            f"heights reach {steepest:.3g}; give them in a unit in which they are numbers "
+            f"of {_FARTHEST:g} at most"
         )
     kept.setflags(write=False)
     return kept

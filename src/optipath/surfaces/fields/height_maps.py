@@ -64,7 +64,7 @@ def read_heights(path: str | PathLike[str]) -> Array:
 def _text(file: Path) -> Array:
     """Read numbers separated by blanks or commas."""
     try:
-        lines = enumerate(file.read_text("utf-8").splitlines(), 1)
+        lines = enumerate(file.read_text("utf-8-sig").splitlines(), 1)
     except UnicodeDecodeError:
         raise SurfaceError("is no text in UTF-8; save it as UTF-8") from None
     rows = [(number, row) for number, line in lines if (row := line.partition("#")[0].strip())]
@@ -122,8 +122,8 @@ def _picture(file: Path) -> Array:
         raise
     except Exception as fault:  # noqa: BLE001 - damaged files make tifffile raise anything
         raise SurfaceError(
-            f"is no TIFF that can be read: {_one_line(fault)}; save it without compression, or "
-            f"give its numbers to HeightField.from_heights"
+            f"is no TIFF that can be read: {_one_line(fault)}; {_cure_of(fault)}, or give its "
+            f"numbers to HeightField.from_heights"
         ) from None
 
 
@@ -138,6 +138,12 @@ def _alone(pictures: Sequence[Any]) -> Any:
             "has numbers of colours in a palette, which are no heights; save heights as grey values"
         )
     return pictures[0]
+
+
+def _cure_of(fault: Exception) -> str:
+    """Return what may be wrong with a picture: its compression, or that it is not whole."""
+    packed = "compression" in str(fault).lower() or "imagecodecs" in str(fault).lower()
+    return "save it without compression" if packed else "it may be cut short, so save it again"
 
 
 def _one_line(fault: Exception) -> str:

@@ -57,7 +57,7 @@ def _row(layer: SampleLayer) -> dict[str, Any]:
         return index | {"alpha": 0.0}
     if not layer.file:
         raise SurfaceError(
-            "its heights are in no file; save them by numpy.save('heights.npy', "
+            "its heights are in no file that it knows of; save them by numpy.save('heights.npy', "
             'field.heights), and load a sample whose file has heights = "heights.npy"'
         )
     row = index | {"heights": layer.file, "size": [*rough.size]}
