@@ -270,3 +270,7 @@ def test_lengths_whose_ratios_have_no_squares_are_refused():
     assert fault == "size is 1e-300; give it in a unit of which it is 1e-30 .. 1e+30"
     (fault,) = faults_of(HeightField.from_heights, 1e300 * np.array(MAP), 1.0)
     assert "give them in a unit in which they are numbers of 1e+30 at most" in fault
+
+
+def test_a_field_as_wide_as_it_must_be_is_wide_enough_in_spite_of_roundings():
+    assert period_faults((0.1545, 0.1545), (20.0 / 0.1545, 20.0 / 0.1545)) == []

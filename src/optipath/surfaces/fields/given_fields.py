@@ -165,7 +165,8 @@ def period_faults(alpha: Pair, size: Pair) -> list[str]:
     []
     """
     lengths = correlation_lengths(alpha, size)
-    if min(lengths) >= FEWEST_LENGTHS:
+    # A size of 20 / alpha may be less by a rounding.
+    if min(lengths) * (1.0 + 1e-12) >= FEWEST_LENGTHS:
         return []
     enough = tuple(_rounded_up(min(2.0 * FEWEST_LENGTHS / each, 1e300)) for each in alpha)
     why = (
