@@ -1,5 +1,7 @@
 """Gradients by JAX, against differences and closed forms; needs the extra [jax]."""
 
+import os
+
 import numpy as np
 import pytest
 
@@ -23,12 +25,14 @@ def _double():
 PRESETS = {*op.preset_names()} - {"pile-of-plates", "absorbing-pile"}
 # Light that goes round, or through a stack, has no one Jones vector, and a sheet no Jones matrix.
 WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window", "dichroic-sheet"}
+# Each is compiled for seconds; all of them where OPTIPATH_SETS is set.
+FEW = {"npgr026", "fresnel-rhomb", "faraday-isolator", "copper-gold-spectrum"}
 
 
 @pytest.mark.parametrize(
     ("name", "composing"),
     [(name, "stokes") for name in sorted(PRESETS)]
-    + [(name, "jones") for name in sorted(WITH_JONES)],
+    + [(name, "jones") for name in sorted(WITH_JONES if "OPTIPATH_SETS" in os.environ else FEW)],
 )
 def test_every_preset_gives_what_numpy_gives(name, composing):
     path = op.load_preset(name)

@@ -1,5 +1,7 @@
 """Paths of many elements, and light too faint for a float."""
 
+import os
+
 import mpmath
 import numpy as np
 import pytest
@@ -36,8 +38,8 @@ def test_no_path_polarises_by_more_than_100_percent(kind, count, dtype, composin
     assert excess(light) <= np.finfo(dtype).eps
 
 
-def test_a_hundred_thousand_total_reflections_keep_the_light_and_its_polarisation():
-    count = 100_000
+def test_many_thousand_total_reflections_keep_the_light_and_its_polarisation():
+    count = 100_000 if "OPTIPATH_SETS" in os.environ else 20_000
     # One after another about one axis: a retarder of as many times the angle.
     element = op.Interface(1 / 1.5, 0.9)
     path = chain([element] * count, POLARISED)
