@@ -122,9 +122,9 @@ class PhotonBeam:
         ------
         tuple of int
         """
-        for first in range(0, photons, PORTION):
-            surface = self.surface(BLOCK * number + first)
-            yield first, min(PORTION, photons - first), surface
+        size = PORTION if self._is_random else BLOCK
+        for first in range(0, photons, size):
+            yield first, min(size, photons - first), self.surface(BLOCK * number + first)
 
     def block(
         self, number: int, photons: int = BLOCK, wanted: int = -1, *, keeps: bool = False
