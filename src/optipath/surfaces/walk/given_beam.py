@@ -80,7 +80,14 @@ def given_beam(
     if faults or indices is None or light is None:
         raise SurfaceError(*faults)
     return PhotonBeam(
-        sample, cos(incidence), sin(incidence), azimuth, indices, light, int(seed), int(most_events)
+        sample,
+        cos(incidence),
+        sin(incidence),
+        azimuth,
+        indices,
+        (light,),
+        int(seed),
+        int(most_events),
     )
 
 
