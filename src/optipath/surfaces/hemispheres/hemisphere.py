@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.surfaces.hemispheres.pixel_light import PixelLight
+from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-class Hemisphere(PixelLight):
+class Hemisphere(MeasuredPixels):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
     into it. Light comes in a frame with x horizontal, perpendicular to the plane of incidence; it
     leaves with x perpendicular to the meridional plane of its direction, (0, 0, 1) cross
     direction, and (0, 1, 0) along the normal. What it is made of are the attributes of
-    `PixelLight`.
+    `MeasuredPixels`.
 
     Examples
     --------

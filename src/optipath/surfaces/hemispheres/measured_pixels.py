@@ -1,4 +1,4 @@
-"""PixelLight: the light of each pixel of a hemisphere, as photons have brought it there."""
+"""MeasuredPixels: the light of each pixel of a hemisphere, as photons have brought it there."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class PixelLight:
+class MeasuredPixels:
     """The light of each pixel, and standard errors: what a `Hemisphere` is made of.
 
     Attributes
