@@ -82,7 +82,7 @@ def test_a_sample_with_smooth_interfaces_is_such_a_stack():
     assert found.difference == pytest.approx(-0.02498, abs=5e-6)
 
 
-@settings(max_examples=30)
+@settings(max_examples=15)
 @given(n=INDICES, below=INDICES, incidence=INCIDENCES)
 def test_two_boundaries_reflect_the_geometric_series_of_their_means(n, below, incidence):
     y = np.sin(incidence)
@@ -93,7 +93,7 @@ def test_two_boundaries_reflect_the_geometric_series_of_their_means(n, below, in
         assert found.scalar == pytest.approx(series, rel=1e-12, abs=1e-15)
 
 
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(first=INDICES, second=INDICES, below=INDICES, incidence=INCIDENCES)
 def test_three_boundaries_let_through_the_series_within_the_series(first, second, below, incidence):
     y = np.sin(incidence)
@@ -202,7 +202,7 @@ def test_no_light_of_the_scalar_model_gets_lost_in_networks():
         assert found == pytest.approx(network.emitted, rel=1e-13)
 
 
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(media=st.lists(INDICES, min_size=2, max_size=5), incidence=INCIDENCES)
 def test_what_a_stack_reflects_and_lets_through_is_all_that_came(media, incidence):
     both = [
@@ -212,7 +212,7 @@ def test_what_a_stack_reflects_and_lets_through_is_all_that_came(media, incidenc
     assert sum(both) == pytest.approx(1.0, rel=1e-13)
 
 
-@settings(max_examples=20)
+@settings(max_examples=10)
 @given(
     media=st.lists(INDICES, min_size=2, max_size=5),
     k=st.floats(0.0, 1e-3),
@@ -235,7 +235,7 @@ def test_behind_total_reflection_nothing_differs():
     assert through.scalar == through.exact == through.difference == 0.0
 
 
-@settings(max_examples=40)
+@settings(max_examples=20)
 @given(
     media=st.lists(INDICES, min_size=2, max_size=4),
     incidence=INCIDENCES,

@@ -122,8 +122,8 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
             if ends
             else "the path has no detector; give it one"
         )
-    cure = "polarization(path, detector)"
-    name = only("detector", tuple(plan.whole.readings) if detector else ends, cure, detector)
+    readings = tuple(plan.whole.readings)
+    name = ends[0] if detector is None else only("detector", readings, "run_all()", detector)
     traced = plan.answers.whole.for_jax
     traced.refuse_traced(parameters, "comparisons with the scalar model are made")
     scalar, certificate = _scalar(plan, name, parameters)
