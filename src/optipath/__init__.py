@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
+    from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_files import load_sample, sample_names
     from optipath.sweeps.uncertainty.propagation import Propagation
@@ -203,6 +204,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "intensity_bounds",
     "load_preset",
     "load_sample",
+    "measure",
     "path_from_vertices",
     "plane_of_incidence",
     "polarization",
@@ -260,6 +262,7 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
+    "surfaces.hemispheres.measure": ["measure"],
     "surfaces.samples.sample": ["Sample"],
     "surfaces.samples.sample_files": ["load_sample", "sample_names"],
     "sweeps.uncertainty.propagation": ["Propagation"],

@@ -87,7 +87,7 @@ def energy_as_json(outcome: EnergyOutcome) -> dict[str, Any]:
     found: dict[str, Any] = {
         "incidence": plain(given.incidence.shown),
         "azimuth": plain(beam.azimuth, "deg"),
-        "stokes": [*beam.stokes],
+        "stokes": [*beam.states[0]],
     }
     if given.wavelengths is not None:
         found["wavelength"] = plain(given.wavelengths.shown)

@@ -10,14 +10,29 @@ if TYPE_CHECKING:
     from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.measure import measure
+    from optipath.surfaces.hemispheres.sensor import Sensor
     from optipath.surfaces.replay.photon import Photon
 
-__all__ = ["HeightField", "Photon", "energy", "photon_ends", "single_scattering"]
+__all__ = [
+    "HeightField",
+    "Hemisphere",
+    "Photon",
+    "Sensor",
+    "energy",
+    "measure",
+    "photon_ends",
+    "single_scattering",
+]
 
 _HOMES = {
     "HeightField": "fields.height_field",
     "Photon": "replay.photon",
+    "Hemisphere": "hemispheres.hemisphere",
+    "Sensor": "hemispheres.sensor",
     "energy": "energies.energy",
+    "measure": "hemispheres.measure",
     "photon_ends": "ends.photon_ends",
     "single_scattering": "facets.facet_model",
 }

@@ -9,31 +9,16 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError
-from optipath.kernels.carriers.carried import stokes_of
-from optipath.kernels.carriers.structures import ROTATION
-from optipath.kernels.geometry.facet import plane_at_facet
-from optipath.kernels.numbers.primitives import NUMPY
+from optipath.surfaces.ends.turned_ends import Numbers, turned_ends
 from optipath.surfaces.walk.given_beam import UNPOLARISED, given_beam
 from optipath.surfaces.walk.photon_beam import BLOCK
-from optipath.surfaces.walk.walk_layout import (
-    AZIMUTH,
-    CARRIED,
-    END_K,
-    END_LIGHTS,
-    END_X,
-    ENDS,
-    EVENTS,
-    OUTCOME,
-    OUTCOME_NAMES,
-)
+from optipath.surfaces.walk.walk_layout import CARRIED, ENDS, OUTCOME_NAMES
 from optipath.values.arrays.memory import refuse_too_large
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.walk.photon_beam import PhotonBeam
-
-Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,26 +114,12 @@ def _block(beam: PhotonBeam, number: int, photons: int) -> Numbers:
 
 
 def _ends_of(beam: PhotonBeam, found: Numbers) -> PhotonEnds:
-    back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
-    k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
-    _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
-    lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
-    carried = tuple(lights[..., place] for place in range(4))
-    rotation = [each[:, np.newaxis] for each in turn]
-    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
-    shape = (len(found), *beam.indices.n.shape)
+    turned, shape = turned_ends(beam, found), (len(found), *beam.indices.n.shape)
     return PhotonEnds(
-        ends=np.array(OUTCOME_NAMES)[found[:, OUTCOME].astype(int)],
-        events=found[:, EVENTS].astype(int),
-        directions=k,
-        x=np.stack(np.broadcast_arrays(*x), axis=-1),
-        stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1).reshape(*shape, 4),
-        scalar=lights[..., 4].reshape(shape),
+        ends=np.array(OUTCOME_NAMES)[turned.outcomes],
+        events=turned.events,
+        directions=turned.directions,
+        x=turned.x,
+        stokes=turned.stokes.reshape(*shape, 4),
+        scalar=turned.scalar.reshape(shape),
     )
-
-
-def _turned(vectors: Numbers, angle: Numbers) -> Numbers:
-    """Return vectors turned about z."""
-    c, s = np.cos(angle), np.sin(angle)
-    x, y, z = vectors.T
-    return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)

@@ -2,28 +2,22 @@
 
 from __future__ import annotations
 
-from collections import deque
-from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optipath.surfaces.energies.energy_table import Energy
-from optipath.surfaces.walk.kept_meshes import kept_meshes
 from optipath.surfaces.walk.photon_beam import BLOCK
-from optipath.surfaces.walk.walk_code import walk_code
+from optipath.surfaces.walk.walked_in_order import walked_in_order
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-    from concurrent.futures import Future
+    from collections.abc import Callable
 
     import numpy.typing as npt
 
     from optipath.surfaces.walk.photon_beam import PhotonBeam
     from optipath.surfaces.walk.walked_block import WalkedBlock
-
-_AHEAD = 4
-"""How many blocks a thread are handed out before the first of them is waited for."""
 
 
 class EnergyRun:
@@ -57,34 +51,13 @@ class EnergyRun:
         SurfaceError
             If photons meet nothing, or come to what is no number.
         """
-        walk_code()
-        last = -(-photons // BLOCK)
-        todo = range(self.blocks, last)
-        executor = ThreadPoolExecutor(self.threads)
-        try:
-            for walked in self._in_order(executor, todo, photons):
-                self._add(walked)
+        todo = range(self.blocks, -(-photons // BLOCK))
+        walked = walked_in_order(self.beam, todo, photons, self.threads, self.beam.block)
+        with closing(walked):
+            for block in walked:
+                self._add(block)
                 if progress is not None:
                     progress(self.photons, photons)
-        finally:
-            executor.shutdown(cancel_futures=True)
-
-    def _in_order(
-        self, executor: ThreadPoolExecutor, todo: range, photons: int
-    ) -> Iterator[WalkedBlock]:
-        """Yield blocks in their order; no more are handed out than keep all threads at work."""
-        kept = kept_meshes(self.beam.sample)
-        waiting: deque[Future[WalkedBlock]] = deque()
-        for number in todo:
-            size = min(BLOCK, photons - BLOCK * number)
-            # Here and not by a thread, whose warnings nobody would know where from.
-            for _, _, surface in self.beam.portions(number, size):
-                kept.of(surface)
-            waiting.append(executor.submit(self.beam.block, number, size))
-            if len(waiting) > _AHEAD * self.threads:
-                yield waiting.popleft().result()
-        for future in waiting:
-            yield future.result()
 
     def _add(self, walked: WalkedBlock) -> None:
         for surface, sums in walked.sums.items():

@@ -69,7 +69,7 @@ class Energy(EnergyShares):
         -------
         Energy
         """
-        source, shape = beam.stokes[0], beam.indices.n.shape
+        source, shape = beam.states[0][0], beam.indices.n.shape
         counts = sums[..., 0, COUNT]
         photons = counts.sum(axis=(1, 2))
 

@@ -110,7 +110,7 @@ class Photon:
         """
         if which is not None:
             _check_place(which, self.beam.indices.n.shape)
-        source = Source(self.weight, self.beam.stokes)
+        source = Source(self.weight, self.beam.states[0])
         return event_path(source, self.events, which, repr(self)[1:-1])
 
     def __repr__(self) -> str:

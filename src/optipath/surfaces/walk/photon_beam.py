@@ -60,8 +60,9 @@ class PhotonBeam:
         photon has an azimuth of its own.
     indices : SampleIndices
         Of the media; of the base, one for each light that rides on a photon.
-    stokes : tuple of float
-        The Stokes vector of the source; the x of its frame is horizontal.
+    states : tuple of tuple of float, each (S0, S1, S2, S3)
+        The Stokes vectors of the source, which ride on one photon for each light of the base; the
+        x of their frame is horizontal.
     seed : int
         Of all random numbers.
     most_events : int
@@ -73,14 +74,14 @@ class PhotonBeam:
     sin: float
     azimuth: float
     indices: SampleIndices
-    stokes: tuple[float, float, float, float]
+    states: tuple[tuple[float, float, float, float], ...]
     seed: int
     most_events: int
 
     @cached_property
     def lights(self) -> int:
-        """How many lights ride on a photon."""
-        return self.indices.n.size
+        """How many lights ride on a photon: for each index of the base, all states."""
+        return self.indices.n.size * len(self.states)
 
     @property
     def surfaces(self) -> int:
@@ -191,5 +192,6 @@ class PhotonBeam:
         behind = OPAQUE if indices.opaque else float(indices.n.flat[0])
         media = np.array([indices.outside, *indices.inner, behind])
         base = np.stack([indices.n.ravel(), indices.k.ravel()], axis=-1)
-        light = [*carry(FLOAT, self.stokes), self.stokes[0]]
-        return media, base, np.tile(np.array(light), (self.lights, 1))
+        source = [[*carry(FLOAT, state), state[0]] for state in self.states]
+        each = np.repeat(base, len(source), axis=0)
+        return media, each, np.tile(np.array(source), (len(base), 1))

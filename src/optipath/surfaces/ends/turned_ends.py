@@ -1,0 +1,120 @@
+"""The ends of photons, each light in the frame of its meridional plane."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.kernels.carriers.carried import stokes_of
+from optipath.kernels.carriers.structures import ROTATION
+from optipath.kernels.geometry.facet import plane_at_facet
+from optipath.kernels.numbers.primitives import NUMPY
+from optipath.surfaces.walk.walk_layout import (
+    AZIMUTH,
+    CARRIED,
+    END_K,
+    END_LIGHTS,
+    END_X,
+    EVENTS,
+    OUTCOME,
+)
+
+if TYPE_CHECKING:
+    from optipath.surfaces.walk.photon_beam import PhotonBeam
+
+Numbers = npt.NDArray[np.float64]
+
+
+class TurnedDirections(NamedTuple):
+    """Where photons go, as the sample lies; on an isotropic one as if all had come along x.
+
+    Attributes
+    ----------
+    k, x : ndarray, shape (photons, 3)
+        The direction, and the x of its frame: z cross the direction.
+    turns : ndarray, shape (photons, 2)
+        (cos 2a, sin 2a) of the turn to that frame from the one in which the light is known.
+    """
+
+    k: Numbers
+    x: Numbers
+    turns: Numbers
+
+
+class TurnedEnds(NamedTuple):
+    """Where photons end, with their lights; directions are those of `TurnedDirections`.
+
+    Attributes
+    ----------
+    outcomes, events : ndarray of int, shape (photons,)
+        How each ends, as `walk_layout` counts, and how often it has met a facet.
+    directions, x : ndarray, shape (photons, 3)
+        Where it goes, and the x of its frame: z cross its direction.
+    stokes : ndarray, shape (photons, lights, 4)
+    scalar : ndarray, shape (photons, lights)
+    """
+
+    outcomes: npt.NDArray[np.int64]
+    events: npt.NDArray[np.int64]
+    directions: Numbers
+    x: Numbers
+    stokes: Numbers
+    scalar: Numbers
+
+
+def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
+    """Return where photons go, and the frames that belong to their directions.
+
+    Parameters
+    ----------
+    beam : PhotonBeam
+        Of which they are.
+    found : ndarray, shape (photons, ENDS + CARRIED lights)
+        As `WalkedBlock.ends` has them.
+
+    Returns
+    -------
+    TurnedDirections
+    """
+    back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
+    k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
+    _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
+    return TurnedDirections(
+        k, *(np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
+    )
+
+
+def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
+    """Return the ends of photons in frames that belong to their directions.
+
+    Parameters
+    ----------
+    beam, found
+        As `turned_directions` takes them.
+
+    Returns
+    -------
+    TurnedEnds
+    """
+    directions = turned_directions(beam, found)
+    lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
+    carried = tuple(lights[..., place] for place in range(4))
+    rotation = [each[:, np.newaxis] for each in directions.turns.T]
+    stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
+    return TurnedEnds(
+        outcomes=found[:, OUTCOME].astype(int),
+        events=found[:, EVENTS].astype(int),
+        directions=directions.k,
+        x=directions.x,
+        stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1),
+        scalar=lights[..., 4],
+    )
+
+
+def _turned(vectors: Numbers, angle: Numbers) -> Numbers:
+    """Return vectors turned about z."""
+    c, s = np.cos(angle), np.sin(angle)
+    x, y, z = vectors.T
+    return np.stack([c * x - s * y, s * x + c * y, z], axis=-1)

@@ -1,0 +1,136 @@
+"""The Dataset of a hemisphere: what is known of each pixel, with names and units."""
+
+from __future__ import annotations
+
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from optipath.errors import SurfaceError
+
+if TYPE_CHECKING:
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+
+PIXELS = ("side", "y", "x", "wavelength")
+"""The dimensions of what is known of each pixel."""
+
+COMPONENTS = ("S0", "S1", "S2", "S3")
+
+FRAME = (
+    "x of the light that comes in is horizontal, perpendicular to the plane of incidence; that of "
+    "the light of a pixel is (0, 0, 1) x direction, perpendicular to its meridional plane, and "
+    "(0, 1, 0) along the normal; y = direction x x"
+)
+"""What the numbers of Mueller matrices and Stokes vectors refer to."""
+
+
+def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
+    """Return the Dataset of a hemisphere.
+
+    Parameters
+    ----------
+    hemisphere : MeasuredPixels
+        What has been measured.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``mueller`` (side, y, x, wavelength, out, in) and ``scalar`` (side, y, x, wavelength), the
+        shares of the light on the sample that go into each pixel, with polarisation and without;
+        ``difference``, that of an unpolarised source less the scalar; their standard errors,
+        ``mueller_se`` and so on; ``count``, the photons; ``solid_angle`` in sr. The coordinates
+        ``theta`` and ``phi`` are those of the centres of pixels, in radians: theta from the normal
+        on its side of the sample, NaN beyond the horizon.
+    """
+    sensor, polarized = hemisphere.sensor, hemisphere.seen.polarized
+    found: dict[str, Any] = {}
+    if polarized != "scalar":
+        found |= _with_error("mueller", (*PIXELS, "out", "in"), hemisphere.mueller, _MUELLER)
+    if polarized != "polarized":
+        found |= _with_error("scalar", PIXELS, hemisphere.scalar, _SCALAR)
+    if polarized == "both":
+        found |= _with_error("difference", PIXELS, hemisphere.difference, _DIFFERENCE)
+    found["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
+    area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
+    found["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
+    return xr.Dataset(
+        found, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
+    )
+
+
+_MUELLER = "Mueller matrix: share of the light on the sample that goes into the pixel"
+_SCALAR = "share of the light that goes into the pixel, without polarisation"
+_DIFFERENCE = "share of unpolarised light that goes into the pixel, less that without polarisation"
+
+
+def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict[str, Any]:
+    value, error = found
+    told = {"units": "1"}
+    return {
+        name: (dims, value, {"long_name": what, **told}),
+        f"{name}_se": (dims, error, {"long_name": f"standard error of '{name}'", **told}),
+    }
+
+
+def coordinates(hemisphere: MeasuredPixels, dims: tuple[str, ...]) -> dict[str, Any]:
+    """Return the coordinates of what is known of each pixel.
+
+    Parameters
+    ----------
+    hemisphere : MeasuredPixels
+        What has been measured.
+    dims : tuple of str
+        The dimensions that there are: those of `PIXELS`, and ``"out"`` and ``"in"`` or not.
+
+    Returns
+    -------
+    dict
+        As `xarray.DataArray` takes them, ``theta`` and ``phi`` among them.
+    """
+    sensor, place = hemisphere.sensor, {"units": "1"}
+    towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
+    across = {"long_name": "place on the sensor, across the plane of incidence"}
+    angle = {"units": "rad"}
+    found = {
+        "side": ("side", np.array(hemisphere.seen.sides, object)),
+        "y": ("y", sensor.coordinates, across | place),
+        "x": ("x", sensor.coordinates, towards | place),
+        "wavelength": (
+            "wavelength",
+            hemisphere.wavelengths,
+            {"long_name": "wavelength in vacuum", "units": "m"},
+        ),
+        "out": ("out", np.array(COMPONENTS, object)),
+        "in": ("in", np.array(COMPONENTS, object)),
+        "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),
+        "phi": (("y", "x"), sensor.phi, {"long_name": "azimuth from x to y"} | angle),
+    }
+    return {name: each for name, each in found.items() if {each[0]} <= {*dims, ("y", "x")}}
+
+
+def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:
+    seen = hemisphere.seen
+    beam = seen.beam
+    return {
+        "sample": _toml(hemisphere),
+        "incidence": float(np.arctan2(beam.sin, beam.cos)),
+        "azimuth": "each photon its own" if beam.sample.isotropic else beam.azimuth,
+        "photons": hemisphere.photons,
+        "seed": beam.seed,
+        "events": "any number" if seen.events is None else seen.events,
+        "most_events": beam.most_events,
+        "polarized": seen.polarized,
+        "projection": hemisphere.sensor.projection,
+        "symmetric": int(hemisphere.symmetric),
+        "frame": FRAME,
+        "optipath_version": version("optipath"),
+    }
+
+
+def _toml(hemisphere: MeasuredPixels) -> str:
+    try:
+        return hemisphere.seen.beam.sample.to_toml()
+    except SurfaceError as fault:
+        return f"the sample cannot be written here, since it has no form in TOML: {fault}"

@@ -1,0 +1,157 @@
+"""Sensor: a hemisphere of directions, laid out flat as an image of pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import SurfaceError, shown
+from optipath.paths.format.faults import Faults
+from optipath.spelling import closest
+from optipath.surfaces.hemispheres.pixel_areas import pixel_areas
+from optipath.values.whole_numbers import whole_number
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+Numbers = npt.NDArray[np.float64]
+
+
+def _equidistant_radius(sin: Numbers, cos: Numbers) -> Numbers:
+    return np.arctan2(sin, cos) / (np.pi / 2.0)
+
+
+def _equidistant_cap(radius: Numbers) -> Numbers:
+    return np.asarray(2.0 * (np.pi / 4.0 * np.sinc(radius / 4.0)) ** 2)
+
+
+def _equal_area_radius(sin: Numbers, cos: Numbers) -> Numbers:
+    return np.asarray(sin / np.sqrt(1.0 + cos))
+
+
+_RADII: dict[str, tuple[Callable[..., Numbers], Callable[..., Numbers], Callable[..., Numbers]]] = {
+    "equidistant": (
+        _equidistant_radius,
+        lambda radius: np.asarray(radius * (np.pi / 2.0)),
+        _equidistant_cap,
+    ),
+    "equal-area": (
+        _equal_area_radius,
+        lambda radius: 2.0 * np.arcsin(radius / np.sqrt(2.0)),
+        np.ones_like,
+    ),
+}
+"""Of each projection the distance from the centre, the polar angle there, and (1 - cos) / r^2."""
+
+
+@dataclass(frozen=True)
+class Sensor:
+    """A hemisphere of directions, laid out flat as a square image, which its disc just fits.
+
+    Seen from above the sample, x goes to the right and y upwards: light that goes on as it came is
+    on the right. The lower hemisphere is seen from above as well, through the sample. Pixel [i, j]
+    is the one at x = (2 j + 1) / pixels - 1, y = (2 i + 1) / pixels - 1.
+
+    Parameters
+    ----------
+    pixels : int, optional
+        How many there are along each side.
+    projection : {"equidistant", "equal-area"}, optional
+        The polar angle is proportional to the distance from the centre, or all pixels are of one
+        solid angle.
+    parts : int, optional
+        Into how many parts of light a measurement is split, from whose spread all standard errors
+        are found; memory grows with them.
+
+    Raises
+    ------
+    SurfaceError
+        With all faults at once.
+
+    Examples
+    --------
+    >>> sensor = Sensor(64)
+    >>> print(sensor.place([0.0, 0.0, 1.0]), sensor.theta[32, 63].round(4))
+    2080 1.5464
+    >>> print((sensor.solid_angle.sum() / (2.0 * np.pi)).round(12))
+    1.0
+    """
+
+    pixels: int = 128
+    projection: str = "equidistant"
+    parts: int = 16
+
+    def __post_init__(self) -> None:
+        """Refuse all faults."""
+        faults = Faults(whole_number("pixels", self.pixels) + whole_number("parts", self.parts, 2))
+        if not isinstance(self.projection, str) or self.projection not in _RADII:
+            near = closest(str(self.projection), [*_RADII])
+            cure = f"did you mean '{near}'?" if near else f"give one of {', '.join(_RADII)}"
+            faults.append(f"projection is {shown(self.projection)}; {cure}")
+        if faults:
+            raise SurfaceError(*faults)
+
+    @classmethod
+    def of(cls, given: Any) -> Self:
+        """Return a sensor, given as it is, by its pixels, or by its projection."""
+        if isinstance(given, cls):
+            return given
+        return cls(projection=given) if isinstance(given, str) else cls(given)
+
+    @cached_property
+    def coordinates(self) -> Numbers:
+        """Where the centres of columns are, and of rows, from -1 to 1."""
+        return (2.0 * np.arange(self.pixels) + 1.0) / self.pixels - 1.0
+
+    @cached_property
+    def theta(self) -> Numbers:
+        """The angle of each centre to the normal, in radians; NaN beyond the horizon."""
+        radius = np.hypot(self.coordinates, self.coordinates[:, np.newaxis])
+        there = radius <= 1.0
+        angle = _RADII[self.projection][1](np.where(there, radius, 0.0))
+        return np.where(there, angle, np.nan)
+
+    @cached_property
+    def phi(self) -> Numbers:
+        """The azimuth of each centre from x towards y, in radians; NaN beyond the horizon."""
+        angle = np.arctan2(self.coordinates[:, np.newaxis], self.coordinates)
+        return np.where(np.isnan(self.theta), np.nan, angle)
+
+    @cached_property
+    def directions(self) -> Numbers:
+        """The direction of each centre, upwards, of shape (pixels, pixels, 3)."""
+        theta, phi = self.theta, self.phi
+        level = np.sin(theta)
+        return np.stack([level * np.cos(phi), level * np.sin(phi), np.cos(theta)], axis=-1)
+
+    @cached_property
+    def solid_angle(self) -> Numbers:
+        """The solid angle of each pixel within the hemisphere, in sr; 2 pi in all."""
+        return pixel_areas(self.pixels, _RADII[self.projection][2])
+
+    def place(self, directions: npt.ArrayLike) -> npt.NDArray[np.int64]:
+        """Return the number of the pixel in which each direction is, rows one after the other.
+
+        Parameters
+        ----------
+        directions : array_like, shape (..., 3)
+            Unit vectors, upwards or downwards.
+
+        Returns
+        -------
+        ndarray of int, shape (...)
+        """
+        x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
+        sin = np.hypot(x, y)
+        radius = _RADII[self.projection][0](sin, np.abs(z))
+        scale = radius / np.where(sin > 0.0, sin, 1.0)
+        last = self.pixels - 1
+        column, row = (
+            np.clip(((scale * each + 1.0) * (0.5 * self.pixels)).astype(np.int64), 0, last)
+            for each in (x, y)
+        )
+        return np.asarray(row * self.pixels + column)
