@@ -334,3 +334,13 @@ def test_the_command_says_that_loops_have_no_bounds(capsys):
 def test_explanations_say_that_their_scalar_model_takes_a_stack_as_a_whole():
     text = str(stack([1.0, 1.5, 2.4], 0.9).compose().explain())
     assert "S0 is 1 .. 1 of the scalar model's, which takes a stack as a whole" in text
+
+
+def test_a_tolerance_holds_for_a_stack_before_another_boundary():
+    layers, angle = op.LayerStack([1.0, 1.5, 2.4], op.Parameter("a")), np.linspace(0.0, 1.5, 9)
+    glass = op.Interface(1.5, op.Parameter("a"))
+    path = op.Source() >> layers >> glass >> op.Detector(reads="intensity")
+    plan = op.Composer(tolerance=0.03).compose(path)
+    found, exact = plan.run(a=angle).intensity, path.trace(a=angle).intensity
+    np.testing.assert_allclose(found, exact, rtol=0.03)
+    assert np.max(np.abs(found / exact - 1.0)) > 0.01  # The scalar model has been run for some.
