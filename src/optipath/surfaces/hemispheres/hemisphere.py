@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
+from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Hemisphere(PixelLight):
+class Hemisphere(PixelLight, FacetModelling):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes

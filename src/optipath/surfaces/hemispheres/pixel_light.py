@@ -210,15 +210,11 @@ class PixelLight:
         **told: Any,
     ) -> xr.DataArray:
         """Return numbers with their names, units and errors."""
-        import xarray as xr  # noqa: PLC0415 - an extra
-
-        room = import_module("optipath.surfaces.hemispheres.hemisphere_dataset")
+        room = import_module("optipath.surfaces.hemispheres.pixel_array")
         value, error = found
-        dims = (*room.PIXELS, *more)
-        spread = {"long_name": f"standard error of '{name}'", "units": units}
-        known = {**room.coordinates(self, dims), "se": (dims, error, spread)}
-        about = {"long_name": what, "units": units, "frame": room.FRAME, **told}
-        return xr.DataArray(value, known, dims, name, about)
+        return room.pixel_array(  # type: ignore[no-any-return]
+            self, name, value, what, units, more, error=error, **told
+        )
 
 
 def _state(source: npt.ArrayLike) -> Numbers:
