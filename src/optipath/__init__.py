@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
+    from optipath.surfaces.files.load_hemisphere import load_hemisphere
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.hemispheres.sensor import Sensor
@@ -206,6 +207,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
+    "load_hemisphere",
     "load_preset",
     "load_sample",
     "measure",
@@ -266,6 +268,7 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
+    "surfaces.files.load_hemisphere": ["load_hemisphere"],
     "surfaces.hemispheres.hemisphere": ["Hemisphere"],
     "surfaces.hemispheres.measure": ["measure"],
     "surfaces.hemispheres.sensor": ["Sensor"],
