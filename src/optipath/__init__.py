@@ -80,9 +80,7 @@ if TYPE_CHECKING:
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
     from optipath.surfaces.files.load_hemisphere import load_hemisphere
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
-    from optipath.surfaces.hemispheres.sensor import Sensor
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_files import load_sample, sample_names
     from optipath.sweeps.uncertainty.propagation import Propagation
@@ -146,7 +144,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Frame",
     "FrameError",
     "FresnelAmplitudes",
-    "Hemisphere",
     "Incidence",
     "Index",
     "IndexFault",
@@ -186,7 +183,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Retarder",
     "Rotator",
     "Sample",
-    "Sensor",
     "ShapeError",
     "Source",
     "Spectrum",
@@ -269,9 +265,7 @@ _HOMES = {
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
     "surfaces.files.load_hemisphere": ["load_hemisphere"],
-    "surfaces.hemispheres.hemisphere": ["Hemisphere"],
     "surfaces.hemispheres.measure": ["measure"],
-    "surfaces.hemispheres.sensor": ["Sensor"],
     "surfaces.samples.sample": ["Sample"],
     "surfaces.samples.sample_files": ["load_sample", "sample_names"],
     "sweeps.uncertainty.propagation": ["Propagation"],

@@ -11,7 +11,7 @@ import xarray as xr
 from optipath.errors import SurfaceError
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.pixel_light import PixelLight
 
 PIXELS = ("side", "y", "x", "wavelength")
 """The dimensions of what is known of each pixel."""
@@ -25,12 +25,12 @@ _FRAME = (
 )
 
 
-def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
+def hemisphere_dataset(hemisphere: PixelLight) -> xr.Dataset:
     """Return the Dataset of a hemisphere.
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : PixelLight
         What has been measured.
 
     Returns
@@ -71,7 +71,7 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
     }
 
 
-def _coordinates(hemisphere: Hemisphere) -> dict[str, Any]:
+def _coordinates(hemisphere: PixelLight) -> dict[str, Any]:
     sensor, place = hemisphere.sensor, {"units": "1"}
     towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
     across = {"long_name": "place on the sensor, across the plane of incidence"}
@@ -92,7 +92,7 @@ def _coordinates(hemisphere: Hemisphere) -> dict[str, Any]:
     }
 
 
-def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
+def _attributes(hemisphere: PixelLight) -> dict[str, Any]:
     seen = hemisphere.seen
     beam = seen.beam
     return {
@@ -111,7 +111,7 @@ def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
     }
 
 
-def _toml(hemisphere: Hemisphere) -> str:
+def _toml(hemisphere: PixelLight) -> str:
     try:
         return hemisphere.seen.beam.sample.to_toml()
     except SurfaceError as fault:
