@@ -79,7 +79,6 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
-    from optipath.surfaces.files.load_hemisphere import load_hemisphere
     from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_files import load_sample, sample_names
@@ -203,7 +202,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
-    "load_hemisphere",
     "load_preset",
     "load_sample",
     "measure",
@@ -264,7 +262,6 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
-    "surfaces.files.load_hemisphere": ["load_hemisphere"],
     "surfaces.hemispheres.measure": ["measure"],
     "surfaces.samples.sample": ["Sample"],
     "surfaces.samples.sample_files": ["load_sample", "sample_names"],

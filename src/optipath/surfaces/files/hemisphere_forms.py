@@ -37,9 +37,9 @@ def write_netcdf(dataset: xr.Dataset, file: Path) -> None:
     OSError
         If it cannot be written there.
     """
-    packed = {"zlib": True, "complevel": 4, "shuffle": True}
-    encoding = {name: dict(packed) for name in dataset.data_vars if dataset[name].ndim > 1}
-    encoding["sums"] |= {"chunksizes": _chunks(dataset)}
+    packed: dict[str, Any] = {"zlib": True, "complevel": 4, "shuffle": True}
+    encoding = {name: packed for name in dataset.data_vars if dataset[name].ndim > 1}
+    encoding["sums"] = packed | {"chunksizes": _chunks(dataset)}
     with drafted(file) as draft:
         dataset.to_netcdf(draft, engine="h5netcdf", encoding=encoding)
 

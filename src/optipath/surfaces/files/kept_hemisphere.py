@@ -6,7 +6,6 @@ import json
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from optipath.errors import SurfaceError
 from optipath.surfaces.files.kept_sample import kept_sample, sample_of
@@ -21,6 +20,8 @@ from optipath.surfaces.walk.photon_beam import PhotonBeam
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    import xarray as xr
 
 MEASUREMENT = "measurement"
 """The attribute that a file is known by: in JSON, what it is read back by."""
@@ -92,7 +93,7 @@ def hemisphere_of(dataset: xr.Dataset, sample: Any = None) -> Hemisphere:
             f"it has layout {told['layout']}, but this version reads layout {LAYOUT}; load it by "
             f"optipath {dataset.attrs['optipath_version']}"
         )
-    found = sample_of(dataset.attrs["sample"], told["sample"], sample)
+    found = sample_of(told["sample"], sample)
     seen = SensedBeam(
         _beam(dataset, told, found),
         Sensor(told["pixels"], told["projection"], told["parts"]),
@@ -131,7 +132,9 @@ def _measurement(hemisphere: Hemisphere) -> dict[str, Any]:
 
 
 def _beam(dataset: xr.Dataset, told: Mapping[str, Any], sample: Any) -> PhotonBeam:
-    n, k = [dataset[name].to_numpy().reshape(told["wavelengths"]) for name in ("index_n", "index_k")]
+    n, k = [
+        dataset[name].to_numpy().reshape(told["wavelengths"]) for name in ("index_n", "index_k")
+    ]
     return PhotonBeam(
         sample,
         told["cos"],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,39 +28,29 @@ def kept_sample(sample: Sample | UnknownSample) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``digest``, by which it is known again; ``isotropic``; ``why`` it cannot be read back, ""
-        where it can; and whether it ``has_text`` in TOML.
+        What `UnknownSample` is made of; ``why`` is "" where the sample can be read back.
 
     Examples
     --------
-    >>> kept_sample(Sample([(1.5, 0.1)]))["why"]
-    ''
-    >>> print(kept_sample(Sample([(1.5, HeightField.beckmann(0.3, cells=160))]))["why"][:42])
-    layers[0]: its heights are in no file that
+    >>> found = kept_sample(Sample([(1.5, 0.1)]))
+    >>> found["why"], sample_of(found)
+    ('', Sample([(1.5, 0.1)]))
     """
     if isinstance(sample, UnknownSample):
-        why, digest = sample.why, sample.digest
-    else:
-        why, digest = "its heights are not in this file" if _heights(sample) else "", _digest(sample)
+        return asdict(sample)
+    text, why = None, "its heights are not in this file" if _heights(sample) else ""
     try:
-        sample.to_toml()
+        text = sample.to_toml()
     except SurfaceError as fault:
-        return _kept(digest, sample, str(fault), has_text=False)
-    return _kept(digest, sample, why, has_text=True)
+        why = str(fault)
+    return asdict(UnknownSample(why, bool(sample.isotropic), _digest(sample), text))
 
 
-def _kept(digest: str, sample: Sample | UnknownSample, why: str, *, has_text: bool) -> dict[str, Any]:
-    isotropic = bool(sample.isotropic)
-    return {"digest": digest, "isotropic": isotropic, "why": why, "has_text": has_text}
-
-
-def sample_of(text: str, kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSample:
+def sample_of(kept: Mapping[str, Any], given: Any = None) -> Sample | UnknownSample:
     """Return the sample of a file.
 
     Parameters
     ----------
-    text : str
-        What the file says of it, in TOML.
     kept : mapping of str to Any
         As `kept_sample` returns it.
     given : Sample, optional
@@ -78,15 +68,18 @@ def sample_of(text: str, kept: Mapping[str, Any], given: Any = None) -> Sample |
     """
     if given is not None:
         return _known_again(given, kept)
+    unknown = UnknownSample(**kept)
+    if unknown.why:
+        return unknown
     try:
-        found = None if kept["why"] else sample_of_text(text, Path("the sample of a hemisphere"))
-        why = kept["why"] or "this optipath makes another of its text than the one that wrote it"
+        found = sample_of_text(unknown.to_toml(), Path("the sample of a hemisphere"))
     except OptipathError as fault:
-        found, why = None, str(fault)
-    if found is not None and _digest(found) == kept["digest"]:
+        return replace(unknown, why=str(fault))
+    if _digest(found) == unknown.digest:
         return found
-    own = text if kept["has_text"] else None
-    return UnknownSample(why, kept["isotropic"], kept["digest"], own)
+    return replace(
+        unknown, why="this optipath reads its text in another way than the one that wrote it"
+    )
 
 
 def _known_again(given: Any, kept: Mapping[str, Any]) -> Sample:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -74,7 +75,7 @@ def _told_of(place: Path, write: Any) -> None:
     try:
         write(place)
     except OSError as fault:
+        why = os.strerror(fault.errno) if fault.errno else fault
         raise SurfaceError(
-            f"'{place}' cannot be written: {fault.strerror or fault}; give a name in a folder that "
-            f"takes files"
+            f"'{place}' cannot be written: {why}; give a name in a folder that takes files"
         ) from None
