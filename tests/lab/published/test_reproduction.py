@@ -95,7 +95,9 @@ def test_a_seed_gives_the_same_numbers_with_any_number_of_threads():
 def test_progress_is_told_with_the_direction():
     told = []
     experiment = load_experiment("wang-2017-table-2-alpha-0-1")
-    assert all(one.agrees for one in reproduce(experiment, 1000, progress=lambda *a: told.append(a)))
+    assert all(
+        one.agrees for one in reproduce(experiment, 1000, progress=lambda *a: told.append(a))
+    )
     assert [what for what, done, total in told if done == total] == [
         "incidence 10 deg",
         "incidence 45 deg",

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optipath.lab.published.facet_comparison import FARTHEST, FacetComparison
+from optipath.lab.published.facet_comparison import (
+    BLOCKS,
+    FARTHEST,
+    model_excess,
+    model_of,
+    model_off,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -108,19 +114,18 @@ def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
 
 def _excess(component: int) -> Callable[[Walked, Measurement], Found]:
     def of(walked: Walked, _: Measurement) -> Found:
-        return Found(*FacetComparison(walked.hemisphere).excess(component), "all pixels")
+        return Found(*model_excess(walked.hemisphere, component))
 
     return of
 
 
 def _model_s3(walked: Walked, _: Measurement) -> Found:
-    model = FacetComparison(walked.hemisphere).model
-    return Found(float(np.nanmax(np.abs(model[..., 3]))), 0.0, "all pixels")
+    return Found(float(np.max(np.abs(model_of(walked.hemisphere)[..., 3]))), 0.0)
 
 
 def _off(walked: Walked, _: Measurement) -> Found:
-    compared = FacetComparison(walked.once).largest_off()
-    return Found(*compared, f"directions within {np.degrees(FARTHEST):.0f} deg of the normal")
+    mask = f"{BLOCKS} x {BLOCKS} blocks of pixels within {FARTHEST:.0f} deg of the normal"
+    return Found(*model_off(walked.once), mask)
 
 
 _SHARES = {
