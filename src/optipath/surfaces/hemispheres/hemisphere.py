@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
+from optipath.surfaces.hemispheres.polarization_effect import PolarizationEffect
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,7 +23,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Hemisphere:
+class Hemisphere(PolarizationEffect):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
