@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from optipath.errors import SurfaceError
+from optipath.surfaces.hemispheres.pixel_array import coordinates
 from optipath.surfaces.hemispheres.pixel_mask import Numbers, PixelMask
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 
 _Told = dict[str, str | float]
@@ -41,7 +42,7 @@ _MEASURES = {
 
 
 def difference_map(
-    hemisphere: Hemisphere,
+    hemisphere: MeasuredPixels,
     measure: str,
     side: str,
     brighter_than: float,
@@ -52,12 +53,12 @@ def difference_map(
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : MeasuredPixels
         What has been measured.
     measure : {"signed", "adm", "mdm"}
         What is made of the differences at several wavelengths.
     side, brighter_than, noise, known_to
-        As `Hemisphere.adm` takes them.
+        As `PolarizationEffect.adm` takes them.
 
     Returns
     -------
@@ -83,20 +84,18 @@ def difference_map(
     value, error = (np.where(counts, each, np.nan) for each in (value, error))
     dims = ("y", "x", "wavelength")[: value.ndim]
     se = xr.Variable(dims, error, {"long_name": f"standard error of '{what.called}'", "units": "1"})
-    places = {name: hemisphere.dataset.coords[name] for name in ("y", "x", "theta", "phi")}
-    lights = {"wavelength": hemisphere.dataset.coords["wavelength"]} if value.ndim > 2 else {}
     told: _Told = {"long_name": what.told, "units": "1", "side": side}
     told |= _mask_attributes(mask, counts, error)
     told |= _pixel_attributes(hemisphere)
-    return xr.DataArray(value, places | lights | {"se": se}, dims, what.called, told)
+    return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, told)
 
 
-def _relative(hemisphere: Hemisphere, light: Numbers) -> Numbers:
+def _relative(hemisphere: MeasuredPixels, light: Numbers) -> Numbers:
     scalar = hemisphere.intensities(light)
     return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
 
 
-def _light(hemisphere: Hemisphere, side: int) -> Numbers:
+def _light(hemisphere: MeasuredPixels, side: int) -> Numbers:
     """Return the light without polarisation, the mean over wavelengths; NaN beyond the horizon."""
     light = hemisphere.intensities(hemisphere.own.sums.sum(axis=0))[side].mean(axis=-1)
     return np.where(np.isnan(hemisphere.sensor.theta), np.nan, light)
@@ -115,7 +114,7 @@ def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numb
     }
 
 
-def _pixel_attributes(hemisphere: Hemisphere) -> _Told:
+def _pixel_attributes(hemisphere: MeasuredPixels) -> _Told:
     sensor = hemisphere.sensor
     return {
         "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",

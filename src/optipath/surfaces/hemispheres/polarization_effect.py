@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+
+from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-class PolarizationEffect:
+class PolarizationEffect(MeasuredPixels):
     """A hemisphere measured with polarisation and without, on the same photons.
 
     All that it tells is of unpolarised light on the sample, whose light in a pixel is S0, and U
@@ -45,9 +46,7 @@ class PolarizationEffect:
         >>> found.relative_difference().dims
         ('y', 'x', 'wavelength')
         """
-        room = import_module("optipath.surfaces.hemispheres.difference_map")
-        found: xr.DataArray = room.difference_map(self, "signed", side, brighter_than, None)
-        return found
+        return self._difference("signed", side, brighter_than, None)
 
     def adm(
         self,
@@ -102,10 +101,7 @@ class PolarizationEffect:
         light without polarisation above 0.2 of the mean over the hemisphere's pixels, standard \
 error at most 0.2 of the difference, or at most 0.001
         """
-        room = import_module("optipath.surfaces.hemispheres.difference_map")
-        given = (side, brighter_than, noise, known_to)
-        found: xr.DataArray = room.difference_map(self, "adm", *given)
-        return found
+        return self._difference("adm", side, brighter_than, noise, known_to)
 
     def mdm(
         self,
@@ -132,7 +128,11 @@ error at most 0.2 of the difference, or at most 0.001
         SurfaceError
             As `adm` raises it.
         """
-        room = import_module("optipath.surfaces.hemispheres.difference_map")
-        given = (side, brighter_than, noise, known_to)
-        found: xr.DataArray = room.difference_map(self, "mdm", *given)
-        return found
+        return self._difference("mdm", side, brighter_than, noise, known_to)
+
+    def _difference(self, measure: str, *given: Any) -> xr.DataArray:
+        from optipath.surfaces.hemispheres.difference_map import (  # noqa: PLC0415 - an extra
+            difference_map,
+        )
+
+        return difference_map(self, measure, *given)
