@@ -8,20 +8,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from optipath.surfaces.files.saving import Saving
+from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-class Hemisphere(PixelLight, Saving):
+class Hemisphere(PixelLight, FacetModelling, Saving):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
     into it. Light comes in a frame with x horizontal, perpendicular to the plane of incidence; it
     leaves with x perpendicular to the meridional plane of its direction, (0, 0, 1) cross
     direction, and (0, 1, 0) along the normal. What it is made of are the attributes of
-    `PixelLight`.
+    `MeasuredPixels`.
 
     Examples
     --------

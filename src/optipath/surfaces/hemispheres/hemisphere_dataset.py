@@ -9,28 +9,18 @@ import numpy as np
 import xarray as xr
 
 from optipath.errors import SurfaceError
+from optipath.surfaces.hemispheres.pixel_array import FRAME, PIXELS, coordinates
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.pixel_light import PixelLight
-
-PIXELS = ("side", "y", "x", "wavelength")
-"""The dimensions of what is known of each pixel."""
-
-COMPONENTS = ("S0", "S1", "S2", "S3")
-
-_FRAME = (
-    "x of the light that comes in is horizontal, perpendicular to the plane of incidence; that of "
-    "the light of a pixel is (0, 0, 1) x direction, perpendicular to its meridional plane, and "
-    "(0, 1, 0) along the normal; y = direction x x"
-)
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 
-def hemisphere_dataset(hemisphere: PixelLight) -> xr.Dataset:
+def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
     """Return the Dataset of a hemisphere.
 
     Parameters
     ----------
-    hemisphere : PixelLight
+    hemisphere : MeasuredPixels
         What has been measured.
 
     Returns
@@ -54,7 +44,9 @@ def hemisphere_dataset(hemisphere: PixelLight) -> xr.Dataset:
     found["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
     area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
     found["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
-    return xr.Dataset(found, _coordinates(hemisphere), _attributes(hemisphere))
+    return xr.Dataset(
+        found, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
+    )
 
 
 _MUELLER = "Mueller matrix: share of the light on the sample that goes into the pixel"
@@ -71,28 +63,7 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
     }
 
 
-def _coordinates(hemisphere: PixelLight) -> dict[str, Any]:
-    sensor, place = hemisphere.sensor, {"units": "1"}
-    towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
-    across = {"long_name": "place on the sensor, across the plane of incidence"}
-    angle = {"units": "rad"}
-    return {
-        "side": ("side", np.array(hemisphere.seen.sides, object)),
-        "y": ("y", sensor.coordinates, across | place),
-        "x": ("x", sensor.coordinates, towards | place),
-        "wavelength": (
-            "wavelength",
-            hemisphere.wavelengths,
-            {"long_name": "wavelength in vacuum", "units": "m"},
-        ),
-        "out": ("out", np.array(COMPONENTS, object)),
-        "in": ("in", np.array(COMPONENTS, object)),
-        "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),
-        "phi": (("y", "x"), sensor.phi, {"long_name": "azimuth from x to y"} | angle),
-    }
-
-
-def _attributes(hemisphere: PixelLight) -> dict[str, Any]:
+def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:
     seen = hemisphere.seen
     beam = seen.beam
     return {
@@ -106,12 +77,12 @@ def _attributes(hemisphere: PixelLight) -> dict[str, Any]:
         "polarized": seen.polarized,
         "projection": hemisphere.sensor.projection,
         "symmetric": int(hemisphere.symmetric),
-        "frame": _FRAME,
+        "frame": FRAME,
         "optipath_version": version("optipath"),
     }
 
 
-def _toml(hemisphere: PixelLight) -> str:
+def _toml(hemisphere: MeasuredPixels) -> str:
     try:
         return hemisphere.seen.beam.sample.to_toml()
     except SurfaceError as fault:

@@ -1,142 +1,213 @@
-"""PixelLight: the light of each pixel of a hemisphere, as photons have brought it there."""
+"""What a hemisphere tells of the light of its pixels: BRDF, Stokes vectors, and what follows."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
-from optipath.errors import SurfaceError, shown
+from optipath.light.frames import Frame
+from optipath.light.light import Light
+from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+from optipath.surfaces.walk.given_beam import UNPOLARISED, given_state
+from optipath.sweeps.labels.light_quantities import DERIVED
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.part_sums import PartSums
-    from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
-    from optipath.surfaces.hemispheres.sensor import Sensor
+    import xarray as xr
 
 Numbers = npt.NDArray[np.float64]
 
+_ROUNDED = 64.0 * np.finfo(float).eps
+"""By how much of a pixel's light sums over photons are rounded, with room."""
 
-@dataclass(frozen=True, eq=False, repr=False)
-class PixelLight:
-    """The light of each pixel, and standard errors: what a `Hemisphere` is made of.
+_QUANTITIES = {each.variable: each for each in DERIVED}
 
-    Attributes
-    ----------
-    seen : SensedBeam
-        What was walked, and how it was seen.
-    parts : PartSums
-        Of the photons, as they were counted.
-    wavelengths : ndarray, shape (wavelengths,)
-        In metres; NaN where the media do not depend on it.
-    symmetric : bool
-        Whether the pixels are means with their mirror images.
+
+class PixelLight(MeasuredPixels):
+    """A hemisphere of which the light of each pixel is known, for a source of any state.
+
+    Each method gives an `xarray.DataArray` over (side, y, x, wavelength), and what it is of, with
+    units. Its coordinate ``se`` is the standard error of each of its numbers: by the jackknife, so
+    that ratios and angles have theirs; NaN where all photons of a pixel are of one part.
     """
 
-    seen: SensedBeam
-    parts: PartSums
-    wavelengths: Numbers
-    symmetric: bool
-
-    @property
-    def sensor(self) -> Sensor:
-        """The pixels."""
-        return self.seen.sensor
-
-    @property
-    def photons(self) -> int:
-        """How many have been walked."""
-        return int(self.parts.photons.sum())
-
-    @cached_property
-    def own(self) -> PartSums:
-        """The sums by which all is estimated: those counted, or means with their mirror images."""
-        return self.parts.mirrored() if self.symmetric else self.parts
-
-    @cached_property
-    def mueller(self) -> tuple[Numbers, Numbers]:
-        """The Mueller matrices and their errors: (sides, rows, columns, wavelengths, 4, 4)."""
-        return self.own.estimate(self.matrices)
-
-    @cached_property
-    def scalar(self) -> tuple[Numbers, Numbers]:
-        """The shares without polarisation and their errors: (sides, rows, columns, wavelengths)."""
-        return self.own.estimate(self.intensities)
-
-    @cached_property
-    def difference(self) -> tuple[Numbers, Numbers]:
-        """The shares of unpolarised light less those without polarisation, and their errors."""
-        return self.own.estimate(
-            lambda light: self.matrices(light)[..., 0, 0] - self.intensities(light)
-        )
-
-    def matrices(self, light: Numbers) -> Numbers:
-        """Return the Mueller matrices among the numbers of `PartSums.estimate`.
+    def brdf(self, *, polarized: bool = True) -> xr.DataArray:
+        """Return the light of each pixel per steradian, over the cosine of its centre.
 
         Parameters
         ----------
-        light : ndarray, shape (..., numbers)
-            The mean of all numbers.
+        polarized : bool, optional
+            Whether it is the Mueller matrix, or what there is without polarisation.
 
         Returns
         -------
-        ndarray, shape (..., 4, 4)
-
-        Raises
-        ------
-        SurfaceError
-            If they have not been measured.
-        """
-        if self.seen.polarized == "scalar":
-            raise SurfaceError(_missing("Mueller matrix", "polarized"))
-        return light[..., :16].reshape(*light.shape[:-1], 4, 4)
-
-    def intensities(self, light: Numbers) -> Numbers:
-        """Return the light without polarisation among the numbers of `PartSums.estimate`.
-
-        Parameters
-        ----------
-        light : ndarray, shape (..., numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        ndarray, shape (...)
+        xarray.DataArray
+            In 1/sr, (side, y, x, wavelength, out, in) or without the last two; NaN where the
+            centre of a pixel is beyond the horizon. Of the lower hemisphere it is the BTDF.
 
         Raises
         ------
         SurfaceError
             If it has not been measured.
-        """
-        if self.seen.polarized == "polarized":
-            raise SurfaceError(_missing("light without polarisation", "scalar"))
-        return light[..., -1]
 
-    def side(self, name: Any) -> int:
-        """Return the place of a hemisphere.
+        Examples
+        --------
+        >>> import optipath as op
+        >>> found = op.measure(op.Sample([(1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+        >>> brdf = found.brdf()
+        >>> brdf.dims, brdf.units, brdf.se.dims == brdf.dims
+        (('side', 'y', 'x', 'wavelength', 'out', 'in'), '1/sr', True)
+        """
+        sensor = self.sensor
+        area = (sensor.solid_angle * np.cos(sensor.theta))[:, :, np.newaxis]
+        if not polarized:
+            found = self.own.estimate(lambda light: self.intensities(light) / area)
+            return self._array("brdf", found, "BRDF without polarisation", "1/sr")
+        area = area[..., np.newaxis, np.newaxis]
+        found = self.own.estimate(lambda light: self.matrices(light) / area)
+        return self._array("brdf", found, "Mueller matrix of the BRDF", "1/sr", ("out", "in"))
+
+    def stokes(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
+        """Return the Stokes vector of the light that goes into each pixel.
 
         Parameters
         ----------
-        name : {"reflected", "transmitted"}
-            Above the sample, or below.
+        source : array_like, shape (4,), optional
+            The Stokes vector of the light that comes in, in the frame whose x is horizontal;
+            unpolarised by default.
 
         Returns
         -------
-        int
+        xarray.DataArray
+            (side, y, x, wavelength, out), in the frames of the pixels: where S0 of the source is
+            1, the share of its light that goes into each.
 
         Raises
         ------
         SurfaceError
-            If no light gets there, or none is called so.
+            If no Mueller matrix has been measured, or the source is no light.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> found = op.measure(op.Sample([(1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+        >>> light = found.stokes([1.0, 1.0, 0.0, 0.0]).sel(out="S0", side="reflected")
+        >>> print(light.sum().round(6).item())
+        1.0
         """
-        sides = self.seen.sides
-        if name not in sides:
-            why = ": nothing goes through an opaque sample" if name == "transmitted" else ""
-            raise SurfaceError(f"no side is called {shown(name)}{why}; give {' or '.join(sides)}")
-        return sides.index(name)
+        state = _state(source)
+        found = self.own.estimate(lambda light: self.matrices(light) @ state)
+        what = "Stokes vector of the light that goes into the pixel"
+        return self._array("stokes", found, what, "1", ("out",), source=state)
+
+    def dop(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
+        """Return the degree of polarisation of each pixel; NaN where no light falls.
+
+        Noise makes it larger: where it is no larger than a few of its errors, it may be 0.
+
+        Parameters
+        ----------
+        source : array_like, shape (4,), optional
+            As `stokes` takes it.
+
+        Returns
+        -------
+        xarray.DataArray
+
+        Raises
+        ------
+        SurfaceError
+            As `stokes` does.
+        """
+        return self._quantity("DoP", source)
+
+    def dolp(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
+        """Return the degree of linear polarisation of each pixel; NaN where no light falls.
+
+        Parameters
+        ----------
+        source : array_like, shape (4,), optional
+            As `stokes` takes it.
+
+        Returns
+        -------
+        xarray.DataArray
+
+        Raises
+        ------
+        SurfaceError
+            As `stokes` does.
+
+        Examples
+        --------
+        >>> import optipath as op
+        >>> found = op.measure(op.Sample([(1.5, 0.0)]), 0.98279, photons=16_384, sensor=16)
+        >>> at = found.sensor.place([0.83205, 0.0, 0.5547])  # Brewster's angle
+        >>> print(found.dolp().sel(side="reflected").values.ravel()[at].round(6))
+        1.0
+        """
+        return self._quantity("DoLP", source)
+
+    def aop(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
+        """Return the angle of polarisation of each pixel; NaN where there is none.
+
+        In full, in (-pi/2, pi/2], from x of the pixel's frame towards y; M. Wang et al., Optics
+        Express 25(19), 2017, fold it into 0 .. 45 deg. Its error knows that an angle a little
+        below pi/2 is near one a little above -pi/2; from 0.9 rad (52 deg) on, that of angles
+        anywhere, nothing is known of it.
+
+        Parameters
+        ----------
+        source : array_like, shape (4,), optional
+            As `stokes` takes it.
+
+        Returns
+        -------
+        xarray.DataArray
+            In radians.
+
+        Raises
+        ------
+        SurfaceError
+            As `stokes` does.
+        """
+        return self._quantity("AoP", source, period=np.pi)
+
+    def _quantity(
+        self, variable: str, source: npt.ArrayLike, period: float | None = None
+    ) -> xr.DataArray:
+        """Return a quantity of `Light`, the same in any frame or an angle of some period."""
+        state, quantity = _state(source), _QUANTITIES[variable]
+
+        def value(light: Numbers) -> Numbers:
+            matrices = self.matrices(light)
+            noise = _ROUNDED * state[0] * matrices[..., 0, 0]
+            return quantity.of(Light.of(matrices @ state, Frame(), noise=noise, measured=True))
+
+        whole, error = self.own.estimate(value)
+        if period is not None:
+            _, error = self.own.estimate(
+                lambda light: np.remainder(value(light) - whole + period / 2.0, period)
+            )
+        name = quantity.variable.lower()
+        return self._array(name, (whole, error), quantity.name, quantity.unit, source=state)
+
+    def _array(
+        self,
+        name: str,
+        found: tuple[Numbers, Numbers],
+        what: str,
+        units: str,
+        more: tuple[str, ...] = (),
+        **told: Any,
+    ) -> xr.DataArray:
+        """Return numbers with their names, units and errors."""
+        from optipath.surfaces.hemispheres.pixel_array import pixel_array  # noqa: PLC0415 - an extra
+
+        value, error = found
+        return pixel_array(self, name, value, what, units, more, error=error, **told)
 
 
-def _missing(what: str, kind: str) -> str:
-    return f"the {what} has not been measured; measure with polarized='both' or '{kind}'"
+def _state(source: npt.ArrayLike) -> Numbers:
+    return np.array(given_state("source", source))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from optipath.errors import MissingExtraError, SurfaceError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from importlib.resources.abc import Traversable
 
     from optipath.engines.machine_code import MachineCode
@@ -99,8 +100,23 @@ def _code_of(text: str) -> MachineCode:
 
 def _digest() -> str:
     """Return a hash of all sources that the code is made of."""
+    return digest_of(_SOURCES)
+
+
+def digest_of(rooms: Iterable[str]) -> str:
+    """Return a hash of all sources in some folders of the library.
+
+    Parameters
+    ----------
+    rooms : iterable of str
+        Their names, with slashes.
+
+    Returns
+    -------
+    str
+    """
     found, here = hashlib.sha256(), files("optipath")
-    for room in _SOURCES:
+    for room in rooms:
         _add(found, here.joinpath(*room.split("/")))
     return found.hexdigest()
 
