@@ -10,8 +10,8 @@ import numpy as np
 from optipath.errors import SurfaceError
 from optipath.surfaces.files.kept_sample import kept_sample, sample_of
 from optipath.surfaces.hemispheres.hemisphere import Hemisphere
-from optipath.surfaces.hemispheres.hemisphere_dataset import PIXELS
 from optipath.surfaces.hemispheres.part_sums import PartSums
+from optipath.surfaces.hemispheres.pixel_array import PIXELS
 from optipath.surfaces.hemispheres.sensed_beam import STATES, SensedBeam
 from optipath.surfaces.hemispheres.sensor import Sensor
 from optipath.surfaces.samples.sample_indices import SampleIndices

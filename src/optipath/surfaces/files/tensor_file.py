@@ -64,8 +64,8 @@ def write_tensors(stream: IO[bytes], tensors: Mapping[str, Tensor]) -> None:
     --------
     >>> from io import BytesIO
     >>> write_tensors(stream := BytesIO(), {"a": Tensor.of(np.array([1, 2], np.uint8))})
-    >>> stream.getvalue()[:12], stream.getvalue()[-2:]
-    (b'tensor_file\\x00', b'\\x01\\x02')
+    >>> stream.getvalue()[:11], [*stream.getvalue()[-2:]]
+    (b'tensor_file', [1, 2])
     """
     names = {name: name.encode() for name in tensors}
     heads = sum(2 + len(names[name]) + 11 + 8 * len(each.shape) for name, each in tensors.items())
