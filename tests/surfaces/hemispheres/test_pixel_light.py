@@ -97,10 +97,10 @@ def test_unpolarised_light_scattered_once_has_no_circular_part_at_all():
 def test_angles_next_to_a_right_angle_have_small_errors():
     # In the plane of incidence light along y stays so, but for a little noise of either sign.
     found = op.measure(SILVER, "40 deg", 30_000, sensor=17, symmetric=False)
-    aop = found.aop([1.0, -1.0, 0.0, 0.0]).isel(y=8, side=0, wavelength=0)
-    bright = found.dataset["count"].values[0, 8] > 100
+    aop = found.aop([1.0, -1.0, 0.0, 0.0]).isel(y=8, x=slice(10, None), side=0, wavelength=0)
+    bright = found.dataset["count"].values[0, 8, 10:] > 100
     angles, errors = aop.values[bright], aop.se.values[bright]
-    assert bright.sum() >= 6
+    assert bright.sum() >= 5
     assert angles.min() < 0.0 < angles.max()
     assert np.all(np.abs(angles) > np.radians(80.0))
     assert errors.max() < np.radians(5.0)
