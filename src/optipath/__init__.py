@@ -25,6 +25,7 @@ from optipath.errors import (
     ParameterError,
     PathError,
     PhotonWarning,
+    PlotError,
     PresetError,
     ShapeError,
     SurfaceError,
@@ -34,6 +35,7 @@ from optipath.errors import (
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath import plots as plots
     from optipath import surfaces as surfaces
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
@@ -175,6 +177,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "PhotonWarning",
     "Plan",
     "PlaneOfIncidence",
+    "PlotError",
     "Polarization",
     "Polarizer",
     "PolarizingBeamSplitter",
