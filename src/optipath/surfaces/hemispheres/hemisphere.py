@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
+from optipath.surfaces.hemispheres.pixel_light import PixelLight
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,7 +24,7 @@ Numbers = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Hemisphere:
+class Hemisphere(PixelLight):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
@@ -60,11 +62,8 @@ class Hemisphere:
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All of it with names, units and standard errors: see `hemisphere_dataset`."""
-        from optipath.surfaces.hemispheres.hemisphere_dataset import (  # noqa: PLC0415 - an extra
-            hemisphere_dataset,
-        )
-
-        return hemisphere_dataset(self)
+        room = import_module("optipath.surfaces.hemispheres.hemisphere_dataset")
+        return room.hemisphere_dataset(self)  # type: ignore[no-any-return]
 
     @cached_property
     def own(self) -> PartSums:

@@ -18,11 +18,12 @@ PIXELS = ("side", "y", "x", "wavelength")
 
 COMPONENTS = ("S0", "S1", "S2", "S3")
 
-_FRAME = (
+FRAME = (
     "x of the light that comes in is horizontal, perpendicular to the plane of incidence; that of "
     "the light of a pixel is (0, 0, 1) x direction, perpendicular to its meridional plane, and "
     "(0, 1, 0) along the normal; y = direction x x"
 )
+"""What the numbers of Mueller matrices and Stokes vectors refer to."""
 
 
 def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
@@ -54,7 +55,9 @@ def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
     found["count"] = PIXELS[:3], hemisphere.parts.counts, {"long_name": "photons", "units": "1"}
     area = {"long_name": "solid angle of the pixel above the horizon", "units": "sr"}
     found["solid_angle"] = PIXELS[1:3], sensor.solid_angle, area
-    return xr.Dataset(found, _coordinates(hemisphere), _attributes(hemisphere))
+    return xr.Dataset(
+        found, coordinates(hemisphere, (*PIXELS, "out", "in")), _attributes(hemisphere)
+    )
 
 
 _MUELLER = "Mueller matrix: share of the light on the sample that goes into the pixel"
@@ -71,12 +74,26 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
     }
 
 
-def _coordinates(hemisphere: Hemisphere) -> dict[str, Any]:
+def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]:
+    """Return the coordinates of what is known of each pixel.
+
+    Parameters
+    ----------
+    hemisphere : Hemisphere
+        What has been measured.
+    dims : tuple of str
+        The dimensions that there are: those of `PIXELS`, and ``"out"`` and ``"in"`` or not.
+
+    Returns
+    -------
+    dict
+        As `xarray.DataArray` takes them, ``theta`` and ``phi`` among them.
+    """
     sensor, place = hemisphere.sensor, {"units": "1"}
     towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
     across = {"long_name": "place on the sensor, across the plane of incidence"}
     angle = {"units": "rad"}
-    return {
+    found = {
         "side": ("side", np.array(hemisphere.seen.sides, object)),
         "y": ("y", sensor.coordinates, across | place),
         "x": ("x", sensor.coordinates, towards | place),
@@ -90,6 +107,7 @@ def _coordinates(hemisphere: Hemisphere) -> dict[str, Any]:
         "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),
         "phi": (("y", "x"), sensor.phi, {"long_name": "azimuth from x to y"} | angle),
     }
+    return {name: each for name, each in found.items() if {each[0]} <= {*dims, ("y", "x")}}
 
 
 def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
@@ -106,7 +124,7 @@ def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
         "polarized": seen.polarized,
         "projection": hemisphere.sensor.projection,
         "symmetric": int(hemisphere.symmetric),
-        "frame": _FRAME,
+        "frame": FRAME,
         "optipath_version": version("optipath"),
     }
 

@@ -69,13 +69,7 @@ def given_beam(
     if incidence is not None and cos(incidence) < _LEAST_COSINE:
         faults.append("incidence is 90 deg, along the sample, where no light gets to it; give less")
     faults += whole_number("seed", seed, 0) + whole_number("most_events", most_events)
-    light = faults.attempt("", _one, "stokes", stokes, _STOKES.unphysical)
-    if light is not None and not light[0] > 0.0:
-        faults.append("stokes has no intensity; give S0 > 0")
-    elif light is not None and not _STOKES.allows(np.array(light)):
-        faults.append(
-            f"stokes is {[*light]}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
-        )
+    light = faults.attempt("", given_state, "stokes", stokes)
     indices = faults.attempt("", sample.indices, wavelength)
     if faults or indices is None or light is None:
         raise SurfaceError(*faults)
@@ -89,6 +83,43 @@ def given_beam(
         int(seed),
         int(most_events),
     )
+
+
+def given_state(name: str, stokes: npt.ArrayLike) -> tuple[float, float, float, float]:
+    """Return the state of polarisation of the light that falls on a sample.
+
+    Parameters
+    ----------
+    name : str
+        What sentences call it.
+    stokes : array_like, shape (4,)
+        Its Stokes vector.
+
+    Returns
+    -------
+    tuple of float
+
+    Raises
+    ------
+    SurfaceError
+        If it is no Stokes vector, has no intensity, or is polarised by more than 100 %.
+
+    Examples
+    --------
+    >>> given_state("source", [2, 1, 0, 0])
+    (2.0, 1.0, 0.0, 0.0)
+    """
+    faults = Faults()
+    state: Any = faults.attempt("", _one, name, stokes, _STOKES.unphysical)
+    if state is None:
+        raise SurfaceError(*faults)
+    if not state[0] > 0.0:
+        raise SurfaceError(f"{name} has no intensity; give S0 > 0")
+    if not _STOKES.allows(np.array(state)):
+        raise SurfaceError(
+            f"{name} is {[*state]}, polarised by more than 100 %; give S1^2 + S2^2 + S3^2 <= S0^2"
+        )
+    return state  # type: ignore[no-any-return]
 
 
 def _one(name: str, value: Any, domain: Domain) -> Any:
