@@ -81,9 +81,7 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
-    from optipath.surfaces.hemispheres.sensor import Sensor
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_files import load_sample, sample_names
     from optipath.sweeps.uncertainty.propagation import Propagation
@@ -147,7 +145,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Frame",
     "FrameError",
     "FresnelAmplitudes",
-    "Hemisphere",
     "Incidence",
     "Index",
     "IndexFault",
@@ -188,7 +185,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Retarder",
     "Rotator",
     "Sample",
-    "Sensor",
     "ShapeError",
     "Source",
     "Spectrum",
@@ -269,9 +265,7 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
-    "surfaces.hemispheres.hemisphere": ["Hemisphere"],
     "surfaces.hemispheres.measure": ["measure"],
-    "surfaces.hemispheres.sensor": ["Sensor"],
     "surfaces.samples.sample": ["Sample"],
     "surfaces.samples.sample_files": ["load_sample", "sample_names"],
     "sweeps.uncertainty.propagation": ["Propagation"],

@@ -11,7 +11,7 @@ import xarray as xr
 from optipath.errors import SurfaceError
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 PIXELS = ("side", "y", "x", "wavelength")
 """The dimensions of what is known of each pixel."""
@@ -26,12 +26,12 @@ FRAME = (
 """What the numbers of Mueller matrices and Stokes vectors refer to."""
 
 
-def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
+def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
     """Return the Dataset of a hemisphere.
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : MeasuredPixels
         What has been measured.
 
     Returns
@@ -74,12 +74,12 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
     }
 
 
-def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]:
+def coordinates(hemisphere: MeasuredPixels, dims: tuple[str, ...]) -> dict[str, Any]:
     """Return the coordinates of what is known of each pixel.
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : MeasuredPixels
         What has been measured.
     dims : tuple of str
         The dimensions that there are: those of `PIXELS`, and ``"out"`` and ``"in"`` or not.
@@ -110,7 +110,7 @@ def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]
     return {name: each for name, each in found.items() if {each[0]} <= {*dims, ("y", "x")}}
 
 
-def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
+def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:
     seen = hemisphere.seen
     beam = seen.beam
     return {
@@ -129,7 +129,7 @@ def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
     }
 
 
-def _toml(hemisphere: Hemisphere) -> str:
+def _toml(hemisphere: MeasuredPixels) -> str:
     try:
         return hemisphere.seen.beam.sample.to_toml()
     except SurfaceError as fault:
