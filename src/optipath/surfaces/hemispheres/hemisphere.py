@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-class Hemisphere(PixelLight):
+class Hemisphere(PixelLight, FacetModelling):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes

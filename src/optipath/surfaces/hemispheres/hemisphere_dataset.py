@@ -9,21 +9,10 @@ import numpy as np
 import xarray as xr
 
 from optipath.errors import SurfaceError
+from optipath.surfaces.hemispheres.pixel_array import FRAME, PIXELS, coordinates
 
 if TYPE_CHECKING:
     from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
-
-PIXELS = ("side", "y", "x", "wavelength")
-"""The dimensions of what is known of each pixel."""
-
-COMPONENTS = ("S0", "S1", "S2", "S3")
-
-FRAME = (
-    "x of the light that comes in is horizontal, perpendicular to the plane of incidence; that of "
-    "the light of a pixel is (0, 0, 1) x direction, perpendicular to its meridional plane, and "
-    "(0, 1, 0) along the normal; y = direction x x"
-)
-"""What the numbers of Mueller matrices and Stokes vectors refer to."""
 
 
 def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
@@ -72,42 +61,6 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
         name: (dims, value, {"long_name": what, **told}),
         f"{name}_se": (dims, error, {"long_name": f"standard error of '{name}'", **told}),
     }
-
-
-def coordinates(hemisphere: MeasuredPixels, dims: tuple[str, ...]) -> dict[str, Any]:
-    """Return the coordinates of what is known of each pixel.
-
-    Parameters
-    ----------
-    hemisphere : MeasuredPixels
-        What has been measured.
-    dims : tuple of str
-        The dimensions that there are: those of `PIXELS`, and ``"out"`` and ``"in"`` or not.
-
-    Returns
-    -------
-    dict
-        As `xarray.DataArray` takes them, ``theta`` and ``phi`` among them.
-    """
-    sensor, place = hemisphere.sensor, {"units": "1"}
-    towards = {"long_name": "place on the sensor, towards where light goes that is mirrored"}
-    across = {"long_name": "place on the sensor, across the plane of incidence"}
-    angle = {"units": "rad"}
-    found = {
-        "side": ("side", np.array(hemisphere.seen.sides, object)),
-        "y": ("y", sensor.coordinates, across | place),
-        "x": ("x", sensor.coordinates, towards | place),
-        "wavelength": (
-            "wavelength",
-            hemisphere.wavelengths,
-            {"long_name": "wavelength in vacuum", "units": "m"},
-        ),
-        "out": ("out", np.array(COMPONENTS, object)),
-        "in": ("in", np.array(COMPONENTS, object)),
-        "theta": (("y", "x"), sensor.theta, {"long_name": "angle to the normal"} | angle),
-        "phi": (("y", "x"), sensor.phi, {"long_name": "azimuth from x to y"} | angle),
-    }
-    return {name: each for name, each in found.items() if {each[0]} <= {*dims, ("y", "x")}}
 
 
 def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:

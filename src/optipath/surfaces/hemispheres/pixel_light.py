@@ -203,16 +203,10 @@ class PixelLight(MeasuredPixels):
         **told: Any,
     ) -> xr.DataArray:
         """Return numbers with their names, units and errors."""
-        import xarray as xr  # noqa: PLC0415 - an extra
-
-        from optipath.surfaces.hemispheres import hemisphere_dataset as room  # noqa: PLC0415
+        from optipath.surfaces.hemispheres.pixel_array import pixel_array  # noqa: PLC0415 - an extra
 
         value, error = found
-        dims = (*room.PIXELS, *more)
-        spread = {"long_name": f"standard error of '{name}'", "units": units}
-        known = {**room.coordinates(self, dims), "se": (dims, error, spread)}
-        about = {"long_name": what, "units": units, "frame": room.FRAME, **told}
-        return xr.DataArray(value, known, dims, name, about)
+        return pixel_array(self, name, value, what, units, more, error=error, **told)
 
 
 def _state(source: npt.ArrayLike) -> Numbers:

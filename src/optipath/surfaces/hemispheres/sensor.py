@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -13,39 +13,10 @@ from optipath.errors import SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.spelling import closest
 from optipath.surfaces.hemispheres.pixel_areas import pixel_areas
+from optipath.surfaces.hemispheres.projections import PROJECTIONS
 from optipath.values.whole_numbers import whole_number
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
 Numbers = npt.NDArray[np.float64]
-
-
-def _equidistant_radius(sin: Numbers, cos: Numbers) -> Numbers:
-    return np.arctan2(sin, cos) / (np.pi / 2.0)
-
-
-def _equidistant_cap(radius: Numbers) -> Numbers:
-    return np.asarray(2.0 * (np.pi / 4.0 * np.sinc(radius / 4.0)) ** 2)
-
-
-def _equal_area_radius(sin: Numbers, cos: Numbers) -> Numbers:
-    return np.asarray(sin / np.sqrt(1.0 + cos))
-
-
-_RADII: dict[str, tuple[Callable[..., Numbers], Callable[..., Numbers], Callable[..., Numbers]]] = {
-    "equidistant": (
-        _equidistant_radius,
-        lambda radius: np.asarray(radius * (np.pi / 2.0)),
-        _equidistant_cap,
-    ),
-    "equal-area": (
-        _equal_area_radius,
-        lambda radius: 2.0 * np.arcsin(radius / np.sqrt(2.0)),
-        np.ones_like,
-    ),
-}
-"""Of each projection the distance from the centre, the polar angle there, and (1 - cos) / r^2."""
 
 
 @dataclass(frozen=True)
@@ -88,9 +59,9 @@ class Sensor:
     def __post_init__(self) -> None:
         """Refuse all faults."""
         faults = Faults(whole_number("pixels", self.pixels) + whole_number("parts", self.parts, 2))
-        if not isinstance(self.projection, str) or self.projection not in _RADII:
-            near = closest(str(self.projection), [*_RADII])
-            cure = f"did you mean '{near}'?" if near else f"give one of {', '.join(_RADII)}"
+        if not isinstance(self.projection, str) or self.projection not in PROJECTIONS:
+            near = closest(str(self.projection), [*PROJECTIONS])
+            cure = f"did you mean '{near}'?" if near else f"give one of {', '.join(PROJECTIONS)}"
             faults.append(f"projection is {shown(self.projection)}; {cure}")
         if faults:
             raise SurfaceError(*faults)
@@ -112,7 +83,7 @@ class Sensor:
         """The angle of each centre to the normal, in radians; NaN beyond the horizon."""
         radius = np.hypot(self.coordinates, self.coordinates[:, np.newaxis])
         there = radius <= 1.0
-        angle = _RADII[self.projection][1](np.where(there, radius, 0.0))
+        angle = PROJECTIONS[self.projection].angle(np.where(there, radius, 0.0))
         return np.where(there, angle, np.nan)
 
     @cached_property
@@ -131,7 +102,7 @@ class Sensor:
     @cached_property
     def solid_angle(self) -> Numbers:
         """The solid angle of each pixel within the hemisphere, in sr; 2 pi in all."""
-        return pixel_areas(self.pixels, _RADII[self.projection][2])
+        return pixel_areas(self.pixels, PROJECTIONS[self.projection].cap)
 
     def radius(self, theta: npt.ArrayLike) -> Numbers:
         """Return how far from the centre of the disc light falls, of whose radius.
@@ -167,7 +138,7 @@ class Sensor:
         """
         x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
         sin = np.hypot(x, y)
-        radius = _RADII[self.projection][0](sin, np.abs(z))
+        radius = PROJECTIONS[self.projection].radius(sin, np.abs(z))
         scale = radius / np.where(sin > 0.0, sin, 1.0)
         last = self.pixels - 1
         column, row = (
