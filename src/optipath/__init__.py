@@ -1,8 +1,7 @@
 """Polarised light along optical paths.
 
-Optical elements are nodes of a path graph, each with its own reference frames. A
-composer aligns the frames and orders the work; the plan it makes runs on one set of
-values or on millions.
+Optical elements are nodes of a path graph, each with its own reference frames. A composer aligns
+the frames and orders the work; the plan it makes runs on one set of values or on millions.
 """
 
 import sys
@@ -25,7 +24,6 @@ from optipath.errors import (
     ParameterError,
     PathError,
     PhotonWarning,
-    PlotError,
     PresetError,
     ShapeError,
     SurfaceError,
@@ -174,7 +172,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "PhotonWarning",
     "Plan",
     "PlaneOfIncidence",
-    "PlotError",
     "Polarization",
     "Polarizer",
     "PolarizingBeamSplitter",

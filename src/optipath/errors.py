@@ -110,10 +110,6 @@ class SurfaceError(OptipathError):
     """A rough surface or a sample of such is not one, or nothing can be done with it."""
 
 
-class PlotError(OptipathError):
-    """A picture cannot be drawn as it was asked for."""
-
-
 class MeshWarning(UserWarning):
     """A mesh is too coarse for its roughness."""
 

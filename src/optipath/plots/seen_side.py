@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, PlotError, listed, shown
+from optipath.errors import OptipathError, SurfaceError, listed, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+from optipath.surfaces.hemispheres.projections import PROJECTIONS
 from optipath.surfaces.walk.given_beam import given_state
 from optipath.values.displayed import displayed
 from optipath.values.wavelength import Wavelength
@@ -62,17 +63,17 @@ class SeenSide:
 
         Raises
         ------
-        PlotError
+        SurfaceError
             With all faults at once.
         """
         if not isinstance(measured, Hemisphere):
-            raise PlotError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
+            raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
         faults = Faults()
         faults.attempt("", measured.side, side)
         place = faults.attempt("", _place, measured.wavelengths, wavelength)
         state = faults.attempt("", given_state, "source", source)
         if faults:
-            raise PlotError(*faults)
+            raise SurfaceError(*faults)
         assert place is not None  # noqa: S101 - or a fault has been raised
         assert state is not None  # noqa: S101 - ditto
         return cls(measured, side, place, state)
@@ -90,8 +91,23 @@ class SeenSide:
         ndarray, shape (rows, columns, ...)
         """
         found = numbers[self.measured.side(self.side), :, :, self.place].copy()
-        found[np.isnan(self.measured.sensor.theta)] = np.nan
+        found[self.measured.sensor.solid_angle == 0.0] = np.nan
         return found
+
+    def radius(self, theta: float) -> float:
+        """Return how far from the centre of the disc light falls, 1 at the horizon.
+
+        Parameters
+        ----------
+        theta : float
+            Its angle to the normal, in radians.
+
+        Returns
+        -------
+        float
+        """
+        projection = PROJECTIONS[self.measured.sensor.projection]
+        return float(projection.radius(np.sin(theta), np.cos(theta)))
 
     @property
     def mirrored(self) -> float:
@@ -109,23 +125,15 @@ class SeenSide:
     def _light(self) -> int:
         return min(self.place, self.measured.seen.beam.indices.n.size - 1)
 
-    @property
-    def title(self) -> str:
-        """What is seen, as titles have it."""
-        beam = self.measured.seen.beam
-        parts = [f"{self.side}, incidence {degrees(np.arctan2(beam.sin, beam.cos))}"]
-        when = self.measured.wavelengths[self.place]
+    def titled(self, what: str) -> str:
+        """Return the title of a picture of this side."""
+        seen, when = self.measured.seen, self.measured.wavelengths[self.place]
+        parts = [what, self.side, f"incidence {degrees(np.arctan2(seen.beam.sin, seen.beam.cos))}"]
         parts += [] if np.isnan(when) else [f"{when * 1e9:.5g} nm"]
-        events = self.measured.seen.events
-        parts += [] if events is None else ["one event" if events == 1 else f"{events} events"]
+        parts += {None: [], 1: ["one event"]}.get(seen.events, [f"{seen.events} events"])
+        if any(self.source[1:]):
+            parts[-1] += "\nsource ({:g}, {:g}, {:g}, {:g})".format(*self.source)
         return ", ".join(parts)
-
-    @property
-    def state(self) -> str:
-        """The light that comes in, as titles have it; nothing of unpolarised light."""
-        if not any(self.source[1:]):
-            return ""
-        return "source ({:g}, {:g}, {:g}, {:g})".format(*self.source)
 
 
 def degrees(angle: float) -> str:
@@ -138,19 +146,19 @@ def _place(wavelengths: Numbers, wanted: Any) -> int:
     if wanted is None and len(wavelengths) == 1:
         return 0
     if np.isnan(wavelengths).any():
-        raise PlotError("wavelength is given, but nothing depends on it; leave it out")
+        raise SurfaceError("wavelength is given, but nothing depends on it; leave it out")
     there = listed([displayed(each, "nm") for each in wavelengths])
     if wanted is None:
-        raise PlotError(f"wavelength is missing; give one of {there}")
+        raise SurfaceError(f"wavelength is missing; give one of {there}")
     try:
         when = np.asarray(Wavelength().resolve(wanted).value, float)
     except OptipathError as fault:
-        raise PlotError(*fault.faults) from None
+        raise SurfaceError(*fault.faults) from None
     if when.size != 1:
-        raise PlotError(f"wavelength is {shown(wanted)}; give one of {there}")
+        raise SurfaceError(f"wavelength is {shown(wanted)}; give one of {there}")
     near = np.isclose(wavelengths, when.item(), rtol=1e-9, atol=0.0)
     if not near.any():
-        raise PlotError(
+        raise SurfaceError(
             f"{displayed(when.item(), 'nm')} has not been measured; give a wavelength of {there}"
         )
     return int(np.argmax(near))

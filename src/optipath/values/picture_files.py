@@ -5,7 +5,7 @@ from __future__ import annotations
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
-from optipath.errors import PlotError
+from optipath.errors import OptipathError
 from optipath.values.written_files import write_file
 
 if TYPE_CHECKING:
@@ -20,7 +20,11 @@ _METADATA: dict[str, dict[str, Any]] = {
 }
 """The endings, and what is said in each form so that a picture has the same bits every time."""
 
-_TEXT_IS_TEXT = {"svg.fonttype": "none", "pdf.fonttype": 42, "svg.hashsalt": "optipath"}
+_TEXT_IS_TEXT: dict[Any, Any] = {
+    "svg.fonttype": "none",
+    "pdf.fonttype": 42,
+    "svg.hashsalt": "optipath",
+}
 
 
 def check_form(file: Path) -> None:
@@ -28,12 +32,12 @@ def check_form(file: Path) -> None:
 
     Raises
     ------
-    PlotError
+    OptipathError
         Naming the forms that there are.
     """
     if file.suffix.lower() not in _METADATA:
         known = ", ".join(_METADATA)
-        raise PlotError(f"'{file}' has an ending that cannot be drawn; use one of: {known}")
+        raise OptipathError(f"'{file}' has an ending that cannot be drawn; use one of: {known}")
 
 
 def write_picture(figure: Figure, file: Path, dots_per_inch: float | str = "figure") -> None:
@@ -50,7 +54,7 @@ def write_picture(figure: Figure, file: Path, dots_per_inch: float | str = "figu
 
     Raises
     ------
-    PlotError
+    OptipathError
         If nothing can be drawn in the form that the ending says.
     OSError
         If it cannot be written; what was there before stays.

@@ -104,26 +104,6 @@ class Sensor:
         """The solid angle of each pixel within the hemisphere, in sr; 2 pi in all."""
         return pixel_areas(self.pixels, PROJECTIONS[self.projection].cap)
 
-    def radius(self, theta: npt.ArrayLike) -> Numbers:
-        """Return how far from the centre of the disc light falls, of whose radius.
-
-        Parameters
-        ----------
-        theta : array_like
-            Angles to the normal, in radians.
-
-        Returns
-        -------
-        ndarray
-            From 0 to 1.
-
-        Examples
-        --------
-        >>> print(Sensor().radius([0.0, np.pi / 6.0, np.pi / 2.0]).round(4))
-        [0.     0.3333 1.    ]
-        """
-        return _RADII[self.projection][0](np.sin(theta), np.cos(theta))
-
     def place(self, directions: npt.ArrayLike) -> npt.NDArray[np.int64]:
         """Return the number of the pixel in which each direction is, rows one after the other.
 
