@@ -62,7 +62,7 @@ def mueller_hemisphere(
     'M01 / M00'
     """
     seen = SeenSide.of(measured, side, wavelength, UNPOLARISED)
-    panel: Any = own_panel(axes, (4, 4), (9.6, 9.4))
+    panel = own_panel(axes, (4, 4), (9.6, 9.4))
     value, error = map(
         seen.pixels, measured.own.estimate(lambda n: _over_first(measured.matrices(n)))
     )
@@ -73,7 +73,7 @@ def mueller_hemisphere(
     first = draw_disc(panel[0, 0], seen, light, toned, labelled=False)
     for row, column in np.ndindex(4, 4):
         name = f"M{row}{column}"
-        ax = panel[row, column]
+        ax: Any = panel[row, column]
         ax.set_title(f"{name} / M00" if row or column else "M00")
         if row or column:
             pixels = value[..., row, column]
