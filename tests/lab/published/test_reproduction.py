@@ -74,7 +74,7 @@ def test_mirrored_light_has_the_polarisation_of_fresnel():
     aop = found(sample, "aop", "60 deg", stokes=(1.0, 0.0, 1.0, 0.0))
     assert dolp.value == pytest.approx(np.hypot(s1, s2) / intensity, rel=1e-12)
     assert aop.value == pytest.approx(np.degrees(np.arctan2(abs(s2), abs(s1))) / 2.0, rel=1e-12)
-    assert "where a mirror would send the light" in aop.mask
+    assert "where a mirror sends the light" in aop.mask
 
 
 @pytest.mark.parametrize(("cells", "finer"), [(40, False), (640, True)])
