@@ -78,9 +78,9 @@ class BrdfOfHemispheres:
                     "hemispheres differ in their wavelengths; measure all at the same"
                 )
             if each.seen.beam.sample != first.seen.beam.sample:
-                raise SurfaceError(f"{each!r} is of another sample than {first!r}")
+                raise SurfaceError(f"{each} is of another sample than {first}")
             if _incidence(each) == _incidence(before):
-                raise SurfaceError(f"{each!r} is there twice; leave one of them out")
+                raise SurfaceError(f"{each} is there twice; leave one of them out")
         if not first.seen.beam.sample.isotropic:
             raise SurfaceError(
                 "the table is of samples that look the same from all sides, and this one is not "

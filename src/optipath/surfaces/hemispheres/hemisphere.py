@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.surfaces.files.saving import Saving
+from optipath.surfaces.files.saved_by_name import Saving
 from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
 from optipath.surfaces.hemispheres.polarization_effect import PolarizationEffect

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
+from optipath.values.arrays.read_only import same
 
 if TYPE_CHECKING:
     from optipath.surfaces.hemispheres.part_sums import PartSums
@@ -39,6 +40,17 @@ class MeasuredPixels:
     parts: PartSums
     wavelengths: Numbers
     symmetric: bool
+
+    def __eq__(self, other: object) -> Any:
+        if type(other) is not type(self):
+            return NotImplemented
+        assert isinstance(other, MeasuredPixels)  # noqa: S101 - for who checks types
+        mine, its = ((each.seen, each.parts, each.symmetric) for each in (self, other))
+        # No wavelength is NaN, which is here the same as itself.
+        alike = np.array_equal(self.wavelengths, other.wavelengths, equal_nan=True)
+        return alike and same(mine, its)
+
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def sensor(self) -> Sensor:
