@@ -59,7 +59,7 @@ class MeasuredPixels:
 
     @property
     def photons(self) -> int:
-        """How many have been walked."""
+        """How many have been walked; none where all interfaces are flat, and light is known."""
         return int(self.parts.photons.sum())
 
     @cached_property
