@@ -89,7 +89,7 @@ def packages_of_extras():
     extras = tomllib.loads(PROJECT.read_text("utf-8"))["project"]["optional-dependencies"]
     for extra, needs in extras.items():
         if extra not in FOR_DEVELOPERS:
-            names = (re.match(r"[a-z0-9]+", need)[0] for need in needs)
+            names = (re.match(r"[A-Za-z0-9]+", need)[0] for need in needs)
             yield extra, {name for name in names if name != "optipath"}
 
 

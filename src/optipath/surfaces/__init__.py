@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
+    from optipath.surfaces.files.load_hemisphere import load_hemisphere
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.hemispheres.sensor import Sensor
@@ -21,6 +22,7 @@ __all__ = [
     "Photon",
     "Sensor",
     "energy",
+    "load_hemisphere",
     "measure",
     "photon_ends",
     "single_scattering",
@@ -32,6 +34,7 @@ _HOMES = {
     "Hemisphere": "hemispheres.hemisphere",
     "Sensor": "hemispheres.sensor",
     "energy": "energies.energy",
+    "load_hemisphere": "files.load_hemisphere",
     "measure": "hemispheres.measure",
     "photon_ends": "ends.photon_ends",
     "single_scattering": "facets.facet_model",
