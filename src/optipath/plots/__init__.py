@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from optipath.plots.hemisphere_map import hemisphere
     from optipath.plots.mueller_map import mueller_hemisphere
     from optipath.plots.plane_curves import in_plane
-    from optipath.plots.saving import save
+    from optipath.plots.saved_picture import save
 
 __all__ = [
     "beside_facets",
@@ -30,7 +30,7 @@ _HOMES = {
     "hemisphere": "hemisphere_map",
     "in_plane": "plane_curves",
     "mueller_hemisphere": "mueller_map",
-    "save": "saving",
+    "save": "saved_picture",
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
