@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
     from optipath.surfaces.files.load_hemisphere import load_hemisphere
+    from optipath.surfaces.files.measured_polarized import write_measured_polarized
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.hemispheres.sensor import Sensor
@@ -26,6 +27,7 @@ __all__ = [
     "measure",
     "photon_ends",
     "single_scattering",
+    "write_measured_polarized",
 ]
 
 _HOMES = {
@@ -38,6 +40,7 @@ _HOMES = {
     "measure": "hemispheres.measure",
     "photon_ends": "ends.photon_ends",
     "single_scattering": "facets.facet_model",
+    "write_measured_polarized": "files.measured_polarized",
 }
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 

@@ -26,10 +26,10 @@ TOP: dict[str, Any] = {"format": int, "description": str, "source": str, "sample
 TOP |= {"wavelengths": list, "photons": int, "sensor": int, "measurements": list}
 MEASUREMENT: dict[str, Any] = {"measure": str, "text": str, "incidence": list, "published": list}
 MEASUREMENT |= {"within": object, "cells": int, "stokes": list}
-MEASUREMENT |= {"brighter_than": object, "noise": object}
+MEASUREMENT |= {"brighter_than": object, "noise": object, "azimuth": object}
 
 _NEEDED = ("format", "description", "source", "sample", "measurements")
-_LIMITS = ("within", "brighter_than", "noise")
+_LIMITS = ("within", "brighter_than", "noise", "azimuth")
 
 
 def experiment_of_text(text: str, path: Path, name: str) -> Experiment:

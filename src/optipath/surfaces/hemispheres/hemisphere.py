@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-class Hemisphere(PixelLight, PolarizationEffect, FacetModelling, Saving):
+class Hemisphere(PixelLight, FacetModelling, Saving, PolarizationEffect):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
