@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from optipath.plots.hemisphere_map import hemisphere
     from optipath.plots.mueller_map import mueller_hemisphere
     from optipath.plots.plane_curves import in_plane
-    from optipath.plots.saving import save
+    from optipath.plots.saved_picture import save
 
 __all__ = [
     "beside_facets",
@@ -29,7 +29,7 @@ _HOMES = {
     "hemisphere_map": ["hemisphere"],
     "mueller_map": ["mueller_hemisphere"],
     "plane_curves": ["in_plane"],
-    "saving": ["save"],
+    "saved_picture": ["save"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
