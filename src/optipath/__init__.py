@@ -1,8 +1,7 @@
 """Polarised light along optical paths.
 
-Optical elements are nodes of a path graph, each with its own reference frames. A
-composer aligns the frames and orders the work; the plan it makes runs on one set of
-values or on millions.
+Optical elements are nodes of a path graph, each with its own reference frames. A composer aligns
+the frames and orders the work; the plan it makes runs on one set of values or on millions.
 """
 
 import sys
@@ -34,6 +33,7 @@ from optipath.errors import (
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath import plots as plots
     from optipath import surfaces as surfaces
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator

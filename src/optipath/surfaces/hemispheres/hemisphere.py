@@ -10,12 +10,13 @@ import numpy as np
 from optipath.surfaces.files.saving import Saving
 from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
+from optipath.surfaces.hemispheres.polarization_effect import PolarizationEffect
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-class Hemisphere(PixelLight, FacetModelling, Saving):
+class Hemisphere(PixelLight, FacetModelling, Saving, PolarizationEffect):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes

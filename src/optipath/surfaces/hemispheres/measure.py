@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 
 _KINDS = ("both", "polarized", "scalar")
 _MOST = 1_000_000_000_000
+_IN_PLANE = 1e-9
+"""The sine of an azimuth whose plane of incidence is that of x, but for roundings."""
 
 
 def measure(
@@ -80,7 +82,8 @@ def measure(
         After how many events light is seen: 1 for what is scattered once; any number by default.
     symmetric : bool, optional
         Whether the two sides of the plane of incidence are taken to be mirror images, which
-        halves the variance; by default where the sample is isotropic.
+        halves the variance; by default where the sample is isotropic. One with a direction may
+        be so from 0 and 180 deg, as where ``alpha`` is a pair.
     most_events : int, optional
         After how many events a photon is given up.
     threads : int, optional
@@ -131,6 +134,12 @@ def measure(
     )
     assert pixels is not None  # noqa: S101 - or a fault has been raised
     mirrors = sample.isotropic if mirrors is None else mirrors
+    if mirrors and not sample.isotropic and abs(np.sin(beam.azimuth)) > _IN_PLANE:
+        raise SurfaceError(
+            f"symmetric is True, and azimuth {np.degrees(beam.azimuth):.6g} deg; pixels are "
+            f"mirrored across the plane of x, so give an azimuth of 0 or 180 deg, or leave "
+            f"symmetric out"
+        )
     states = (UNPOLARISED,) if polarized == "scalar" else STATES
     seen = SensedBeam(replace(beam, states=states), pixels, polarized, events)
     refuse_too_large(
