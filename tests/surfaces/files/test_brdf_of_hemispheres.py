@@ -59,7 +59,7 @@ def test_hemispheres_without_noise_give_the_brdf_of_any_directions(hemispheres, 
     found = np.array([measured_tables.look_up(table, *pair, 550.0) for pair in pairs])
     apart = np.abs(found - expected).max(axis=(1, 2))
     assert apart.max() < 0.06 * expected[:, 0, 0].max()
-    assert np.median(apart / expected[:, 0, 0]) < 0.02
+    assert np.median(apart / expected[:, 0, 0]) < 0.04
     # The same in all parts of the light: without error.
     assert np.nanmax(table["M00_se"]) < 1e-6 * expected[:, 0, 0].max()
 
