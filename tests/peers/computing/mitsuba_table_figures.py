@@ -1,7 +1,8 @@
 """What Mitsuba 3 reads out of a table that optipath has written: pip install mitsuba networkx.
 
 The plugin `measured_polarized` is asked for pairs of directions, some near mirror reflection; the
-numbers refer to Mitsuba's own bases of Stokes vectors, which are written beside them.
+numbers refer to Mitsuba's own bases of Stokes vectors, which are written beside them. What it reads
+out of a table of the usual shape is printed, as it differs from the formula.
 """
 
 import json
@@ -58,6 +59,32 @@ def asked(plugin, eye, light, wavelength):
     }
 
 
+def apart(each, brdf):
+    """M00 of the BRDF times the cosine, and how far what is read is from it."""
+    light, eye = np.array(each["light"]), np.array(each["eye"])
+    frames = [
+        op.Frame.from_direction(z, np.array(each[basis]))
+        for z, basis in ((-light, "basis_in"), (eye, "basis_out"))
+    ]
+    into, out_of = (op.Mueller(np.eye(4), frame, frame) for frame in frames)
+    ours = (out_of @ brdf(-light, eye) @ into).to("mitsuba") * light[2]
+    return ours[0, 0], np.abs(ours - each["mueller"]).max()
+
+
+def usual_table(folder):
+    file, brdf = (
+        Path(folder, "usual.pbsdf"),
+        partial(op.surfaces.single_scattering, 0.9 + 2.2j, 0.2),
+    )
+    op.surfaces.write_measured_polarized(file, brdf)
+    read = mitsuba.load_dict({"type": "measured_polarized", "filename": str(file)})
+    pairs = zip(directions(), range(400), strict=False)
+    bright, far = np.array([apart(asked(read, *pair, 550.0), brdf) for pair, _ in pairs]).T
+    seen = bright > 1e-3 * bright.max()
+    quantiles = np.quantile((far / bright)[seen], [0.5, 0.9, 1.0]).round(4)
+    print(f"of the usual shape: median, 90 %, all {quantiles}; {far.max() / bright.max():.4f}")
+
+
 metal = op.Material.tabulated(TABLE["wavelengths"], TABLE["n"], TABLE["k"])
 brdf = partial(op.surfaces.single_scattering, metal, TABLE["alpha"])
 with TemporaryDirectory() as folder:
@@ -67,6 +94,7 @@ with TemporaryDirectory() as folder:
     read = mitsuba.load_dict({"type": "measured_polarized", "filename": str(file)})
     pairs = zip(directions(), [450.0, 480.0, 550.0, 641.5] * 6, strict=False)
     found = [asked(read, *pair, wavelength) for pair, wavelength in pairs]
+    usual_table(folder)
 made = {
     "software": f"mitsuba {setups.version('mitsuba')}",
     "made by": "python tests/peers/computing/mitsuba_table_figures.py",
