@@ -38,8 +38,13 @@ def fresnel(m1, m2, g1, g2):
     return reflected, (Ts, Tp, both)
 
 
-def exact_stack(indices, lengths, wavelength, incidence, n0=None, *, back=False, digits=60):
-    """What a stack reflects, lets through, and absorbs of s and of p in each layer."""
+def exact_stack(
+    indices, lengths, wavelength, incidence, n0=None, *, back=False, scalar=False, digits=60
+):
+    """What a stack reflects, lets through, and absorbs of s and of p in each layer.
+
+    With `scalar`, each boundary does to both what it does to unpolarised light.
+    """
     with mpmath.workdps(digits):
         media = [mpmath.mpc(mpmath.mpmathify(index)) for index in indices]
         y = mpmath.mpf(n0 if n0 is not None else media[0].real) * mpmath.sin(mpmath.mpf(incidence))
@@ -57,10 +62,17 @@ def exact_stack(indices, lengths, wavelength, incidence, n0=None, *, back=False,
         pairs = list(zip(media, media[1:], g, g[1:], strict=False))
         down = [fresnel(*pair) for pair in pairs]
         up = [fresnel(m2, m1, g2, g1) for m1, m2, g1, g2 in pairs]
+        if scalar:
+            down, up = ([tuple(map(_by_mean, way)) for way in side] for side in (down, up))
         parts = [_part(down, up, depths, part) for part in range(3)]
         shares = list(zip(parts[0][2], parts[1][2], strict=True))
         reflected, transmitted = (tuple(part[way] for part in parts) for way in (0, 1))
         return Exact(reflected, transmitted, shares[::-1] if back else shares)
+
+
+def _by_mean(parts):
+    s, p, both = parts
+    return (s + p) / 2, (s + p) / 2, both
 
 
 def _part(down, up, depths, part):

@@ -1,8 +1,7 @@
 """Polarised light along optical paths.
 
-Optical elements are nodes of a path graph, each with its own reference frames. A
-composer aligns the frames and orders the work; the plan it makes runs on one set of
-values or on millions.
+Optical elements are nodes of a path graph, each with its own reference frames. A composer aligns
+the frames and orders the work; the plan it makes runs on one set of values or on millions.
 """
 
 import sys
@@ -34,6 +33,7 @@ from optipath.errors import (
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath import plots as plots
     from optipath import surfaces as surfaces
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
@@ -79,9 +79,7 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
-    from optipath.surfaces.hemispheres.sensor import Sensor
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_files import load_sample, sample_names
     from optipath.sweeps.uncertainty.propagation import Propagation
@@ -145,7 +143,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Frame",
     "FrameError",
     "FresnelAmplitudes",
-    "Hemisphere",
     "Incidence",
     "Index",
     "IndexFault",
@@ -185,7 +182,6 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Retarder",
     "Rotator",
     "Sample",
-    "Sensor",
     "ShapeError",
     "Source",
     "Spectrum",
@@ -266,9 +262,7 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
-    "surfaces.hemispheres.hemisphere": ["Hemisphere"],
     "surfaces.hemispheres.measure": ["measure"],
-    "surfaces.hemispheres.sensor": ["Sensor"],
     "surfaces.samples.sample": ["Sample"],
     "surfaces.samples.sample_files": ["load_sample", "sample_names"],
     "sweeps.uncertainty.propagation": ["Propagation"],

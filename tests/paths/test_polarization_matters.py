@@ -53,15 +53,3 @@ def test_the_detector_is_named_where_there_are_several():
         op.polarization(path)
     with pytest.raises(op.ParameterError, match="there are: a, b"):
         op.polarization(path, "bb")
-
-
-def test_light_that_goes_round_has_no_scalar_model_to_differ_from():
-    for angle in (0.0, 0.98, [0.3, 1.4]):
-        slab = op.PathGraph()
-        slab.add("lamp", op.Source()) >> slab.add("slab", op.LayerStack([1.0, 1.5, 1.0], angle))
-        slab.add("eye", op.Detector())
-        slab.connect("slab.transmitted", "eye.in")
-        with pytest.raises(op.ParameterError, match="round between the layers of 'slab'"):
-            op.polarization(slab)
-    with pytest.raises(op.ParameterError, match=r"round at 'front\.transmitted'.* trace the path"):
-        op.polarization(op.load_preset("glass-slab"), "transmitted")

@@ -13,6 +13,7 @@ from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress_bar import progress_bar
 from optipath.cli.text_files import NewFile, read_text, told_of, write
 from optipath.paths.presets.loader import preset_names
+from optipath.values.picture_files import check_form
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -89,7 +90,7 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
 
 
 def _measure_and_draw(measure: Callable[[Tell], Chart], out: Path, data: Path | None) -> None:
-    from optipath.lab.accuracy.chart_drawing import check_form, draw  # noqa: PLC0415 - ditto
+    from optipath.lab.accuracy.chart_drawing import draw  # noqa: PLC0415 - ditto
     from optipath.lab.accuracy.chart_file import chart_text  # noqa: PLC0415 - an extra
 
     check_form(out)

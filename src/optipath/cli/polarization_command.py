@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 _PATHS = 5
 
+_NO_BOUNDS = "as light goes round in a loop, there are no bounds of what it could change"
+
 _SMALL = 1e-12
 """Which share of the intensity is no more than rounding."""
 
@@ -72,7 +74,8 @@ def _as_json(found: Mapping[str, Polarization]) -> dict[str, Any]:
 
 def _one_as_json(found: Polarization) -> dict[str, Any]:
     numbers = {name: plain(getattr(found, name)) for name in ("exact", "scalar", "difference")}
-    bounds = {name: plain(getattr(found.certificate, name)) for name in ("lower", "upper")}
+    known = found.certificate
+    bounds = {name: known and plain(getattr(known, name)) for name in ("lower", "upper")}
     elements = {name: plain(share) for name, share in found.elements.items()}
     return {**numbers, **bounds, "elements": elements, "culprits": list(found.culprits)}
 
@@ -86,11 +89,9 @@ def _table(name: str, found: Polarization, digits: int) -> Table:
         table.add_column(cell(str(list(index))) if index else "")
     for head, powers in (("exact", found.exact), ("scalar: without polarisation", found.scalar)):
         table.add_row(head, *(f"{powers[index]:.{digits}g}" for index in shown))
-    shares = {
-        "difference": found.difference,
-        "at least": found.certificate.lower - 1.0,
-        "at most": found.certificate.upper - 1.0,
-    }
+    shares = {"difference": found.difference}
+    if (known := found.certificate) is not None:
+        shares |= {"at least": known.lower - 1.0, "at most": known.upper - 1.0}
     for element, share in found.elements.items():
         if np.any(np.abs(share) > _SMALL):
             shares[f"by {element}"] = share
@@ -105,17 +106,21 @@ def _verdict(found: Polarization) -> str:
     if not np.any(found.scalar > 0.0):
         return "dark: there is nothing to compare"
     largest = float(np.max(np.abs(found.difference), initial=0.0))
-    certificate = found.certificate
-    lower, upper = np.min(certificate.lower) - 1.0, np.max(certificate.upper) - 1.0
-    if largest < _SMALL and upper - lower < _SMALL:
-        return "polarisation changes nothing"
     text = f"polarisation changes S0 by up to {100.0 * largest:.3g} %"
-    if largest < _SMALL:
-        return (
-            f"{text} here, but could by {_percent(lower)} .. {_percent(upper)} if the elements "
-            f"stood otherwise"
-        )
-    return f"{text}, most of it by {listed(found.culprits)}"
+    if largest >= _SMALL:
+        by = f"{text}, most of it by {listed(found.culprits)}"
+        return by if found.certificate is not None else f"{by}; {_NO_BOUNDS}"
+    if not found.elements:
+        return "polarisation changes nothing"
+    if found.certificate is None:
+        return f"{text} here; {_NO_BOUNDS}"
+    lower, upper = np.min(found.certificate.lower) - 1.0, np.max(found.certificate.upper) - 1.0
+    if upper - lower < _SMALL:
+        return "polarisation changes nothing"
+    return (
+        f"{text} here, but could by {_percent(lower)} .. {_percent(upper)} if the elements stood "
+        f"otherwise"
+    )
 
 
 def _percent(share: float) -> str:

@@ -18,16 +18,47 @@ if TYPE_CHECKING:
 
 
 def _surface(sample: str | None, *, as_json: bool, **options: Any) -> None:
-    """List rough samples, or tell what share of light one of them sends back and lets through."""
+    """List rough samples, or tell what share of light one of them sends back and lets through.
+
+    optipath surface reproduce [NAME]... does published experiments again, and has options of its
+    own: optipath surface reproduce --help.
+    """
+    if sample == "reproduce":
+        raise click.UsageError("options stand behind it; write optipath surface reproduce first")
     if sample is None:
         _list_samples(as_json=as_json)
     else:
         _walk(sample, as_json=as_json, **options)
 
 
-surface = click.command("surface", cls=StrictCommand, params=[SAMPLE, *WALKING, *REDRAWING, JSON])(
-    _surface
-)
+class _SurfaceCommand(StrictCommand):
+    """The command, and the one that stands behind it in place of a sample."""
+
+    def make_context(
+        self, info_name: str | None, args: list[str], parent: Any = None, **extra: Any
+    ) -> click.Context:
+        """Return the context of ``reproduce`` where that stands first, else the own one.
+
+        Parameters
+        ----------
+        info_name, args, parent, **extra
+            As `click.Command` takes them.
+
+        Returns
+        -------
+        click.Context
+        """
+        if args[:1] != ["reproduce"]:
+            return super().make_context(info_name, args, parent, **extra)
+        # Neither a list of samples nor a wrong name needs it.
+        from optipath.cli.reproduce_command import reproduce  # noqa: PLC0415
+
+        return reproduce.make_context(f"{info_name} reproduce", args[1:], parent, **extra)
+
+
+surface = click.command(
+    "surface", cls=_SurfaceCommand, params=[SAMPLE, *WALKING, *REDRAWING, JSON]
+)(_surface)
 
 
 def _walk(sample: str, *, as_json: bool, **options: Any) -> None:

@@ -10,7 +10,7 @@ from optipath.errors import shown
 from optipath.surfaces.samples.sample_files import sample_names
 
 
-def _whole(text: str) -> int:
+def whole(text: str) -> int:
     """Return a whole number, which may be written as 1e6."""
     with suppress(ValueError):
         return int(text)
@@ -34,7 +34,7 @@ INCIDENCE = click.Option(
 )
 PHOTONS = click.Option(
     ["--photons"],
-    type=_whole,
+    type=whole,
     metavar="NUMBER",
     help="How many photons are walked, such as 1e7; 1e6 by default. With --tolerance, at most.",
 )
@@ -60,23 +60,23 @@ STOKES = click.Option(
     metavar="S0,S1,S2,S3",
     help="The light; the x of its frame is horizontal.",
 )
-SEED = click.Option(["--seed"], type=_whole, metavar="NUMBER", default=0, help="Of the photons.")
+SEED = click.Option(["--seed"], type=whole, metavar="NUMBER", default=0, help="Of the photons.")
 EVENTS = click.Option(
     ["--most-events"],
-    type=_whole,
+    type=whole,
     metavar="NUMBER",
     default=1000,
     help="After how many events a photon is given up.",
 )
 THREADS = click.Option(
     ["--threads"],
-    type=_whole,
+    type=whole,
     metavar="NUMBER",
     help="How many walk at a time; by default one a processor.",
 )
 SURFACES = click.Option(
     ["--surfaces"],
-    type=_whole,
+    type=whole,
     metavar="NUMBER",
     help="How many surfaces take turns, in place of the sample's.",
 )
@@ -84,7 +84,7 @@ CELLS = click.Option(
     ["--cells"], metavar="N|N,N", help="Cells of random surfaces along x and y, ditto."
 )
 SAMPLE_SEED = click.Option(
-    ["--sample-seed"], type=_whole, metavar="NUMBER", help="Of random surfaces, ditto."
+    ["--sample-seed"], type=whole, metavar="NUMBER", help="Of random surfaces, ditto."
 )
 
 WALKING = (INCIDENCE, PHOTONS, TOLERANCE, WAVELENGTHS, AZIMUTH, STOKES, SEED, EVENTS, THREADS)

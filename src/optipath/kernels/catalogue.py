@@ -1,5 +1,6 @@
 """Every kernel by name: a factory over `Primitives`, bound to the structure of what it returns."""
 
+from dataclasses import replace
 from functools import lru_cache
 from typing import TypeAlias
 
@@ -210,7 +211,9 @@ def stack(wanted: str, measured: str, absorbing: tuple[int, ...] = ()) -> Kernel
             measured,
             absorbing,
         )
-        methods[method] = Kernel(f"{what} ({method}{lossy})", structure, made_by)
+        name, grey = f"{what} ({method}{lossy})", replace(made_by, unpolarising=True)
+        by_means = Kernel(f"{name} by means", structure, grey)
+        methods[method] = Kernel(name, structure, made_by, unpolarising=by_means)
     return KernelFamily(what, methods)
 
 

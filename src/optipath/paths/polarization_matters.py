@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from optipath.composer.composer import Composer
-from optipath.engines.program.program import Evaluation
-from optipath.errors import ParameterError, listed, shown
-from optipath.kernels.carriers.kernel import Kernel
-from optipath.kernels.carriers.structures import DEPOLARIZING_BLOCK
+from optipath.errors import ParameterError, shown
+from optipath.paths.without_polarization import polarising, without_polarization
+from optipath.plan.certificate import Certificate
+from optipath.plan.choosing import only
 from optipath.values.arrays.read_only import same_fields
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     import numpy.typing as npt
 
     from optipath.composer.composer import Path
     from optipath.engines.program.program import Program
-    from optipath.kernels.numbers.primitives import Primitives
-    from optipath.plan.certificate import Certificate
     from optipath.plan.plan import Plan
 
 
@@ -38,9 +37,13 @@ class Polarization:
     ----------
     exact : ndarray, shape (...)
         The intensity.
-    certificate : Certificate
-        The intensity of the scalar model, in which each element dims light by its mean, and
-        bounds of what polarisation can make of it.
+    scalar : ndarray, shape (...)
+        The intensity of the scalar model, in which each element, and each boundary of a stack,
+        dims light by its mean; light that goes round is the sum over all rounds of it.
+    certificate : Certificate or None
+        The scalar intensity, and bounds of what polarisation can make of it. They tell a stack
+        by what it does as a whole, and the other elements by their diattenuations, however these
+        stand to each other. None where light goes round in a loop: no bounds are known there.
     elements : mapping of str to ndarray, shape (...)
         For each element that polarises, the intensity that is there because it does, over that
         of the scalar model; negative where light is missing for it. Elements act together,
@@ -48,16 +51,12 @@ class Polarization:
     """
 
     exact: npt.NDArray[Any]
-    certificate: Certificate
+    scalar: npt.NDArray[Any]
+    certificate: Certificate | None
     elements: Mapping[str, npt.NDArray[Any]]
 
     __eq__ = same_fields
     __hash__ = None  # type: ignore[assignment]
-
-    @property
-    def scalar(self) -> npt.NDArray[Any]:
-        """The intensity of the scalar model."""
-        return self.certificate.scalar
 
     @property
     def difference(self) -> npt.NDArray[Any]:
@@ -93,8 +92,8 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     Raises
     ------
     PathError, ParameterError
-        As `Composer.compose` and `Plan.run`; and where light goes round, in a loop or between
-        the layers of a stack, since the scalar model has no sum over all rounds yet.
+        As `Composer.compose` and `Plan.run`; and as `Plan.certificate`, where light goes round
+        in no loop.
 
     Examples
     --------
@@ -106,6 +105,13 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
     >>> found = op.polarization(panes, rho=[0.0, np.pi / 2])
     >>> print(found.difference.round(2), found.culprits)
     [ 1. -1.] ('X2', 'X1')
+
+    What a layer of n = 1.5 on 2.4 reflects, with light that goes to and fro in it:
+
+    >>> layer = op.LayerStack([1.0, 1.5, 2.4], np.radians([50.0, 65.0]))
+    >>> found = op.polarization(op.Source() >> layer >> op.Detector())
+    >>> print((100.0 * found.difference).round(3))
+    [-1.785 -3.167]
     """
     plan = Composer().compose(path)
     ends = tuple(plan.whole.detectors)
@@ -116,30 +122,34 @@ def polarization(path: Path, detector: str | None = None, /, **parameters: Any) 
             if ends
             else "the path has no detector; give it one"
         )
-    name = ends[0] if detector is None else detector
-    _refuse_rounds(plan.whole)
-    certificate = plan.certificate(name, **parameters)
+    readings = tuple(plan.whole.readings)
+    name = ends[0] if detector is None else only("detector", readings, "run_all()", detector)
+    traced = plan.answers.whole.for_jax
+    traced.refuse_traced(parameters, "comparisons with the scalar model are made")
+    scalar, certificate = _scalar(plan, name, parameters)
     exact = _intensity(plan, plan.whole, name, parameters)
     shares = {}
-    for node, steps in _polarising(plan.whole).items():
-        without = _intensity(plan, _without(plan.whole, steps), name, parameters)
-        shares[node] = _over(exact - without, certificate.scalar)
-    return Polarization(exact, certificate, shares)
+    for node, steps in polarising(plan.whole).items():
+        without = _intensity(plan, without_polarization(plan.whole, steps), name, parameters)
+        shares[node] = _over(exact - without, scalar)
+    return Polarization(exact, scalar, certificate, shares)
 
 
-def _refuse_rounds(program: Program) -> None:
-    """Refuse light that goes round, of which each round would have to be dimmed by the mean."""
-    places = [f"at '{program.steps[loop.start].label}'" for loop in program.loops]
-    for step in program.steps:
-        kernel = None if step.evaluation is None else program.evaluations[step.evaluation].kernel
-        if kernel is not None and kernel.structure is DEPOLARIZING_BLOCK:
-            places.append(f"between the layers of '{step.label.rpartition('.')[0]}'")
-    if places:
-        raise ParameterError(
-            f"light goes round {listed(list(dict.fromkeys(places)))}, and the scalar model that "
-            f"polarisation is measured by has no sum over all rounds; trace the path, which is "
-            f"exact"
-        )
+def _scalar(plan: Plan, end: str, parameters: Mapping[str, Any]) -> tuple[Any, Certificate | None]:
+    """Return the intensity of the scalar model, and bounds of the exact one where there are any."""
+    whole = plan.whole
+    stacks = any(evaluation.kernel.unpolarising for evaluation in whole.evaluations)
+    found = None if whole.loops else plan.certificate(end, **parameters)
+    if found is not None and not stacks:
+        return found.scalar, found
+    grey = without_polarization(whole, chain.from_iterable(polarising(whole).values()))
+    scalar = _intensity(plan, grey, end, parameters)
+    if found is None:
+        return scalar, None
+    # The certificate is of stacks that dim light by what is exact for unpolarised light.
+    lit = scalar > 0.0
+    share = np.where(lit, found.scalar, 1.0) / np.where(lit, scalar, 1.0)
+    return scalar, Certificate(scalar, share * found.lower, share * found.upper)
 
 
 def _over(difference: Any, scalar: Any) -> npt.NDArray[Any]:
@@ -150,44 +160,3 @@ def _intensity(plan: Plan, program: Program, end: str, parameters: Mapping[str, 
     """Return the intensity at an end of a program that stands in for that of a plan."""
     reduction = replace(plan.reduction, program=program, unreduced=False)
     return replace(plan, reduction=reduction, whole=program).run_all(**parameters)[end].intensity
-
-
-def _polarising(program: Program) -> dict[str, list[int]]:
-    """Return the steps of each element that may polarise, by its name."""
-    found: dict[str, list[int]] = {}
-    for light, step in enumerate(program.steps):
-        if step.evaluation is None or not step.inputs:
-            continue
-        kernel = program.evaluations[step.evaluation].kernel
-        if kernel.structure is not None and kernel.structure.unpolarising is not None:
-            found.setdefault(step.label.rpartition(".")[0], []).append(light)
-    return found
-
-
-def _without(program: Program, steps: list[int]) -> Program:
-    """Return a program in which some steps dim all light alike, by their mean."""
-    evaluations, changed = list(program.evaluations), list(program.steps)
-    for light in steps:
-        step = changed[light]
-        old = evaluations[step.evaluation or 0]
-        kernel = Kernel(old.kernel.name, old.kernel.structure, _Unpolarising(old.kernel))
-        changed[light] = replace(step, evaluation=len(evaluations))
-        evaluations.append(Evaluation(kernel, old.arguments, old.presence))
-    return replace(program, evaluations=tuple(evaluations), steps=tuple(changed))
-
-
-@dataclass(frozen=True)
-class _Unpolarising:
-    """Makes the function of a kernel whose element polarises no light."""
-
-    kernel: Kernel
-
-    def __call__(self, xp: Primitives) -> Callable[..., tuple[Any, ...]]:
-        function, structure = self.kernel.made_for(xp), self.kernel.structure
-        assert structure is not None and structure.unpolarising is not None  # noqa: S101, PT018
-        unpolarising = structure.unpolarising
-
-        def numbers(*arguments: Any) -> tuple[Any, ...]:
-            return tuple(unpolarising(function(*arguments)))
-
-        return numbers

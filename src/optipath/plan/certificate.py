@@ -34,7 +34,8 @@ class Certificate:
     Attributes
     ----------
     scalar : ndarray, shape (...)
-        The intensity without polarisation: each element dims light by its mean.
+        The intensity without polarisation: each element dims light by its mean, a stack of
+        layers by that of the whole stack.
     lower, upper : ndarray, shape (...)
         The true intensity is within ``lower * scalar .. upper * scalar``.
     """

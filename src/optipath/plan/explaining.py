@@ -109,7 +109,9 @@ def _certified(plan: Any) -> dict[str, Any] | None:
         else f"the light at {name} cannot be bounded"
         for name, each in bounds.items()
     ]
-    at = ", for the defaults" if plan.inputs.open else ""
+    stacks = any(evaluation.kernel.unpolarising for evaluation in plan.whole.evaluations)
+    at = ", which takes a stack as a whole" if stacks else ""
+    at += ", for the defaults" if plan.inputs.open else ""
     return {"bounds": bounds, "text": "; ".join(texts) + at}
 
 

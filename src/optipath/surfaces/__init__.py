@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
+    from optipath.surfaces.files.load_hemisphere import load_hemisphere
+    from optipath.surfaces.files.measured_polarized import write_measured_polarized
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.hemispheres.sensor import Sensor
@@ -21,9 +23,11 @@ __all__ = [
     "Photon",
     "Sensor",
     "energy",
+    "load_hemisphere",
     "measure",
     "photon_ends",
     "single_scattering",
+    "write_measured_polarized",
 ]
 
 _HOMES = {
@@ -32,9 +36,11 @@ _HOMES = {
     "Hemisphere": "hemispheres.hemisphere",
     "Sensor": "hemispheres.sensor",
     "energy": "energies.energy",
+    "load_hemisphere": "files.load_hemisphere",
     "measure": "hemispheres.measure",
     "photon_ends": "ends.photon_ends",
     "single_scattering": "facets.facet_model",
+    "write_measured_polarized": "files.measured_polarized",
 }
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 

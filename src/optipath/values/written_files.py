@@ -70,14 +70,52 @@ def written_whole(file: Path) -> Iterator[IO[bytes]]:
         with file.open("wb") as stream:
             yield stream
         return
-    place = Path(os.path.realpath(file))
-    if place.is_symlink():
-        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-    there = place.exists()
-    if there and not os.access(place, os.W_OK):
-        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-    with _draft(place, 0o666, place if there else None) as stream:
+    place = _place_of(file)
+    with _draft(place, 0o666, place if place.exists() else None) as stream:
         yield stream
+
+
+@contextmanager
+def drafted(file: Path) -> Iterator[Path]:
+    """Let a file be written by others under the name of a draft, which is then moved to its place.
+
+    Parameters
+    ----------
+    file : Path
+        Where it is to be, as `write_file` takes it; no pipe.
+
+    Yields
+    ------
+    Path
+        Where it is to be written.
+
+    Raises
+    ------
+    OSError
+        As `write_file` does.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with drafted(Path(folder, "a.txt")) as draft:
+    ...         _ = draft.write_text("light")
+    ...     [(file.name, file.read_text()) for file in Path(folder).iterdir()]
+    [('a.txt', 'light')]
+    """
+    place = _place_of(file)
+    draft = place.with_name(f".{secrets.token_hex(8)}.draft")
+    try:
+        yield draft
+        with draft.open("rb") as stream:
+            os.fsync(stream.fileno())
+        if place.exists():
+            shutil.copymode(place, draft)
+        draft.replace(place)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            draft.unlink()
+        raise
 
 
 def write_own_file(file: Path, content: bytes) -> None:
@@ -92,6 +130,16 @@ def write_own_file(file: Path, content: bytes) -> None:
     """
     with _draft(file, 0o600) as stream:
         stream.write(content)
+
+
+def _place_of(file: Path) -> Path:
+    """Return where a file is, behind all links, if it can be written there."""
+    place = Path(os.path.realpath(file))
+    if place.is_symlink():
+        raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+    if place.exists() and not os.access(place, os.W_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+    return place
 
 
 @contextmanager

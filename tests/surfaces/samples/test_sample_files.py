@@ -7,7 +7,8 @@ import optipath as op
 
 
 def test_the_samples_of_the_library_are_there():
-    assert op.sample_names() == [
+    others = [name for name in op.sample_names() if not name.startswith("wang-2017-")]
+    assert others == [
         "glass-on-glass", "glass-on-gold", "glass-rough", "gold-rough", "perfect-reflector-rough",
         "silver-rough",
     ]  # fmt: skip

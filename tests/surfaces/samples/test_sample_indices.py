@@ -61,7 +61,7 @@ def test_a_base_that_absorbs_is_opaque(index, opaque):
 
 def test_a_material_without_a_wavelength_asks_for_one():
     (fault,) = refused([(GLASS, 0.1), (METAL, 0.1)])
-    assert fault.endswith("depends on the wavelength; give one, wavelength='550 nm'")
+    assert fault.endswith("depends on the wavelength; give one, such as '550 nm'")
 
 
 def test_a_wavelength_that_nothing_asks_for_is_refused():

@@ -38,6 +38,9 @@ class Kernel:
         and the kernel, which takes the same arguments.
     powers : Kernel, optional
         What is left of the kernel where only intensities are asked.
+    unpolarising : Kernel, optional
+        The kernel of what is made of the same boundaries, each dimming all light by its mean;
+        None where there is one, whose own mean says that.
     """
 
     name: str
@@ -46,6 +49,7 @@ class Kernel:
     without: tuple[int, Kernel] | None = None
     denser: tuple[int, int, Kernel] | None = None
     powers: Kernel | None = None
+    unpolarising: Kernel | None = None
 
     def __hash__(self) -> int:
         # Asked for once a step; what else belongs to a name is compared where names are equal.

@@ -146,7 +146,8 @@ def _block(xp: Primitives) -> Action:
     return act
 
 
-def _grey_block(numbers: Numbers) -> Numbers:
+def grey_block(numbers: Numbers) -> Numbers:
+    """Return the numbers of a block that dims light along both axes by the mean of these."""
     Fs, Fp, _, C, S = numbers
     mean = 0.5 * (Fs + Fp)
     return mean, mean, 0.0, C, S
@@ -229,7 +230,7 @@ BLOCK = Structure(
     _block_rows,
     powers_actions.block_powers,
     jones_actions.block_jones,
-    _grey_block,
+    grey_block,
 )
 """(Fs, Fp, B, C, S): [[A,B,0,0],[B,A,0,0],[0,0,C,S],[0,0,-S,C]], axes along the frame.
 

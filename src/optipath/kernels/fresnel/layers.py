@@ -40,6 +40,8 @@ class Stack:
         other side, or in a medium n0 from which parallel boundaries have refracted the light.
     absorbing : tuple of int
         The places of the layers that absorb, the medium in front being at 0.
+    unpolarising : bool
+        Whether each boundary does to the intensity what it does to unpolarised light.
     """
 
     reflection: Kernel
@@ -48,6 +50,7 @@ class Stack:
     wanted: str
     measured: str
     absorbing: tuple[int, ...] = ()
+    unpolarising: bool = False
 
     def __call__(self, xp: Primitives) -> KernelFunction:
         """Return the kernel in terms of these primitives."""
@@ -56,7 +59,8 @@ class Stack:
             pile = self._pile(given)
             faces = [self._face(xp, pile, place) for place in range(len(pile.media) - 1)]
             ways = [self._way(xp, pile, place) for place in range(1, len(pile.media) - 1)]
-            s, p = (Rounds(xp, [along(face, part) for face in faces], ways) for part in (0, 1))
+            lit = [face.unpolarising() for face in faces] if self.unpolarising else faces
+            s, p = (Rounds(xp, [along(face, part) for face in lit], ways) for part in (0, 1))
             if self.wanted == "absorbed":
                 pairs = zip(s.absorbed(), p.absorbed(), strict=True)
                 return tuple(share for pair in pairs for share in pair)

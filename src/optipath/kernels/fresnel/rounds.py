@@ -6,6 +6,7 @@ from functools import reduce
 from operator import add
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from optipath.kernels.carriers.structures import grey_block
 from optipath.kernels.numbers.elimination import Elimination
 
 if TYPE_CHECKING:
@@ -38,6 +39,16 @@ class Face(NamedTuple):
     back: tuple[Any, ...]
     beside: tuple[Any, Any] | None
     beside_behind: tuple[Any, Any] | None
+
+    def unpolarising(self) -> Face:
+        """Return a boundary that does to s and to p what this one does to both on average."""
+        passed = tuple(grey_block(self.passed))
+        back = passed if self.back is self.passed else tuple(grey_block(self.back))
+        beside = (
+            None if pair is None else (0.5 * (pair[0] + pair[1]),) * 2
+            for pair in (self.beside, self.beside_behind)
+        )
+        return Face(tuple(grey_block(self.reflected)), passed, back, *beside)
 
 
 class Side(NamedTuple):

@@ -27,8 +27,24 @@ if TYPE_CHECKING:
 Numbers = npt.NDArray[np.float64]
 
 
+class TurnedDirections(NamedTuple):
+    """Where photons go, as the sample lies; on an isotropic one as if all had come along x.
+
+    Attributes
+    ----------
+    k, x : ndarray, shape (photons, 3)
+        The direction, and the x of its frame: z cross the direction.
+    turns : ndarray, shape (photons, 2)
+        (cos 2a, sin 2a) of the turn to that frame from the one in which the light is known.
+    """
+
+    k: Numbers
+    x: Numbers
+    turns: Numbers
+
+
 class TurnedEnds(NamedTuple):
-    """Where photons end, as the sample lies; on an isotropic one as if all had come along x.
+    """Where photons end, with their lights; directions are those of `TurnedDirections`.
 
     Attributes
     ----------
@@ -48,8 +64,8 @@ class TurnedEnds(NamedTuple):
     scalar: Numbers
 
 
-def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
-    """Return the ends of photons in frames that belong to their directions.
+def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
+    """Return where photons go, and the frames that belong to their directions.
 
     Parameters
     ----------
@@ -60,20 +76,38 @@ def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
 
     Returns
     -------
-    TurnedEnds
+    TurnedDirections
     """
     back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
     k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
     _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
+    return TurnedDirections(
+        k, *(np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
+    )
+
+
+def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:
+    """Return the ends of photons in frames that belong to their directions.
+
+    Parameters
+    ----------
+    beam, found
+        As `turned_directions` takes them.
+
+    Returns
+    -------
+    TurnedEnds
+    """
+    directions = turned_directions(beam, found)
     lights = found[:, END_LIGHTS:].reshape(len(found), -1, CARRIED)
     carried = tuple(lights[..., place] for place in range(4))
-    rotation = [each[:, np.newaxis] for each in turn]
+    rotation = [each[:, np.newaxis] for each in directions.turns.T]
     stokes = stokes_of(NUMPY, ROTATION.made_for(NUMPY)(rotation, carried, 4))
     return TurnedEnds(
         outcomes=found[:, OUTCOME].astype(int),
         events=found[:, EVENTS].astype(int),
-        directions=k,
-        x=np.stack(np.broadcast_arrays(*x), axis=-1),
+        directions=directions.k,
+        x=directions.x,
         stokes=np.stack(np.broadcast_arrays(*stokes), axis=-1),
         scalar=lights[..., 4],
     )

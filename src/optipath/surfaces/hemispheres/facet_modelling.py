@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +13,7 @@ from optipath.light.frames import Frame
 from optipath.light.mueller.matrix import Mueller
 from optipath.surfaces.facets.facet_model import single_scattering
 from optipath.surfaces.fields.height_field import HeightField
+from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 from optipath.surfaces.hemispheres.pixel_points import pixel_points
 from optipath.values.whole_numbers import whole_number
 
@@ -26,10 +26,8 @@ if TYPE_CHECKING:
 Numbers = npt.NDArray[np.float64]
 
 
-class FacetModelling:
+class FacetModelling(MeasuredPixels):
     """A hemisphere whose pixels are known without photons, as far as light is reflected once."""
-
-    seen: SensedBeam
 
     def single_scattering(self, masking: str = "smith", points: int = 6) -> xr.DataArray:
         """Return the Mueller matrices of light that the topmost facets reflect once, by the model.
@@ -66,6 +64,8 @@ class FacetModelling:
         >>> model.dims == measured.dims
         True
         """
+        from optipath.surfaces.hemispheres.pixel_array import pixel_array  # noqa: PLC0415 - an extra
+
         faults = unknown("masking", masking, MASKINGS) + whole_number("points", points)
         alpha = _alpha(self.seen.beam)
         if alpha is None:
@@ -76,8 +76,7 @@ class FacetModelling:
         if faults or alpha is None:
             raise SurfaceError(*faults)
         found = _summed(self.seen, alpha, masking, int(points))[np.newaxis]
-        room = import_module("optipath.surfaces.hemispheres.pixel_array")
-        return room.pixel_array(  # type: ignore[no-any-return]
+        return pixel_array(
             self,
             "single_scattering",
             found,

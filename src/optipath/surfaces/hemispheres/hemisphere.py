@@ -2,156 +2,45 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 
-from optipath.errors import SurfaceError, shown
+from optipath.surfaces.files.saving import Saving
 from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
+from optipath.surfaces.hemispheres.polarization_effect import PolarizationEffect
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from optipath.surfaces.hemispheres.part_sums import PartSums
-    from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
-    from optipath.surfaces.hemispheres.sensor import Sensor
 
-Numbers = npt.NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Hemisphere(PixelLight, FacetModelling):
+class Hemisphere(PixelLight, FacetModelling, Saving, PolarizationEffect):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
-    into it; `brdf` is per steradian, and over the cosine. Light comes in a frame with x
-    horizontal, perpendicular to the plane of incidence; it leaves with x perpendicular to the
-    meridional plane of its direction, (0, 0, 1) cross direction, and (0, 1, 0) along the normal.
+    into it. Light comes in a frame with x horizontal, perpendicular to the plane of incidence; it
+    leaves with x perpendicular to the meridional plane of its direction, (0, 0, 1) cross
+    direction, and (0, 1, 0) along the normal. What it is made of are the attributes of
+    `MeasuredPixels`.
 
-    Attributes
-    ----------
-    seen : SensedBeam
-        What was walked, and how it was seen.
-    parts : PartSums
-        Of the photons, as they were counted.
-    wavelengths : ndarray, shape (wavelengths,)
-        In metres; NaN where the media do not depend on it.
-    symmetric : bool
-        Whether the pixels are means with their mirror images.
+    Examples
+    --------
+    >>> from optipath.surfaces.hemispheres.measure import measure
+    >>> from optipath.surfaces.samples.sample import Sample
+    >>> measure(Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+    Hemisphere of Sample([((0.5+2.1j), 0.3)]) at 40 deg, 16 x 16 pixels, 16384 photons
     """
-
-    seen: SensedBeam
-    parts: PartSums
-    wavelengths: Numbers
-    symmetric: bool
-
-    @property
-    def sensor(self) -> Sensor:
-        """The pixels."""
-        return self.seen.sensor
-
-    @property
-    def photons(self) -> int:
-        """How many have been walked."""
-        return int(self.parts.photons.sum())
 
     @cached_property
     def dataset(self) -> xr.Dataset:
         """All of it with names, units and standard errors: see `hemisphere_dataset`."""
-        room = import_module("optipath.surfaces.hemispheres.hemisphere_dataset")
-        return room.hemisphere_dataset(self)  # type: ignore[no-any-return]
-
-    @cached_property
-    def own(self) -> PartSums:
-        """The sums by which all is estimated: those counted, or means with their mirror images."""
-        return self.parts.mirrored() if self.symmetric else self.parts
-
-    @cached_property
-    def mueller(self) -> tuple[Numbers, Numbers]:
-        """The Mueller matrices and their errors: (sides, rows, columns, wavelengths, 4, 4)."""
-        return self.own.estimate(self.matrices)
-
-    @cached_property
-    def scalar(self) -> tuple[Numbers, Numbers]:
-        """The shares without polarisation and their errors: (sides, rows, columns, wavelengths)."""
-        return self.own.estimate(self.intensities)
-
-    @cached_property
-    def difference(self) -> tuple[Numbers, Numbers]:
-        """The shares of unpolarised light less those without polarisation, and their errors."""
-        return self.own.estimate(
-            lambda light: self.matrices(light)[..., 0, 0] - self.intensities(light)
+        from optipath.surfaces.hemispheres.hemisphere_dataset import (  # noqa: PLC0415 - an extra
+            hemisphere_dataset,
         )
 
-    def matrices(self, light: Numbers) -> Numbers:
-        """Return the Mueller matrices among the numbers of `PartSums.estimate`.
-
-        Parameters
-        ----------
-        light : ndarray, shape (..., numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        ndarray, shape (..., 4, 4)
-
-        Raises
-        ------
-        SurfaceError
-            If they have not been measured.
-        """
-        if self.seen.polarized == "scalar":
-            raise SurfaceError(_missing("Mueller matrix", "polarized"))
-        return light[..., :16].reshape(*light.shape[:-1], 4, 4)
-
-    def intensities(self, light: Numbers) -> Numbers:
-        """Return the light without polarisation among the numbers of `PartSums.estimate`.
-
-        Parameters
-        ----------
-        light : ndarray, shape (..., numbers)
-            The mean of all numbers.
-
-        Returns
-        -------
-        ndarray, shape (...)
-
-        Raises
-        ------
-        SurfaceError
-            If it has not been measured.
-        """
-        if self.seen.polarized == "polarized":
-            raise SurfaceError(_missing("light without polarisation", "scalar"))
-        return light[..., -1]
-
-    def side(self, name: Any) -> int:
-        """Return the place of a hemisphere.
-
-        Parameters
-        ----------
-        name : {"reflected", "transmitted"}
-            Above the sample, or below.
-
-        Returns
-        -------
-        int
-
-        Raises
-        ------
-        SurfaceError
-            If no light gets there, or none is called so.
-        """
-        sides = self.seen.sides
-        if name not in sides:
-            why = ": nothing goes through an opaque sample" if name == "transmitted" else ""
-            raise SurfaceError(f"no side is called {shown(name)}{why}; give {' or '.join(sides)}")
-        return sides.index(name)
+        return hemisphere_dataset(self)
 
     def __repr__(self) -> str:
         sensor, beam = self.sensor, self.seen.beam
@@ -160,7 +49,3 @@ class Hemisphere(PixelLight, FacetModelling):
             f"Hemisphere of {beam.sample!r} at {angle:.4g} deg, {sensor.pixels} x {sensor.pixels} "
             f"pixels, {self.photons} photons"
         )
-
-
-def _missing(what: str, kind: str) -> str:
-    return f"the {what} has not been measured; measure with polarized='both' or '{kind}'"

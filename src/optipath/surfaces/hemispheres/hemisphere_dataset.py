@@ -12,15 +12,15 @@ from optipath.errors import SurfaceError
 from optipath.surfaces.hemispheres.pixel_array import FRAME, PIXELS, coordinates
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 
-def hemisphere_dataset(hemisphere: Hemisphere) -> xr.Dataset:
+def hemisphere_dataset(hemisphere: MeasuredPixels) -> xr.Dataset:
     """Return the Dataset of a hemisphere.
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : MeasuredPixels
         What has been measured.
 
     Returns
@@ -63,7 +63,7 @@ def _with_error(name: str, dims: tuple[str, ...], found: Any, what: str) -> dict
     }
 
 
-def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
+def _attributes(hemisphere: MeasuredPixels) -> dict[str, Any]:
     seen = hemisphere.seen
     beam = seen.beam
     return {
@@ -82,7 +82,7 @@ def _attributes(hemisphere: Hemisphere) -> dict[str, Any]:
     }
 
 
-def _toml(hemisphere: Hemisphere) -> str:
+def _toml(hemisphere: MeasuredPixels) -> str:
     try:
         return hemisphere.seen.beam.sample.to_toml()
     except SurfaceError as fault:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,6 +11,8 @@ import numpy as np
 from optipath.errors import MissingExtraError, SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.energies.given_run import processors
+from optipath.surfaces.hemispheres.chunk_job import ChunkJob
+from optipath.surfaces.hemispheres.given_store import given_store
 from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 from optipath.surfaces.hemispheres.part_sums import PartSums
 from optipath.surfaces.hemispheres.sensed_beam import CHUNK, STATES, SensedBeam
@@ -22,6 +25,7 @@ from optipath.values.whole_numbers import is_whole, whole_number
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from os import PathLike
 
     import numpy.typing as npt
 
@@ -47,6 +51,8 @@ def measure(
     symmetric: bool | None = None,
     most_events: int = 1000,
     threads: int | None = None,
+    store: str | PathLike[str] | None = None,
+    scheduler: Any = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Hemisphere:
     """Return the Mueller matrix of a sample for light from one direction, in all directions.
@@ -81,7 +87,15 @@ def measure(
     most_events : int, optional
         After how many events a photon is given up.
     threads : int, optional
-        How many walk at a time; as many as there are processors by default.
+        How many walk at a time; as many as there are processors by default. Of what a `scheduler`
+        computes, in each chunk; one by default.
+    store : str or PathLike, optional
+        A Zarr store (``.zarr``) in which every 2^22 photons, a chunk, are kept when they are
+        walked. A measurement that was interrupted goes on from there, with the same bits.
+    scheduler : str or distributed.Client, optional
+        What walks the chunks for a store, as `PathGraph.sweep` takes it: a client, the address of
+        a cluster, ``"processes"``, ``"threads"`` or ``"synchronous"``, one chunk after the other;
+        by default the client that is active, else this.
     progress : callable, optional
         Told how many photons there are, and of how many.
 
@@ -93,8 +107,10 @@ def measure(
     ------
     SurfaceError
         With all faults at once.
+    JobError
+        If the store holds another measurement, or cannot be written; if the scheduler is lost.
     MissingExtraError
-        If Numba or xarray is not installed.
+        If Numba or xarray is not installed; Dask or Zarr, for a store.
 
     Examples
     --------
@@ -105,6 +121,7 @@ def measure(
     """
     faults = Faults(_faults(photons, events, polarized, threads))
     pixels = faults.attempt("", Sensor.of, sensor)
+    place = faults.attempt("", given_store, store, scheduler)
     mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)
     beam = given_beam(
         sample,
@@ -132,10 +149,17 @@ def measure(
         error=SurfaceError,
         what="hemisphere of {:.3g} numbers",
     )
-    _import_xarray()
-    sums = _summed(seen, int(photons), processors() if threads is None else int(threads), progress)
+    _check_extras("xarray", *(() if place is None else ("zarr", "dask", "distributed")))
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
-    return Hemisphere(seen, sums, np.atleast_1d(np.ravel(when)), bool(mirrors))
+    when = np.atleast_1d(np.ravel(when))
+    if place is None:
+        walking = processors() if threads is None else int(threads)
+        sums = _summed(seen, int(photons), walking, progress)
+    else:
+        from optipath.surfaces.hemispheres.kept_sums import kept_sums  # noqa: PLC0415 - an extra
+
+        sums = kept_sums(ChunkJob(seen, when, int(photons)), place, scheduler, threads, progress)
+    return Hemisphere(seen, sums, when, bool(mirrors))
 
 
 def _summed(
@@ -170,9 +194,8 @@ def _yes(value: Any) -> Any:
     return YES_OR_NO.check("symmetric", value)
 
 
-def _import_xarray() -> None:
+def _check_extras(*names: str) -> None:
     """Refuse before photons are walked what cannot be handed over afterwards."""
-    try:
-        import xarray  # noqa: F401, PLC0415 - an extra
-    except ImportError:
-        raise MissingExtraError("hemispheres", "xarray", "sweep") from None
+    for name in names:
+        if find_spec(name) is None:
+            raise MissingExtraError("hemispheres", name, "sweep")

@@ -9,7 +9,7 @@ import numpy.typing as npt
 import xarray as xr
 
 if TYPE_CHECKING:
-    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 
 Numbers = npt.NDArray[np.float64]
 
@@ -27,7 +27,7 @@ FRAME = (
 
 
 def pixel_array(
-    hemisphere: Hemisphere,
+    hemisphere: MeasuredPixels,
     name: str,
     value: Numbers,
     what: str,
@@ -41,7 +41,7 @@ def pixel_array(
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : MeasuredPixels
         Whose pixels they are.
     name : str
         That of the array.
@@ -69,12 +69,12 @@ def pixel_array(
     return xr.DataArray(value, known, dims, name, about)
 
 
-def coordinates(hemisphere: Hemisphere, dims: tuple[str, ...]) -> dict[str, Any]:
+def coordinates(hemisphere: MeasuredPixels, dims: tuple[str, ...]) -> dict[str, Any]:
     """Return the coordinates of what is known of each pixel.
 
     Parameters
     ----------
-    hemisphere : Hemisphere
+    hemisphere : MeasuredPixels
         What has been measured.
     dims : tuple of str
         The dimensions that there are: those of `PIXELS`, and ``"out"`` and ``"in"`` or not.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,12 +9,11 @@ import numpy.typing as npt
 
 from optipath.light.frames import Frame
 from optipath.light.light import Light
+from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 from optipath.surfaces.walk.given_beam import UNPOLARISED, given_state
 from optipath.sweeps.labels.light_quantities import DERIVED
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     import xarray as xr
 
 Numbers = npt.NDArray[np.float64]
@@ -26,18 +24,13 @@ _ROUNDED = 64.0 * np.finfo(float).eps
 _QUANTITIES = {each.variable: each for each in DERIVED}
 
 
-class PixelLight:
+class PixelLight(MeasuredPixels):
     """A hemisphere of which the light of each pixel is known, for a source of any state.
 
     Each method gives an `xarray.DataArray` over (side, y, x, wavelength), and what it is of, with
     units. Its coordinate ``se`` is the standard error of each of its numbers: by the jackknife, so
     that ratios and angles have theirs; NaN where all photons of a pixel are of one part.
     """
-
-    own: Any
-    sensor: Any
-    matrices: Callable[[Numbers], Numbers]
-    intensities: Callable[[Numbers], Numbers]
 
     def brdf(self, *, polarized: bool = True) -> xr.DataArray:
         """Return the light of each pixel per steradian, over the cosine of its centre.
@@ -210,11 +203,10 @@ class PixelLight:
         **told: Any,
     ) -> xr.DataArray:
         """Return numbers with their names, units and errors."""
-        room = import_module("optipath.surfaces.hemispheres.pixel_array")
+        from optipath.surfaces.hemispheres.pixel_array import pixel_array  # noqa: PLC0415 - an extra
+
         value, error = found
-        return room.pixel_array(  # type: ignore[no-any-return]
-            self, name, value, what, units, more, error=error, **told
-        )
+        return pixel_array(self, name, value, what, units, more, error=error, **told)
 
 
 def _state(source: npt.ArrayLike) -> Numbers:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optipath.surfaces.ends.turned_ends import turned_ends
+from optipath.surfaces.ends.turned_ends import turned_directions
 from optipath.surfaces.hemispheres.part_sums import PartSums
-from optipath.surfaces.hemispheres.pixel_adder import add_to_pixels
 from optipath.surfaces.walk.photon_beam import BLOCK, PORTION
-from optipath.surfaces.walk.walk_layout import DOWN, UP
+from optipath.surfaces.walk.walk_code import pixel_code
+from optipath.surfaces.walk.walk_layout import DOWN, EVENTS, OUTCOME, UP
 from optipath.surfaces.walk.walked_in_order import walked_in_order
 
 if TYPE_CHECKING:
@@ -39,11 +39,12 @@ STATES = (
 
 
 class _Seen(NamedTuple):
-    """What a block of photons adds: where, and how much."""
+    """Where the photons of a block are seen, and what `pixel_sums` needs of them."""
 
-    photons: npt.NDArray[np.int64]
+    parts: npt.NDArray[np.int64]
     places: npt.NDArray[np.int64]
-    lights: npt.NDArray[np.float64]
+    turns: npt.NDArray[np.float64]
+    ends: npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -107,42 +108,39 @@ class SensedBeam:
         -------
         PartSums
         """
-        found = PartSums.none(self.shape)
-        sums = found.sums.reshape(-1, self.shape[-2] * self.shape[-1])
-        ends = min(photons, CHUNK * (number + 1))
-        todo = range(CHUNK * number // BLOCK, -(-ends // BLOCK))
-        walked = walked_in_order(self.beam, todo, ends, threads, self._seen)
+        from optipath.engines.machine_code import address  # noqa: PLC0415 - an extra
+
+        found, add = PartSums.none(self.shape), pixel_code()
+        kept = [int(self.polarized != other) for other in ("scalar", "polarized")]
+        lights = self.beam.indices.n.size
+        wanted = min(photons, CHUNK * (number + 1))
+        todo = range(CHUNK * number // BLOCK, -(-wanted // BLOCK))
+        walked = walked_in_order(self.beam, todo, wanted, threads, self._seen)
         with closing(walked):
             for seen in walked:
-                add_to_pixels(seen.places, seen.lights, sums)
-                np.add.at(found.counts.reshape(-1), self._pixels(seen.places), 1)
-                found.photons[:] += seen.photons
+                arrays = map(address, (seen.places, seen.turns, seen.ends))
+                size = len(seen.places)
+                add(*arrays, size, lights, len(self.beam.states), *kept, address(found.sums))
+                pixels = seen.places[seen.places >= 0] % found.counts.size
+                found.counts.reshape(-1)[:] += np.bincount(pixels, minlength=found.counts.size)
+                found.photons[:] += np.bincount(seen.parts, minlength=self.sensor.parts)
                 if progress is not None:
-                    progress(int(seen.photons.sum()))
+                    progress(size)
         return found
-
-    def _pixels(self, places: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-        """Return the pixels of all parts alike."""
-        return places[places >= 0] % (len(self.sides) * self.sensor.pixels**2)
 
     def _seen(self, number: int, photons: int) -> _Seen:
         """Walk a block."""
-        beam, sensor, parts = self.beam, self.sensor, self.sensor.parts
-        ends = turned_ends(beam, beam.block(number, photons, keeps=True).ends)
-        part = self._parts(number, photons)
+        ends = self.beam.block(number, photons, keeps=True).ends
+        directions = turned_directions(self.beam, ends)
         side = np.full(photons, -1)
         for place, name in enumerate(self.sides):
-            side[ends.outcomes == SIDES[name]] = place
+            side[ends[:, OUTCOME] == SIDES[name]] = place
         if self.events is not None:
-            side[ends.events != self.events] = -1
-        places = (part * len(self.sides) + side) * sensor.pixels**2 + sensor.place(ends.directions)
-        lights = ends.stokes.reshape(photons, -1, len(beam.states), 4)
-        scalar = ends.scalar.reshape(photons, -1, len(beam.states))[..., :1]
-        return _Seen(
-            np.bincount(part, minlength=parts),
-            np.where(side < 0, -1, places),
-            self._carried(lights, scalar),
-        )
+            side[ends[:, EVENTS] != self.events] = -1
+        parts = self._parts(number, photons)
+        image = self.sensor.pixels**2
+        places = (parts * len(self.sides) + side) * image + self.sensor.place(directions.k)
+        return _Seen(parts, np.where(side < 0, -1, places), directions.turns, ends)
 
     def _parts(self, number: int, photons: int) -> npt.NDArray[np.int64]:
         """Return to which part each photon belongs; all that walk over one surface to the same."""
@@ -151,20 +149,3 @@ class SensedBeam:
             for first, size, surface in self.beam.portions(number, photons):
                 part[first : first + size] = surface
         return part % self.sensor.parts
-
-    def _carried(
-        self, lights: npt.NDArray[np.float64], scalar: npt.NDArray[np.float64]
-    ) -> npt.NDArray[np.float64]:
-        """Return the numbers of each photon, of which the sums are made."""
-        found = [scalar] if self.polarized == "scalar" else [_matrices(lights)]
-        if self.polarized == "both":
-            found.append(scalar)
-        return np.ascontiguousarray(np.concatenate(found, axis=-1)).reshape(len(scalar), -1)
-
-
-def _matrices(lights: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Return Mueller matrices, row by row, of what has become of the `STATES`."""
-    columns = lights.copy()
-    columns[..., 1:, :] -= lights[..., :1, :]
-    rows = np.swapaxes(columns, -1, -2)
-    return rows.reshape(*rows.shape[:-2], 16)

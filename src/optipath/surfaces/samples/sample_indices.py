@@ -106,7 +106,7 @@ def _given(media: Iterable[Any], wavelength: Any) -> dict[str, Resolved]:
     if wavelength is None and dependent is None:
         return {}
     if wavelength is None:
-        how = cure("wavelength='550 nm'", "--wavelength '550 nm'")
+        how = cure("such as '550 nm'", "--wavelength '550 nm'")
         raise SurfaceError(f"{dependent} depends on the wavelength; give one, {how}")
     if dependent is None:
         raise SurfaceError("wavelength is given, but no medium depends on it; leave it out")

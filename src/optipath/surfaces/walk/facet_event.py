@@ -92,8 +92,12 @@ def facet_event(
     """
     c, s, sx, sy, sz, cos2, sin2, rx, ry, rz = plane(*k, *x, *normal)
     if n2 == OPAQUE:
+        numbers = opaque_reflection(n1, base[0], base[1], c, s)
         for each in range(count):
-            numbers = opaque_reflection(n1, base[2 * each], base[2 * each + 1], c, s)
+            at = 2 * each
+            # Several states of one light share an index.
+            if each > 0 and (base[at] != base[at - 2] or base[at + 1] != base[at - 1]):
+                numbers = opaque_reflection(n1, base[at], base[at + 1], c, s)
             _act(lights, CARRIED * each, cos2, sin2, numbers)
             lights[CARRIED * each + 4] *= 0.5 * (numbers[0] + numbers[1])
         return True, (rx, ry, rz), (sx, sy, sz), (c, s, cos2, sin2, 1.0)

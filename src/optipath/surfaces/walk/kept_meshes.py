@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from threading import Lock
 from typing import TYPE_CHECKING, NamedTuple
+from weakref import proxy
 
 from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.walk.packed_meshes import PackedMeshes, packed_meshes
@@ -40,7 +41,8 @@ class KeptMeshes:
     """
 
     def __init__(self, sample: Sample) -> None:
-        self._sample = sample
+        # It keeps these meshes itself, and both are to go as soon as nobody needs it.
+        self._sample: Sample = proxy(sample)
         self._known: dict[int, PlacedMeshes] = {}
         self._lock = Lock()
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from optipath.errors import MissingExtraError, SurfaceError
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
     from importlib.resources.abc import Traversable
 
     from optipath.engines.machine_code import MachineCode
@@ -34,6 +35,21 @@ def path(
 
 # Of sources {digest}
 """
+_PIXELS = """\
+from optipath.surfaces.walk.pixel_sums import pixel_sums
+
+
+def path(
+    places: "*int64", turns: "*float64", ends: "*float64", photons: "int64", lights: "int64",
+    states: "int64", has_matrix: "int64", has_scalar: "int64", sums: "*float64",
+):
+    return pixel_sums(
+        places, turns, ends, photons, lights, states, has_matrix, has_scalar, sums
+    )
+
+
+# Of sources {digest}
+"""
 _SOURCES = "kernels", "engines/formulas", "surfaces/walk"
 """What the code is made of."""
 
@@ -41,6 +57,25 @@ _SOURCES = "kernels", "engines/formulas", "surfaces/walk"
 @cache
 def walk_code() -> MachineCode:
     """Return `photon_block` as compiled code, which leaves other threads to do their work.
+
+    Raises
+    ------
+    MissingExtraError
+        If Numba is not there.
+    SurfaceError
+        If it is forbidden to compile.
+    """
+    return _code_of(_TEXT)
+
+
+@cache
+def pixel_code() -> MachineCode:
+    """Return `pixel_sums` as compiled code; raises what `walk_code` does."""
+    return _code_of(_PIXELS)
+
+
+def _code_of(text: str) -> MachineCode:
+    """Return the code of a text.
 
     Raises
     ------
@@ -60,13 +95,28 @@ def walk_code() -> MachineCode:
         raise SurfaceError(
             "NUMBA_DISABLE_JIT is set, and photons on rough surfaces are compiled; unset it"
         )
-    return CODE.function(_TEXT.format(digest=_digest()), compiled)
+    return CODE.function(text.format(digest=_digest()), compiled)
 
 
 def _digest() -> str:
     """Return a hash of all sources that the code is made of."""
+    return digest_of(_SOURCES)
+
+
+def digest_of(rooms: Iterable[str]) -> str:
+    """Return a hash of all sources in some folders of the library.
+
+    Parameters
+    ----------
+    rooms : iterable of str
+        Their names, with slashes.
+
+    Returns
+    -------
+    str
+    """
     found, here = hashlib.sha256(), files("optipath")
-    for room in _SOURCES:
+    for room in rooms:
         _add(found, here.joinpath(*room.split("/")))
     return found.hexdigest()
 

@@ -85,7 +85,7 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
     JobError
         If it cannot be reached.
     """
-    given = _active_client() or "threads" if scheduler is None else scheduler
+    given = active_client() or "threads" if scheduler is None else scheduler
     if given == "synchronous":
         yield Workers(AtOnce(), lambda: 1)
     elif given == "threads":
@@ -103,7 +103,8 @@ def workers_of(scheduler: Any, blocks: int) -> Iterator[Workers]:
             )
 
 
-def _active_client() -> Any:
+def active_client() -> Any:
+    """Return the client of a cluster that is active in this process, or None."""
     found = sys.modules.get("distributed")
     if found is None:
         return None

@@ -1,0 +1,1 @@
+"""Published experiments on rough surfaces, done again."""

@@ -1,0 +1,92 @@
+"""An experiment done again: what is published, and what photons tell."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from optipath.lab.published.measured_quantities import MEASURES, Found
+from optipath.lab.published.walked import Walked
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from optipath.lab.published.experiment import Experiment, Measurement
+
+
+class Reproduced(NamedTuple):
+    """A published number, and the one that has been measured.
+
+    Attributes
+    ----------
+    measurement : Measurement
+        What is published.
+    found : Found
+        What has been measured.
+    photons : int
+        How many have been walked for it.
+    """
+
+    measurement: Measurement
+    found: Found
+    photons: int
+
+    @property
+    def agrees(self) -> bool | None:
+        """Whether it is the published one; None where no number is published."""
+        return self.measurement.agrees(self.found.value, self.found.error)
+
+
+def reproduce(
+    experiment: Experiment,
+    photons: int | None = None,
+    *,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[str, int, int], None] | None = None,
+) -> Iterator[Reproduced]:
+    """Do an experiment again, and yield what is found, one after the other.
+
+    Parameters
+    ----------
+    experiment : Experiment
+        What is published.
+    photons : int, optional
+        How many are walked from each direction; as many as the experiment says by default.
+    seed : int, optional
+        That of the photons.
+    threads : int, optional
+        How many walk at a time; as many as there are processors by default.
+    progress : callable, optional
+        Told the angle of incidence, how many photons there are, and of how many.
+
+    Yields
+    ------
+    Reproduced
+
+    Raises
+    ------
+    SurfaceError
+        If there are no such photons.
+
+    Examples
+    --------
+    >>> from optipath.lab.published.experiment_files import load_experiment
+    >>> for one in reproduce(load_experiment("wang-2017-table-2-alpha-0-4"), photons=10_000):
+    ...     print(one.measurement.measure, one.measurement.published, round(one.found.value, 12))
+    R (1.0, 1.0) 1.0
+    """
+    count = experiment.photons if photons is None else photons
+    for walks, measurements in experiment.by_walks():
+        told = _told(progress, walks.incidence)
+        walked = Walked(experiment, walks, count, seed, threads, told)
+        for measurement in measurements:
+            found = MEASURES[measurement.measure].of(walked, measurement)
+            yield Reproduced(measurement, found, count)
+
+
+def _told(
+    progress: Callable[[str, int, int], None] | None, incidence: str
+) -> Callable[[int, int], None] | None:
+    if progress is None:
+        return None
+    return lambda done, total: progress(f"incidence {incidence}", done, total)

@@ -1,0 +1,1 @@
+"""Hemispheres in files: all that was measured, and what other software reads."""

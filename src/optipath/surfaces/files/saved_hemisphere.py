@@ -1,0 +1,71 @@
+"""A hemisphere written into a file of the form that its name ends in."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import MissingExtraError, SurfaceError
+from optipath.surfaces.files.file_faults import told_of
+from optipath.surfaces.files.stokes_picture import StokesPicture
+from optipath.values.given_files import given_file
+
+if TYPE_CHECKING:
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+
+_WRITERS = {".zarr": ("zarr", "write_zarr"), ".nc": ("h5netcdf", "write_netcdf")}
+"""The package that each form needs, and what writes it."""
+
+
+def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -> None:
+    """Write a hemisphere.
+
+    Parameters
+    ----------
+    hemisphere : Hemisphere
+        What has been measured.
+    path, source, side
+        As `Hemisphere.save` takes them.
+
+    Raises
+    ------
+    SurfaceError, MissingExtraError
+        As `Hemisphere.save` does.
+    """
+    place = given_file(path, SurfaceError)
+    if place.suffix == ".exr":
+        picture = StokesPicture.of(hemisphere, source, side)
+        with told_of(place):
+            picture.write(place)
+    elif place.suffix in _WRITERS:
+        if given := [n for n, each in {"source": source, "side": side}.items() if each is not None]:
+            raise SurfaceError(
+                f"'{place}' is to hold the light of every source on all sides; leave "
+                f"{'= and '.join(given)}= out, or give a name that ends in .exr for a picture"
+            )
+        write = _writer(hemisphere, place.suffix)
+        with told_of(place):
+            write(place)
+    else:
+        raise SurfaceError(
+            f"'{place}' has no ending of a hemisphere; give .zarr or .nc for all that was "
+            f"measured, .exr for a picture of Stokes vectors, such as '{place.stem or 'a'}.zarr'"
+        )
+
+
+def _writer(hemisphere: Hemisphere, ending: str) -> Any:
+    package, name = _WRITERS[ending]
+    kept, forms = (
+        _extra(f"optipath.surfaces.files.{module}", package)
+        for module in ("kept_hemisphere", "hemisphere_forms")
+    )
+    _extra(package, package)
+    return lambda place: getattr(forms, name)(kept.kept_hemisphere(hemisphere), place)
+
+
+def _extra(module: str, package: str) -> Any:
+    try:
+        return import_module(module)
+    except ImportError as fault:
+        missing = fault.name if fault.name in ("xarray", "zarr", "h5netcdf", "h5py") else package
+        raise MissingExtraError("files of hemispheres", missing, "sweep") from None

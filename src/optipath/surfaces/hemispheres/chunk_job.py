@@ -1,0 +1,132 @@
+"""A measurement as a job of chunks that are kept, each walked by itself."""
+
+from __future__ import annotations
+
+from copy import copy
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import SurfaceError
+from optipath.surfaces.hemispheres.chunk_identity import chunk_identity, measuring_code
+from optipath.surfaces.hemispheres.part_sums import PartSums
+from optipath.surfaces.hemispheres.sensed_beam import CHUNK, SensedBeam
+from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+_PIXELS = ("side", "y", "x")
+_MATRIX = [f"m{row}{column}" for row in range(4) for column in range(4)]
+_SUMS = "sum over photons of the Mueller matrix, row by row, and of the light without polarisation"
+
+
+@dataclass(frozen=True, eq=False)
+class ChunkJob:
+    """A measurement that is walked chunk by chunk and kept; see `BlockJob`.
+
+    Attributes
+    ----------
+    seen : SensedBeam
+        What is walked, and how it is seen.
+    wavelengths : ndarray
+        In metres.
+    photons : int
+        How many there are.
+    threads : int
+        How many walk at a time in each chunk.
+    code : str
+        That of who measures, which workers are to have as well.
+    """
+
+    seen: SensedBeam
+    wavelengths: npt.NDArray[np.float64]
+    photons: int
+    threads: int = 1
+    code: str = field(default_factory=measuring_code)
+
+    @property
+    def identity(self) -> str:
+        """All of what is measured, a line each."""
+        return chunk_identity(self.seen, self.wavelengths, self.photons, self.code)
+
+    @property
+    def blocks(self) -> int:
+        """How many chunks there are."""
+        return -(-self.photons // CHUNK)
+
+    @property
+    def arrays(self) -> dict[str, KeptArray]:
+        """The fields of `PartSums`, with the chunks before all other dimensions."""
+        parts, *pixels, wavelengths, numbers = self.seen.shape
+        shapes: dict[str, tuple[tuple[str, ...], tuple[int, ...], str]] = {
+            "sums": (("part", *_PIXELS, "wavelength", "number"), self.seen.shape, "float64"),
+            "counts": (_PIXELS, tuple(pixels), "int64"),
+            "photons": (("part",), (parts,), "int64"),
+        }
+        # Codecs take no more than 2 GiB at a time.
+        files = {"sums": (1, *pixels, wavelengths, numbers)}
+        told = {"sums": _SUMS, "counts": "photons of a pixel", "photons": "photons of a part"}
+        return {
+            name: KeptArray(
+                ("chunk", *dims),
+                (self.blocks, *shape),
+                (1, *files.get(name, shape)),
+                dtype,
+                {"long_name": told[name], "units": "1"},
+            )
+            for name, (dims, shape, dtype) in shapes.items()
+        }
+
+    @property
+    def coords(self) -> dict[str, WholeArray]:
+        """Where pixels are, and what is summed up."""
+        place = self.seen.sensor.coordinates
+        matrix = [] if self.seen.polarized == "scalar" else _MATRIX
+        scalar = [] if self.seen.polarized == "polarized" else ["scalar"]
+        return {
+            "side": WholeArray(("side",), np.array(self.seen.sides)),
+            "y": WholeArray(("y",), place, {"units": "1"}),
+            "x": WholeArray(("x",), place, {"units": "1"}),
+            "wavelength": WholeArray(("wavelength",), self.wavelengths, {"units": "m"}),
+            "number": WholeArray(("number",), np.array([*matrix, *scalar])),
+        }
+
+    @property
+    def attrs(self) -> dict[str, Any]:
+        """What the store is."""
+        return {"title": "chunks of photons of a measurement; optipath.measure adds them up"}
+
+    def compute(self, number: int) -> dict[str, tuple[tuple[slice, ...], npt.NDArray[Any]]]:
+        """Return the sums over the photons of a chunk, and their places.
+
+        Parameters
+        ----------
+        number : int
+            Which chunk, from 0.
+
+        Returns
+        -------
+        dict of str to (tuple of slice, ndarray)
+
+        Raises
+        ------
+        SurfaceError
+            If a worker has another optipath than who measures.
+        """
+        if measuring_code() != self.code:
+            raise SurfaceError(
+                f"a worker has optipath {measuring_code()}, and the measurement was begun by "
+                f"{self.code}; install one version everywhere, and start workers anew"
+            )
+        # Chunks that are walked at one time have other surfaces in turn, each set kept by a sample.
+        own = replace(self.seen.beam, sample=copy(self.seen.beam.sample))
+        found = replace(self.seen, beam=own).chunk(number, self.photons, self.threads)
+        return {
+            name: (
+                (slice(number, number + 1), *(slice(0, size) for size in each.shape)),
+                each[np.newaxis],
+            )
+            for name, each in zip(PartSums._fields, found, strict=True)
+        }

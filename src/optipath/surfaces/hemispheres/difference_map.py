@@ -1,0 +1,125 @@
+"""A DataArray of what polarisation makes of each pixel, with its mask, pixels and noise."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from optipath.errors import SurfaceError
+from optipath.surfaces.hemispheres.pixel_array import coordinates
+from optipath.surfaces.hemispheres.pixel_mask import Numbers, PixelMask
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    import numpy.typing as npt
+
+    from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+
+
+_Told = dict[str, str | float]
+
+
+class _Measure(NamedTuple):
+    """What is made of the relative differences at all wavelengths, the last axis."""
+
+    called: str
+    told: str
+    made: Callable[[Numbers], Numbers]
+
+
+_MEASURES = {
+    "signed": _Measure("relative_difference", "(S0 - U) / U", np.asarray),
+    "adm": _Measure(
+        "adm", "mean of |S0 - U| / U over wavelengths", lambda found: np.abs(found).mean(axis=-1)
+    ),
+    "mdm": _Measure(
+        "mdm", "largest |S0 - U| / U over wavelengths", lambda found: np.abs(found).max(axis=-1)
+    ),
+}
+
+
+def difference_map(
+    hemisphere: MeasuredPixels,
+    measure: str,
+    side: str,
+    brighter_than: float,
+    noise: float | None,
+    known_to: float = 0.001,
+) -> xr.DataArray:
+    """Return what polarisation makes of each pixel.
+
+    Parameters
+    ----------
+    hemisphere : MeasuredPixels
+        What has been measured.
+    measure : {"signed", "adm", "mdm"}
+        What is made of the differences at several wavelengths.
+    side, brighter_than, noise, known_to
+        As `PolarizationEffect.adm` takes them.
+
+    Returns
+    -------
+    xarray.DataArray
+
+    Raises
+    ------
+    SurfaceError
+        If there is no such side, light was not measured both with polarisation and without, a
+        threshold is none, or there are too few photons to know the noise.
+    """
+    mask = PixelMask(brighter_than, noise, known_to)
+    at, what = hemisphere.side(side), _MEASURES[measure]
+    found = hemisphere.own.estimate(lambda light: what.made(_relative(hemisphere, light)))
+    value, error = (each[at] for each in found)
+    if noise is not None and np.isnan(error).all():
+        raise SurfaceError(
+            f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
+            "it; measure with more photons, or give noise=None"
+        )
+    counts = mask.bright(_light(hemisphere, at))
+    counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
+    value, error = (np.where(counts, each, np.nan) for each in (value, error))
+    dims = ("y", "x", "wavelength")[: value.ndim]
+    se = xr.Variable(dims, error, {"long_name": f"standard error of '{what.called}'", "units": "1"})
+    told: _Told = {"long_name": what.told, "units": "1", "side": side}
+    told |= _mask_attributes(mask, counts, error)
+    told |= _pixel_attributes(hemisphere)
+    return xr.DataArray(value, coordinates(hemisphere, dims) | {"se": se}, dims, what.called, told)
+
+
+def _relative(hemisphere: MeasuredPixels, light: Numbers) -> Numbers:
+    scalar = hemisphere.intensities(light)
+    return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
+
+
+def _light(hemisphere: MeasuredPixels, side: int) -> Numbers:
+    """Return the light without polarisation, the mean over wavelengths; NaN beyond the horizon."""
+    light = hemisphere.intensities(hemisphere.own.sums.sum(axis=0))[side].mean(axis=-1)
+    return np.where(np.isnan(hemisphere.sensor.theta), np.nan, light)
+
+
+def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numbers) -> _Told:
+    known = error[counts & ~np.isnan(error)]
+    return {
+        "mask": str(mask),
+        "brighter_than": mask.brighter_than,
+        "noise": "any" if mask.noise is None else mask.noise,
+        "known_to": mask.known_to,
+        "pixels_left": int(counts.sum()),
+        "median_se": float(np.median(known)) if known.size else np.nan,
+        "largest_se": float(known.max()) if known.size else np.nan,
+    }
+
+
+def _pixel_attributes(hemisphere: MeasuredPixels) -> _Told:
+    sensor = hemisphere.sensor
+    return {
+        "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",
+        "pixel_degrees": 180.0 / sensor.pixels,
+        "pixel_solid_angle": float(2.0 * np.pi / np.isfinite(sensor.theta).sum()),
+        "photons": hemisphere.photons,
+        "symmetric": int(hemisphere.symmetric),
+    }
