@@ -72,7 +72,7 @@ def test_the_model_is_within_2e_3_of_the_largest_light():
 
 @pytest.mark.parametrize("projection", ["equidistant", "equal-area"])
 def test_all_pixels_together_are_the_model_over_the_hemisphere(projection):
-    found = once((SILVER, 0.3), "40 deg", sensor=op.Sensor(32, projection))
+    found = once((SILVER, 0.3), "40 deg", sensor=op.surfaces.Sensor(32, projection))
     nodes, weights = np.polynomial.legendre.leggauss(200)
     theta, azimuth = np.pi / 4.0 * (nodes + 1.0), np.pi * nodes
     s, c, turn = np.sin(theta)[:, None], np.cos(theta)[:, None] + 0.0 * azimuth, np.cos(azimuth)

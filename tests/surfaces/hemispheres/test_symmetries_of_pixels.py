@@ -85,7 +85,9 @@ def test_light_along_the_normal_is_the_same_all_round():
 
 def test_projections_put_the_same_light_into_the_same_quarters():
     one, other = (
-        op.measure(SILVER, "50 deg", 20_000, sensor=op.Sensor(16, projection), symmetric=False)
+        op.measure(
+            SILVER, "50 deg", 20_000, sensor=op.surfaces.Sensor(16, projection), symmetric=False
+        )
         for projection in ("equidistant", "equal-area")
     )
     quarters = [
@@ -96,7 +98,7 @@ def test_projections_put_the_same_light_into_the_same_quarters():
 
 def test_projections_have_the_same_brdf():
     one, other = (
-        op.measure(SILVER, "50 deg", 100_000, sensor=op.Sensor(20, projection))
+        op.measure(SILVER, "50 deg", 100_000, sensor=op.surfaces.Sensor(20, projection))
         for projection in ("equidistant", "equal-area")
     )
     brdf = other.brdf().isel(side=0, wavelength=0).values.reshape(400, 4, 4)
