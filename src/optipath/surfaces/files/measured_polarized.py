@@ -44,6 +44,7 @@ def write_measured_polarized(
     *,
     wavelengths: str | npt.ArrayLike | None = None,
     shape: tuple[int, int, int] = _SHAPE,
+    description: str = "",
 ) -> None:
     """Write a polarised BRDF for the plugin ``measured_polarized`` of Mitsuba 3.
 
@@ -67,7 +68,9 @@ def write_measured_polarized(
         Up to five, in whole nanometres, which a function is given one at a time as
         ``wavelength=`` in metres; hemispheres have their own.
     shape : tuple of int, optional
-        How many phi_d, theta_d and theta_h there are; 64 bytes each and wavelength.
+        How many phi_d, theta_d and theta_h there are; each product takes 64 bytes a wavelength.
+    description : str, optional
+        What it is, as the file says; hemispheres are named by default.
 
     Raises
     ------
@@ -83,13 +86,15 @@ def write_measured_polarized(
     >>> with TemporaryDirectory() as folder:
     ...     file = Path(folder, "glass.pbsdf")
     ...     write_measured_polarized(file, partial(single_scattering, 1.5, 0.3), shape=(5, 4, 6))
-    ...     file.stat().st_size
-    7984
+    ...     file.read_bytes()[:11]
+    b'tensor_file'
     """
     faults = Faults()
     place = faults.attempt("", _place, path)
     table = faults.attempt("", _table, brdf, wavelengths)
     faults += _shape_faults(shape)
+    if not isinstance(description, str):
+        faults.append(f"description must be a text, not {shown(description)}")
     if faults or place is None or table is None:
         raise SurfaceError(*faults)
     colours = faults.attempt("", _nanometres, table.wavelengths)
@@ -97,7 +102,7 @@ def write_measured_polarized(
         raise SurfaceError(*faults)
     axes = HalfAngles.of(shape)
     with told_of(place), written_whole(place) as stream:
-        write_tensors(stream, _tensors(axes, colours, table))
+        write_tensors(stream, _tensors(axes, colours, table, description or _measured(brdf)))
 
 
 def _place(path: Any) -> Any:
@@ -148,12 +153,16 @@ def _nanometres(wavelengths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint16]:
 
 
 def _tensors(
-    axes: HalfAngles, colours: npt.NDArray[np.uint16], table: GivenBrdf | BrdfOfHemispheres
+    axes: HalfAngles,
+    colours: npt.NDArray[np.uint16],
+    table: GivenBrdf | BrdfOfHemispheres,
+    description: str,
 ) -> dict[str, Tensor]:
     """Return the arrays of the file; matrices are computed while they are written."""
     errors: list[npt.NDArray[np.float32]] = []
     shape = (*map(len, axes), len(colours))
-    text = np.frombuffer(_description(table).encode(), np.uint8)
+    written = f"{description}\nwritten by optipath {version('optipath')}"
+    text = np.frombuffer(written.encode(), np.uint8)
     found = {"description": Tensor.of(text), "wvls": Tensor.of(colours)}
     for name, each in axes._asdict().items():
         found[name] = Tensor.of(each.astype(np.float32)[np.newaxis])
@@ -181,8 +190,5 @@ def _matrices(
         yield found
 
 
-def _description(table: GivenBrdf | BrdfOfHemispheres) -> str:
-    written = f"Polarised BRDF by optipath {version('optipath')}"
-    if isinstance(table, GivenBrdf):
-        return f"{written}, computed of {table.function!r}"
-    return f"{written}, measured: " + "; ".join(map(repr, table.hemispheres))
+def _measured(brdf: Any) -> str:
+    return "; ".join(map(repr, brdf)) if isinstance(brdf, (list, tuple)) else "a polarised BRDF"
