@@ -1,11 +1,10 @@
 """Pictures, drawn with Matplotlib into axes that are given or made; nothing is shown by itself."""
 
-from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from optipath.errors import MissingExtraError
-from optipath.spelling import closest
+from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from optipath.plots.difference_discs import differences
@@ -13,7 +12,7 @@ if TYPE_CHECKING:
     from optipath.plots.hemisphere_map import hemisphere
     from optipath.plots.mueller_map import mueller_hemisphere
     from optipath.plots.plane_curves import in_plane
-    from optipath.plots.saving import save
+    from optipath.plots.saved_picture import save
 
 __all__ = [
     "beside_facets",
@@ -25,28 +24,20 @@ __all__ = [
 ]
 
 _HOMES = {
-    "beside_facets": "facet_panel",
-    "differences": "difference_discs",
-    "hemisphere": "hemisphere_map",
-    "in_plane": "plane_curves",
-    "mueller_hemisphere": "mueller_map",
-    "save": "saving",
+    "difference_discs": ["differences"],
+    "facet_panel": ["beside_facets"],
+    "hemisphere_map": ["hemisphere"],
+    "mueller_map": ["mueller_hemisphere"],
+    "plane_curves": ["in_plane"],
+    "saved_picture": ["save"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
 
-def __dir__() -> list[str]:
-    return __all__
+def _check_matplotlib() -> None:
+    if find_spec("matplotlib") is None:
+        raise MissingExtraError("pictures", "matplotlib", "plot")
 
 
 if not TYPE_CHECKING:  # Else any name would do for who checks types.
-
-    def __getattr__(name: str) -> Any:
-        if name not in _HOMES:
-            near = closest(name, __all__)
-            cure = f"; did you mean '{near}'?" if near else ""
-            raise AttributeError(f"module 'optipath.plots' has no attribute '{name}'{cure}")
-        if find_spec("matplotlib") is None:
-            raise MissingExtraError("pictures", "matplotlib", "plot")
-        module = import_module(f"optipath.plots.{_HOMES[name]}")
-        return globals().setdefault(name, getattr(module, name))
+    __getattr__, __dir__ = lazy_names(__name__, _HOMES, needs=_check_matplotlib)

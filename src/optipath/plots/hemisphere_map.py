@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+from functools import partial
+from textwrap import fill
 from typing import TYPE_CHECKING, Any
 
+from optipath.errors import SurfaceError
+from optipath.paths.format.faults import Faults
 from optipath.plots.disc import draw_disc
 from optipath.plots.own_axes import own_axes
-from optipath.plots.pixel_quantity import largest_of, quantity_named
+from optipath.plots.pixel_quantity import PixelQuantity, quantity_named
 from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+
+_COLUMNS = 56
+"""How wide a sentence is below a disc."""
 
 
 def hemisphere(
@@ -27,6 +36,7 @@ def hemisphere(
     wavelength: Any = None,
     largest: float | None = None,
     known_to: float | None = None,
+    mask: Mapping[str, float | None] | None = None,
 ) -> Axes:
     """Draw a map of what a sample sends into each direction, as a disc seen from above.
 
@@ -40,7 +50,8 @@ def hemisphere(
     measured : Hemisphere
         What `measure` returned.
     quantity : {"S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "difference", "ADM", "MDM"}, optional
-        What is drawn: see `quantity_named`.
+        What is drawn; the last three compare light with polarisation and without, in per cent, as
+        methods of `Hemisphere` do.
     ax : Axes, optional
         Where; a figure of its own by default, ``.figure`` of what is returned.
     source : array_like, shape (4,), optional
@@ -54,7 +65,10 @@ def hemisphere(
         Where the colours of light end; by default at the largest value.
     known_to : float, optional
         Pixels with a larger standard error are hatched, as those without light are; by default
-        0.1 of degrees of polarisation, 10 of angles in degrees; Stokes vectors are all shown.
+        0.1 of degrees of polarisation, 10 of angles in degrees; all others are all shown.
+    mask : mapping of str to float, optional
+        What `Hemisphere.adm` takes, for ``"ADM"``, ``"MDM"`` and ``"difference"``; what is masked
+        is hatched. Others have none.
 
     Returns
     -------
@@ -73,11 +87,41 @@ def hemisphere(
     'DoLP, reflected, incidence 40°'
     """
     drawn = quantity_named(quantity)
-    seen = SeenSide.of(measured, side, wavelength, source)
-    values, hatched = drawn.known(seen, known_to)
+    seen = _seen(drawn, measured, side, wavelength, source, mask)
+    pixels = drawn.known(seen, known_to, mask)
     ax = own_axes(ax, (5.6, 5.0))
-    scale = drawn.scale(largest_of(values) if largest is None else largest)
-    image = draw_disc(ax, seen, values, scale, hatched=hatched)
+    scale = drawn.scale(pixels.largest if largest is None else largest)
+    image = draw_disc(ax, seen, pixels.values, scale, hatched=fill(pixels.unknown, _COLUMNS))
     scale.bar(image, ax, drawn.label, shrink=0.8)
     ax.set_title(seen.titled(drawn.variable))
     return ax
+
+
+def _seen(
+    drawn: PixelQuantity,
+    measured: Hemisphere,
+    side: str,
+    wavelength: Any,
+    source: npt.ArrayLike,
+    mask: Mapping[str, float | None] | None,
+) -> SeenSide:
+    """Return what is to be drawn, and refuse what does not go with the quantity."""
+    faults = Faults()
+    if mask and not drawn.masked:
+        faults.append(f"mask is given, but {drawn.variable} has none; leave it out")
+    if drawn.over_wavelengths and wavelength is not None:
+        faults.append(f"{drawn.variable} is of all wavelengths together; leave wavelength out")
+        wavelength = None
+    seen = faults.attempt(
+        "",
+        partial(SeenSide.of, every=drawn.over_wavelengths),
+        measured,
+        side,
+        wavelength,
+        source,
+    )
+    if seen and drawn.masked and any(seen.source[1:]):
+        faults.append(f"{drawn.variable} is of unpolarised light; leave source out")
+    if faults or seen is None:
+        raise SurfaceError(*faults)
+    return seen

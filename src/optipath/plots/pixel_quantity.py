@@ -11,13 +11,34 @@ from optipath.errors import SurfaceError, unknown
 from optipath.plots.colour_scale import ColourScale
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     import numpy.typing as npt
 
     from optipath.plots.seen_side import SeenSide
 
     Numbers = npt.NDArray[np.float64]
+
+
+class KnownPixels(NamedTuple):
+    """What is known of the pixels of a side.
+
+    Attributes
+    ----------
+    values, errors : ndarray, shape (rows, columns)
+        NaN beyond the horizon, and where nothing is known; the errors are standard errors.
+    unknown : str
+        What pixels are of which nothing is known.
+    """
+
+    values: Numbers
+    errors: Numbers
+    unknown: str = "no light"
+
+    @property
+    def largest(self) -> float:
+        """The largest size among the values, 1 where all are 0 or NaN."""
+        return largest_of(self.values)
 
 
 class PixelQuantity(NamedTuple):
@@ -27,28 +48,39 @@ class PixelQuantity(NamedTuple):
     ----------
     variable : str
         What it is called.
-    label : str
-        That, with its unit, as colour bars have it.
+    name, unit : str
+        What it is, as colour bars have it, and its unit, if it has one.
     of : callable
-        Returns it for a `SeenSide`, with its standard errors: arrays of shape (rows, columns), NaN
-        beyond the horizon and where nothing is known of it.
+        Returns the `KnownPixels` of a `SeenSide`, under a mask.
     scale : callable
         Returns its `ColourScale` for the largest of its sizes.
     known_to : float
         The standard error up to which a pixel is shown.
-    unknown : str
-        What pixels are of which nothing is known.
+    masked : bool
+        Whether it compares light with and without polarisation under a mask, for a source that is
+        unpolarised.
+    over_wavelengths : bool
+        Whether it is of all wavelengths together.
     """
 
     variable: str
-    label: str
-    of: Callable[[SeenSide], tuple[Numbers, Numbers]]
+    name: str
+    unit: str
+    of: Callable[[SeenSide, Mapping[str, Any]], KnownPixels]
     scale: Callable[[float], ColourScale]
     known_to: float = np.inf
-    unknown: str = "no light"
+    masked: bool = False
+    over_wavelengths: bool = False
 
-    def known(self, seen: SeenSide, known_to: float | None) -> tuple[Numbers, str]:
-        """Return what is known of each pixel, NaN of the others, and what these others are.
+    @property
+    def label(self) -> str:
+        """What it is, with its unit."""
+        return f"{self.name} ({self.unit})" if self.unit else self.name
+
+    def known(
+        self, seen: SeenSide, known_to: float | None, mask: Mapping[str, Any] | None
+    ) -> KnownPixels:
+        """Return what is known of the pixels of a side.
 
         Parameters
         ----------
@@ -56,31 +88,41 @@ class PixelQuantity(NamedTuple):
             The pixels.
         known_to : float or None
             The largest standard error; None is the usual one.
+        mask : mapping or None
+            Where it is masked.
 
         Returns
         -------
-        values : ndarray, shape (rows, columns)
-        unknown : str
-            What pixels are without a value.
+        KnownPixels
         """
         limit = self.known_to if known_to is None else known_to
-        value, error = self.of(seen)
+        found = self.of(seen, mask or {})
         if np.isinf(limit):
-            return value, self.unknown
+            return found
         # An error that is not known is one of too little light.
-        return np.where(error <= limit, value, np.nan), f"{self.unknown}, or not known to {limit:g}"
+        values = np.where(found.errors <= limit, found.values, np.nan)
+        return found._replace(
+            values=values, unknown=f"{found.unknown}, or not known to {limit:g}{self.unit}"
+        )
 
 
-def _component(number: int, seen: SeenSide) -> tuple[Numbers, Numbers]:
+def _component(number: int, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
     found, area = seen.measured.stokes(seen.source), seen.measured.sensor.solid_angle
     value, error = (seen.pixels(each[..., number]) for each in (found.values, found.se.values))
     with np.errstate(invalid="ignore", divide="ignore"):
-        return value / area, error / area
+        return KnownPixels(value / area, error / area)
 
 
-def _by_method(name: str, unit: float, seen: SeenSide) -> tuple[Numbers, Numbers]:
+def _state(name: str, unit: float, seen: SeenSide, _mask: Mapping[str, Any]) -> KnownPixels:
     found = getattr(seen.measured, name)(seen.source)
-    return unit * seen.pixels(found.values), unit * seen.pixels(found.se.values)
+    return KnownPixels(unit * seen.pixels(found.values), unit * seen.pixels(found.se.values))
+
+
+def _effect(name: str, seen: SeenSide, mask: Mapping[str, Any]) -> KnownPixels:
+    found = getattr(seen.measured, name)(seen.side, **mask)
+    place = (..., seen.place) if "wavelength" in found.dims else ...
+    value, error = (100.0 * each.values[place] for each in (found, found.se))
+    return KnownPixels(value, error, f"masked; seen are pixels of {found.attrs['mask']}")
 
 
 def _share(_largest: float) -> ColourScale:
@@ -92,17 +134,24 @@ def _axis(_largest: float) -> ColourScale:
 
 
 _light, _signed = ColourScale.light, ColourScale.signed_light
-_dop, _dolp = partial(_by_method, "dop", 1.0), partial(_by_method, "dolp", 1.0)
-_aop = partial(_by_method, "aop", float(np.degrees(1.0)))
+_dop, _dolp = partial(_state, "dop", 1.0), partial(_state, "dolp", 1.0)
+_aop = partial(_state, "aop", float(np.degrees(1.0)))
+_difference = partial(_effect, "relative_difference")
+_adm, _mdm = partial(_effect, "adm"), partial(_effect, "mdm")
+
+_OVER_ALL = {"masked": True, "over_wavelengths": True}
 
 QUANTITIES = (
-    PixelQuantity("S0", "S0 (1/sr)", partial(_component, 0), _light),
-    PixelQuantity("S1", "S1 (1/sr)", partial(_component, 1), _signed),
-    PixelQuantity("S2", "S2 (1/sr)", partial(_component, 2), _signed),
-    PixelQuantity("S3", "S3 (1/sr)", partial(_component, 3), _signed),
-    PixelQuantity("DoP", "degree of polarisation", _dop, _share, 0.1),
-    PixelQuantity("DoLP", "degree of linear polarisation", _dolp, _share, 0.1),
-    PixelQuantity("AoP", "angle of polarisation (°)", _aop, _axis, 10.0),
+    PixelQuantity("S0", "S0", "1/sr", partial(_component, 0), _light),
+    PixelQuantity("S1", "S1", "1/sr", partial(_component, 1), _signed),
+    PixelQuantity("S2", "S2", "1/sr", partial(_component, 2), _signed),
+    PixelQuantity("S3", "S3", "1/sr", partial(_component, 3), _signed),
+    PixelQuantity("DoP", "degree of polarisation", "", _dop, _share, 0.1),
+    PixelQuantity("DoLP", "degree of linear polarisation", "", _dolp, _share, 0.1),
+    PixelQuantity("AoP", "angle of polarisation", "°", _aop, _axis, 10.0),
+    PixelQuantity("difference", "S0 / U - 1", "%", _difference, ColourScale.signed, masked=True),
+    PixelQuantity("ADM", "mean of |S0 - U| / U", "%", _adm, ColourScale.share, **_OVER_ALL),
+    PixelQuantity("MDM", "largest |S0 - U| / U", "%", _mdm, ColourScale.share, **_OVER_ALL),
 )
 
 

@@ -44,7 +44,9 @@ def in_plane(
 
     Angles are to the normal, below 0 on the side that the light comes from; bands reach two
     standard errors up and down, and dotted lines stand where a smooth sample sends light. Stokes
-    vectors are per steradian, in frames with x perpendicular to the plane.
+    vectors are per steradian, in frames with x perpendicular to the plane. At r pixels from the
+    normal polarisation is too low by the share 1 / (6 r^2), since the frames of photons differ
+    within a pixel.
 
     Parameters
     ----------

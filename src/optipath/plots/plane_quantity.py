@@ -62,6 +62,8 @@ class PlaneQuantity(NamedTuple):
         -------
         value, error : ndarray, shape (columns,)
         """
+        if self.variable == "difference" and any(cut.seen.source[1:]):
+            raise SurfaceError("difference is of unpolarised light; leave source out")
         own = cut.seen.measured.own
         value, error = own.estimate(lambda numbers: self.of(cut, numbers))
         if np.isfinite(self.period):

@@ -31,19 +31,21 @@ class SeenSide:
         All of it.
     side : {"reflected", "transmitted"}
         Which side.
-    place : int
-        Of the wavelength, among those measured.
+    place : int or None
+        Of the wavelength, among those measured; None where they are all seen together.
     source : tuple of float, (S0, S1, S2, S3)
         The light that comes in, in the frame whose x is horizontal.
     """
 
     measured: Hemisphere
     side: str
-    place: int
+    place: int | None
     source: tuple[float, ...]
 
     @classmethod
-    def of(cls, measured: Any, side: Any, wavelength: Any, source: Any) -> SeenSide:
+    def of(
+        cls, measured: Any, side: Any, wavelength: Any, source: Any, *, every: bool = False
+    ) -> SeenSide:
         """Return the side that pictures are asked for.
 
         Parameters
@@ -56,6 +58,8 @@ class SeenSide:
             One of those measured; None where there is only one.
         source : array_like, shape (4,)
             The Stokes vector of the light that comes in.
+        every : bool, optional
+            Whether all wavelengths are seen together.
 
         Returns
         -------
@@ -70,12 +74,11 @@ class SeenSide:
             raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
         faults = Faults()
         faults.attempt("", measured.side, side)
-        place = faults.attempt("", _place, measured.wavelengths, wavelength)
+        place = None if every else faults.attempt("", _place, measured.wavelengths, wavelength)
         state = faults.attempt("", given_state, "source", source)
         if faults:
             raise SurfaceError(*faults)
-        assert place is not None  # noqa: S101 - or a fault has been raised
-        assert state is not None  # noqa: S101 - ditto
+        assert state is not None  # noqa: S101 - or a fault has been raised
         return cls(measured, side, place, state)
 
     def pixels(self, numbers: Numbers) -> Numbers:
@@ -118,18 +121,18 @@ class SeenSide:
         beam = self.measured.seen.beam
         if self.side == "reflected":
             return float(np.arctan2(beam.sin, beam.cos))
-        sin = beam.sin * beam.indices.outside / float(np.ravel(beam.indices.n)[self._light])
+        # A clear base has one index for all wavelengths that are measured together.
+        sin = beam.sin * beam.indices.outside / float(beam.indices.n.flat[0])
         return float(np.arcsin(sin)) if sin <= 1.0 else np.nan
-
-    @property
-    def _light(self) -> int:
-        return min(self.place, self.measured.seen.beam.indices.n.size - 1)
 
     def titled(self, what: str) -> str:
         """Return the title of a picture of this side."""
-        seen, when = self.measured.seen, self.measured.wavelengths[self.place]
+        seen, when = self.measured.seen, self.measured.wavelengths
         parts = [what, self.side, f"incidence {degrees(np.arctan2(seen.beam.sin, seen.beam.cos))}"]
-        parts += [] if np.isnan(when) else [f"{when * 1e9:.5g} nm"]
+        if self.place is not None and not np.isnan(when[self.place]):
+            parts.append(f"{when[self.place] * 1e9:.5g} nm")
+        elif self.place is None and len(when) > 1:
+            parts.append(f"{len(when)} wavelengths")
         parts += {None: [], 1: ["one event"]}.get(seen.events, [f"{seen.events} events"])
         if any(self.source[1:]):
             parts[-1] += "\nsource ({:g}, {:g}, {:g}, {:g})".format(*self.source)

@@ -99,6 +99,8 @@ def test_all_faults_of_a_file_are_told_at_once(tmp_path):
     ("old", "new", "told"),
     [
         ("format = 1", "format = 2", "format is 2, but this version reads format 1"),
+        ("glass-rough", "../own.toml", "'../own.toml' leads out of the folder of the experiment"),
+        ("glass-rough", "nul\\u0000.toml", "cannot be read"),
         ("glass-rough", "glas-rough", "sample: sample 'glas-rough' is unknown"),
         ("{sample}", "gold-rough", "depends on the wavelength"),
         ("[0.1, [", "[0.1, 0.2, [", "3 numbers, but 2 angles of incidence"),

@@ -12,6 +12,9 @@ pytest.importorskip("numba")
 pytest.importorskip("xarray")
 
 
+ROUGH = op.Sample([(1.5, 0.3), (2.4, 0.3)], surfaces=2, cells=400)
+
+
 def amplitudes(m, theta):
     """r_s and r_p, as textbooks have them, of fields whose p keeps its sense."""
     c, g = np.cos(theta), np.sqrt(m**2 - np.sin(theta) ** 2 + 0j)
@@ -34,7 +37,7 @@ def test_shares_of_a_flat_face_are_those_of_fresnel():
 
 @pytest.mark.parametrize("measure", ["R+T", "scalar-R+T"])
 def test_glass_reflects_or_lets_through_all_light(measure):
-    value, error, *_ = found(op.Sample([(1.5, 0.3)]), measure, "60 deg")
+    value, error, *_ = found(op.Sample([(1.5, 0.3)], surfaces=2, cells=400), measure, "60 deg")
     assert abs(value - 1.0) < 5 * error + 1e-12
 
 
@@ -45,21 +48,19 @@ def test_adm_of_a_smooth_stack_is_the_exact_one(angle, known):
     sample = op.Sample([(1.5, 0), (2.4, 0)])
     value, error, mask, pixel = found(sample, "adm", f"{angle} deg", 200_000)
     assert abs(100.0 * value - known) < 500.0 * error + 0.001
-    assert 100.0 * error < 0.03
+    assert 100.0 * error < 0.05
     assert "64 x 64 pixels" in mask
     assert abs(int(pixel.split(" ")[0]) - angle) <= 1
 
 
 def test_pixels_beside_the_plane_of_incidence_are_left_out_where_an_azimuth_is_given():
-    sample = op.Sample([(1.5, 0.3), (2.4, 0.3)])
-    *_, mask, pixel = found(sample, "adm", "60 deg", 50_000, azimuth=10.0, noise=5.0)
+    *_, mask, pixel = found(ROUGH, "adm", "60 deg", 50_000, azimuth=10.0, noise=5.0)
     assert "azimuth within 10 deg" in mask
     assert int(pixel.split(" ")[2]) <= 10
 
 
 def test_without_a_pixel_that_counts_there_is_no_value():
-    sample = op.Sample([(1.5, 0.3), (2.4, 0.3)])
-    value, error, *_ = found(sample, "adm", "60 deg", 20_000, brighter_than=1e6)
+    value, error, *_ = found(ROUGH, "adm", "60 deg", 20_000, brighter_than=1e6)
     assert np.isnan([value, error]).all()
 
 
@@ -73,7 +74,7 @@ def test_mirrored_light_has_the_polarisation_of_fresnel():
     aop = found(sample, "aop", "60 deg", stokes=(1.0, 0.0, 1.0, 0.0))
     assert dolp.value == pytest.approx(np.hypot(s1, s2) / intensity, rel=1e-12)
     assert aop.value == pytest.approx(np.degrees(np.arctan2(abs(s2), abs(s1))) / 2.0, rel=1e-12)
-    assert "where a mirror would send the light" in aop.mask
+    assert "where a mirror sends the light" in aop.mask
 
 
 @pytest.mark.parametrize(("cells", "finer"), [(40, False), (640, True)])
@@ -84,12 +85,16 @@ def test_cells_are_those_of_the_experiment_without_a_warning(cells, finer):
 
 
 def test_a_seed_gives_the_same_numbers_with_any_number_of_threads():
-    experiment = load_experiment("wang-2017-simulation-01")
+    several = tuple(
+        Measurement(measure, "", Walks("60 deg", (), None)) for measure in ("adm", "R_m")
+    )
+    experiment = Experiment("own", "", "", ROUGH, several, sensor=16)
     one, two = (
-        [each.found for each in reproduce(experiment, 20_000, seed=3, threads=threads)]
+        [each.found for each in reproduce(experiment, 40_000, seed=3, threads=threads)]
         for threads in (1, 2)
     )
     assert one == two
+    assert np.isfinite([each.value for each in one]).all()
 
 
 def test_progress_is_told_with_the_direction():

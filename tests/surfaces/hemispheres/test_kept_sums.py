@@ -3,6 +3,7 @@
 import os
 import signal
 import warnings
+from functools import cache
 
 import numpy as np
 import psutil
@@ -19,14 +20,16 @@ import optipath as op
 from large_jobs import marked
 from optipath import surfaces
 from optipath.errors import JobError, MissingExtraError
+from optipath.surfaces.energies.given_run import processors
 from optipath.surfaces.hemispheres import chunk_job as of_job
 from optipath.surfaces.hemispheres import measure as of_measure
 from optipath.surfaces.hemispheres.chunk_job import ChunkJob
+from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
 from small_chunks import CHUNK, PLACES, SmallChunks
 
 SAMPLE = op.Sample([(1.5, 0.3)], cells=200, surfaces=2)
 SENSOR = surfaces.Sensor(16, parts=3)
-PHOTONS = 5 * CHUNK + 700
+PHOTONS = 3 * CHUNK + 700
 
 
 @pytest.fixture(autouse=True)
@@ -57,6 +60,12 @@ def measured(sample=SAMPLE, photons=PHOTONS, **options):
     return op.measure(sample, "50 deg", photons, sensor=SENSOR, **options)
 
 
+@cache
+def alone(polarized="both"):
+    """What a measurement is that is not kept."""
+    return measured(polarized=polarized)
+
+
 def assert_same_bits(found, expected):
     for here, there in zip(found.parts, expected.parts, strict=True):
         assert here.tobytes() == there.tobytes()
@@ -66,11 +75,33 @@ def assert_same_bits(found, expected):
 @pytest.mark.parametrize("polarized", ["both", "scalar"])
 def test_what_is_kept_has_the_bits_of_what_is_not(store, scheduler, polarized):
     found = measured(store=store, scheduler=scheduler, polarized=polarized)
-    assert_same_bits(found, measured(polarized=polarized))
+    assert_same_bits(found, alone(polarized))
 
 
 def test_the_threads_of_a_chunk_do_not_change_a_bit(store):
-    assert_same_bits(measured(store=store, scheduler="threads", threads=3), measured(threads=1))
+    assert_same_bits(measured(store=store, scheduler="threads", threads=3), alone())
+
+
+@pytest.mark.parametrize(
+    ("given", "threads"),
+    [
+        ({}, processors()),
+        ({"scheduler": "synchronous"}, processors()),
+        ({"scheduler": "threads"}, 1),
+        ({"scheduler": "threads", "threads": 3}, 3),
+        ({"threads": 3}, 3),
+    ],
+)
+def test_a_chunk_has_all_threads_where_it_is_walked_alone(store, monkeypatch, given, threads):
+    seen, chunk = [], SensedBeam.chunk
+
+    def told(beam, number, photons, threads):
+        seen.append(threads)
+        return chunk(beam, number, photons, threads)
+
+    monkeypatch.setattr(SensedBeam, "chunk", told)
+    measured(photons=CHUNK + 1, store=store, **given)
+    assert seen == [threads, threads]
 
 
 def test_heights_that_are_given_travel_along(store, rng):
@@ -87,28 +118,28 @@ def test_an_interrupted_run_goes_on_from_there(store, walked):
     with pytest.raises(KeyboardInterrupt):
         measured(store=store, progress=stopped)
     assert walked == [0, 1]
-    assert_same_bits(measured(store=store), measured())
-    assert walked == [0, 1, 2, 3, 4, 5]
+    assert_same_bits(measured(store=store), alone())
+    assert walked == [0, 1, 2, 3]
 
 
 def test_what_is_there_is_not_walked_again(store, walked):
     measured(store=store)
     del walked[:]
-    assert_same_bits(measured(store=store, symmetric=False), measured())
+    assert_same_bits(measured(store=store, symmetric=False), alone())
     assert walked == []
 
 
 def test_progress_is_told_in_photons(store):
     told = []
     measured(store=store, progress=lambda *how: told.append(how))
-    assert told == [(min(CHUNK * done, PHOTONS), PHOTONS) for done in range(7)]
+    assert told == [(min(CHUNK * done, PHOTONS), PHOTONS) for done in range(5)]
 
 
 @pytest.mark.parametrize(
     ("options", "line"),
     [
         ({"seed": 1}, "it has 'seed: 0', where this one has 'seed: 1'"),
-        ({"photons": PHOTONS + CHUNK}, "it has 'photons: 82620', where this one has"),
+        ({"photons": PHOTONS + CHUNK}, "it has 'photons: 49852', where this one has"),
         ({"sample": op.Sample([(1.6, 0.3)], cells=200, surfaces=2)}, r"it has 'base n: \[1.5\]'"),
     ],
 )
@@ -117,7 +148,7 @@ def test_a_store_of_another_measurement_is_refused_and_left_alone(store, walked,
     with pytest.raises(JobError, match=rf"hemisphere.zarr' holds blocks of another job: {line}"):
         measured(store=store, **options)
     del walked[:]
-    assert_same_bits(measured(store=store), measured())
+    assert_same_bits(measured(store=store), alone())
     assert walked == []
 
 
@@ -136,7 +167,7 @@ def test_a_damaged_chunk_is_told_with_what_mends_it(store, walked):
         measured(store=store)
     (store / "blocks" / "done" / "2.0").unlink()
     del walked[:]
-    assert_same_bits(measured(store=store), measured())
+    assert_same_bits(measured(store=store), alone())
     assert walked == [2]
 
 
@@ -192,7 +223,7 @@ def test_chunks_as_large_as_they_are_have_the_same_bits(store, monkeypatch):
 
 def test_a_worker_that_is_killed_loses_nothing(store):
     photons = 24 * CHUNK
-    alone = measured(photons=photons)
+    expected = measured(photons=photons)
     with (
         distributed.LocalCluster(
             n_workers=2,
@@ -215,4 +246,4 @@ def test_a_worker_that_is_killed_loses_nothing(store):
         found = measured(photons=photons, store=store, scheduler=client, progress=kill)
         assert not psutil.pid_exists(victim)
     assert marked(store) == {*range(24)}
-    assert_same_bits(found, alone)
+    assert_same_bits(found, expected)

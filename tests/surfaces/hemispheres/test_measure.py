@@ -56,7 +56,7 @@ def test_mueller_matrices_are_what_photons_of_each_state_carry(sample, incidence
 @pytest.mark.parametrize("projection", ["equidistant", "equal-area"])
 @pytest.mark.parametrize("symmetric", [False, True])
 def test_all_pixels_together_are_the_shares_of_energy(projection, symmetric):
-    sensor = op.Sensor(16, projection)
+    sensor = op.surfaces.Sensor(16, projection)
     found = op.measure(GLASS, "60 deg", PHOTONS, sensor=sensor, seed=3, symmetric=symmetric)
     shares = surfaces.energy(GLASS, "60 deg", PHOTONS, seed=3)
     data = found.dataset.sum(("y", "x")).isel(wavelength=0)

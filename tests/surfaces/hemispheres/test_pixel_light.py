@@ -112,7 +112,9 @@ def test_angles_of_light_turned_by_a_right_angle_have_the_same_errors():
     turned = numbers[..., :16].reshape(*numbers.shape[:-1], 4, 4).copy()
     turned[..., 1:3, :] *= -1.0
     sums = np.concatenate([turned.reshape(*numbers.shape[:-1], 16), numbers[..., 16:]], axis=-1)
-    other = op.Hemisphere(one.seen, one.parts._replace(sums=sums), one.wavelengths, symmetric=False)
+    other = op.surfaces.Hemisphere(
+        one.seen, one.parts._replace(sums=sums), one.wavelengths, symmetric=False
+    )
     found, expected = other.aop(SOURCE), one.aop(SOURCE)
     assert np.allclose(found.se, expected.se, rtol=1e-6, atol=1e-12, equal_nan=True)
     apart = (found - expected).values % np.pi

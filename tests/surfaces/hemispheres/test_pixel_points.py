@@ -7,7 +7,7 @@ from optipath.surfaces.hemispheres.pixel_points import pixel_points
 
 @pytest.mark.parametrize("projection", ["equidistant", "equal-area"])
 def test_points_lie_within_their_pixels(projection):
-    sensor = op.Sensor(9, projection)
+    sensor = op.surfaces.Sensor(9, projection)
     places = np.arange(81).reshape(9, 9)
     for directions, areas in pixel_points(sensor, 3):
         lit = areas > 0.0
@@ -18,7 +18,7 @@ def test_points_lie_within_their_pixels(projection):
 
 @pytest.mark.parametrize("projection", ["equidistant", "equal-area"])
 def test_polynomials_of_directions_are_averaged_as_over_the_hemisphere(projection):
-    sensor, found = op.Sensor(32, projection), np.zeros(4)
+    sensor, found = op.surfaces.Sensor(32, projection), np.zeros(4)
     for directions, areas in pixel_points(sensor, 4):
         x, y, z = np.moveaxis(directions, -1, 0)
         found += [np.sum(areas * each) for each in (z, z * z, x * x * z, x * y)]

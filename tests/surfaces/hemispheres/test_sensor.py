@@ -23,7 +23,7 @@ def test_solid_angles_are_those_of_many_small_cells(projection, pixels):
     radius = np.hypot(middle, middle[:, None])
     inside = np.where(radius < 1.0, density(projection, radius), 0.0)
     expected = inside.reshape(pixels, parts, pixels, parts).sum(axis=(1, 3))
-    found = op.Sensor(pixels, projection).solid_angle
+    found = op.surfaces.Sensor(pixels, projection).solid_angle
     # Cells on the rim count as a whole or not at all.
     assert np.allclose(found, expected * (2.0 / (parts * pixels)) ** 2, rtol=2e-3)
 
@@ -31,7 +31,7 @@ def test_solid_angles_are_those_of_many_small_cells(projection, pixels):
 @pytest.mark.parametrize("projection", PROJECTIONS)
 @pytest.mark.parametrize("pixels", [1, 2, 7, 16, 128])
 def test_solid_angles_are_those_of_a_hemisphere(projection, pixels):
-    found = op.Sensor(pixels, projection).solid_angle
+    found = op.surfaces.Sensor(pixels, projection).solid_angle
     assert found.sum() == pytest.approx(2.0 * np.pi, rel=1e-12)
     assert found.min() >= -1e-15
     for image in (found[::-1], found[:, ::-1], found.T):
@@ -39,7 +39,7 @@ def test_solid_angles_are_those_of_a_hemisphere(projection, pixels):
 
 
 def test_pixels_of_equal_area_within_the_hemisphere_are_equal():
-    sensor = op.Sensor(32, "equal-area")
+    sensor = op.surfaces.Sensor(32, "equal-area")
     corner = np.abs(sensor.coordinates) + 1.0 / 32
     within = np.hypot(corner, corner[:, None]) <= 1.0
     assert np.allclose(sensor.solid_angle[within], 2.0 * (2.0 / 32) ** 2, rtol=1e-12)
@@ -48,7 +48,7 @@ def test_pixels_of_equal_area_within_the_hemisphere_are_equal():
 @pytest.mark.parametrize("projection", PROJECTIONS)
 @pytest.mark.parametrize("pixels", [1, 6, 7, 128])
 def test_the_direction_of_a_centre_falls_on_its_pixel(projection, pixels):
-    sensor = op.Sensor(pixels, projection)
+    sensor = op.surfaces.Sensor(pixels, projection)
     there = ~np.isnan(sensor.theta)
     places = np.arange(pixels**2).reshape(pixels, pixels)
     for side in (1.0, -1.0):
@@ -58,7 +58,7 @@ def test_the_direction_of_a_centre_falls_on_its_pixel(projection, pixels):
 
 @pytest.mark.parametrize("projection", PROJECTIONS)
 def test_centres_beyond_the_horizon_have_no_direction(projection):
-    sensor = op.Sensor(16, projection)
+    sensor = op.surfaces.Sensor(16, projection)
     beyond = np.hypot(sensor.coordinates, sensor.coordinates[:, None]) > 1.0
     assert np.array_equal(np.isnan(sensor.theta), beyond)
     assert np.array_equal(np.isnan(sensor.phi), beyond)
@@ -73,7 +73,7 @@ def test_centres_beyond_the_horizon_have_no_direction(projection):
     projection=st.sampled_from(PROJECTIONS),
 )
 def test_every_direction_falls_within_half_a_pixel_of_a_centre(cos, azimuth, pixels, projection):
-    sensor = op.Sensor(pixels, projection)
+    sensor = op.surfaces.Sensor(pixels, projection)
     sin = np.sqrt(1.0 - cos * cos)
     place = sensor.place([sin * np.cos(azimuth), sin * np.sin(azimuth), cos])
     theta = np.arctan2(sin, cos)
@@ -89,7 +89,7 @@ def test_every_direction_falls_within_half_a_pixel_of_a_centre(cos, azimuth, pix
 
 
 def test_light_that_goes_on_is_on_the_right_and_y_goes_with_rows():
-    sensor = op.Sensor(5)
+    sensor = op.surfaces.Sensor(5)
     assert sensor.place([[0.6, 0, 0.8], [0, 0.6, 0.8], [0, 0, 1]]).tolist() == [13, 17, 12]
     assert sensor.phi[2, 4] == 0.0
     assert sensor.phi[4, 2] == pytest.approx(np.pi / 2.0)
@@ -97,7 +97,7 @@ def test_light_that_goes_on_is_on_the_right_and_y_goes_with_rows():
 
 def test_all_faults_of_a_sensor_are_told_at_once():
     with pytest.raises(op.SurfaceError) as caught:
-        op.Sensor(0, "equi-area", 1)
+        op.surfaces.Sensor(0, "equi-area", 1)
     assert [*caught.value.faults] == [
         "pixels must be a whole number of 1 or more, not 0",
         "parts must be a whole number of 2 or more, not 1",

@@ -102,7 +102,7 @@ def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
         at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
         found: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
         value, error = (float(each[0, *at, 0]) for each in (found.values, found["se"].values))
-        mask = f"the pixel of {sensor.pixels} x {sensor.pixels} where a mirror would send the light"
+        mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
         if name == "aop":
             # The paper folds it: half the arc tangent of |S2 / S1|.
             value = abs(value) if abs(value) <= np.pi / 4.0 else np.pi / 2.0 - abs(value)

@@ -71,9 +71,12 @@ def reproduce(
     Examples
     --------
     >>> from optipath.lab.published.experiment_files import load_experiment
-    >>> for one in reproduce(load_experiment("wang-2017-table-2-alpha-0-4"), photons=10_000):
-    ...     print(one.measurement.measure, one.measurement.published, round(one.found.value, 12))
-    R (1.0, 1.0) 1.0
+    >>> mirror = load_experiment("wang-2017-table-2-alpha-0-4")
+    >>> for one in reproduce(mirror, photons=10_000):
+    ...     print(one.measurement.walks.incidence, round(one.found.value, 12), one.agrees)
+    10 deg 1.0 True
+    45 deg 1.0 True
+    80 deg 1.0 True
     """
     count = experiment.photons if photons is None else photons
     for walks, measurements in experiment.by_walks():

@@ -76,9 +76,9 @@ class BrdfOfHemispheres:
             if not np.array_equal(each.wavelengths, first.wavelengths, equal_nan=True):
                 raise SurfaceError(f"{each!r} has other wavelengths than {first!r}")
             if each.seen.beam.sample != first.seen.beam.sample:
-                raise SurfaceError(f"{each!r} is of another sample than {first!r}")
+                raise SurfaceError(f"{each} is of another sample than {first}")
             if _incidence(each) == _incidence(before):
-                raise SurfaceError(f"{each!r} is there twice; leave one of them out")
+                raise SurfaceError(f"{each} is there twice; leave one of them out")
         if not first.seen.beam.sample.isotropic:
             raise SurfaceError(
                 "the table is of samples that look the same from all sides, and this one is not "

@@ -20,7 +20,7 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
     """Save a picture in a file whose ending says the form: ``.png``, ``.svg`` or ``.pdf``.
 
     Texts of ``.svg`` and ``.pdf`` are texts, which can be searched; a file is there whole or not
-    at all, and has the same bits every time.
+    at all, and that of a picture which is drawn anew has the same bits.
 
     Parameters
     ----------
