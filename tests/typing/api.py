@@ -1,6 +1,6 @@
 """The public interface as a user's code sees it; checked by mypy, and run."""
 
-from functools import partial
+import functools
 from typing import Any
 
 import numpy as np
@@ -159,7 +159,7 @@ def of_pages() -> tuple[op.Material, op.Material]:
 def of_files() -> op.Hemisphere:
     found = op.load_hemisphere("a.nc", sample=varnished)
     found.save("a.exr", source=[1.0, 1.0, 0.0, 0.0], side="reflected")
-    brdf = partial(single_scattering, 1.5, 0.3)
+    brdf = functools.partial(single_scattering, 1.5, 0.3)
     write_measured_polarized("a.pbsdf", brdf, wavelengths=["450 nm"], shape=(9, 9, 9))
     write_measured_polarized("b.pbsdf", [found, found])
     return found
