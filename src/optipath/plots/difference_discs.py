@@ -75,5 +75,5 @@ def differences(
     for ax, title in zip(panel, titles, strict=True):
         ax.set_title(title)
     if axes is None:
-        panel[0].get_figure(root=True).suptitle(seen.titled("light"))
+        panel[0].figure.figure.suptitle(seen.titled("light"))
     return panel
