@@ -25,6 +25,7 @@ PHOTONS = 1 << 24
 PIXELS = 181  # of 1 deg, and one row of them along the plane of incidence
 INCIDENCES = 30, 45, 60
 APART = np.arange(-15, 16)
+NAMES = "DoLP", "AoP"
 ANALYZER = np.radians([0.0, 45.0, 90.0, 135.0])[:, np.newaxis]
 
 CASES = op.load_preset("ellipsometer-rough").cases
@@ -82,7 +83,7 @@ def curves():
         for place, state in enumerate(CASES):
             row = {"incidence": incidence, "state": state}
             for name, which in (("DoLP", 0), ("AoP", 1)):
-                digits = 5 - 3 * which
+                digits = 5 - which
                 row[name] = values[which, place].round(digits).tolist()
                 row[f"{name}_se"] = errors[which, place].round(digits + 1).tolist()
                 row[f"{name}_facet"] = smooth[which, place].round(digits).tolist()
@@ -91,28 +92,48 @@ def curves():
     return told | {"apart": APART.tolist(), "curves": rows}
 
 
+def rows_of(row):
+    """Yield what a state's curve is in each row of the picture: value, error, that of facets."""
+    degree, angle = (np.array([row[f"{n}{e}"] for e in ("", "_se", "_facet")]) for n in NAMES)
+    yield degree
+    yield angle
+    if np.abs(angle[2]).min() > 1.0 and np.abs(angle[2]).max() < 89.0:
+        # As the paper has it, 1/2 arctan |S2 / S1|.
+        yield np.stack([folded(angle[0]), angle[1], folded(angle[2])])
+
+
+def folded(angle):
+    """Return angles of polarisation from 0 to 45 deg."""
+    return 45.0 - np.abs(45.0 - np.abs(angle))
+
+
 def draw(found, file):
     """Draw DoLP and AoP with bands of two standard errors; dashed, smooth facets."""
-    figure, axes = plt.subplots(2, 3, sharex="col", figsize=(12.0, 6.6), layout="constrained")
-    figure.suptitle("Rough gold (alpha 0.25) at 670 nm, seen by an ellipsometer; dashed: facets")
+    figure, axes = plt.subplots(3, 3, sharex="col", figsize=(12.0, 9.0), layout="constrained")
+    figure.suptitle(
+        "Rough gold (alpha 0.25) at 670 nm by an ellipsometer; bands: two standard errors; "
+        "dashed: single smooth facets"
+    )
     for row in found["curves"]:
         column = INCIDENCES.index(row["incidence"])
         angles = np.array(found["apart"]) + row["incidence"]
-        colour = f"C{[*CASES].index(row['state'])}"
-        for axis, name in zip(axes[:, column], ("DoLP", "AoP"), strict=True):
-            value, error = np.array(row[name]), 2.0 * np.array(row[f"{name}_se"])
-            axis.plot(angles, value, ".-", color=colour, label=row["state"], markersize=4)
-            axis.fill_between(angles, value - error, value + error, color=colour, alpha=0.3)
-            axis.plot(angles, row[f"{name}_facet"], "--", color=colour, linewidth=0.8)
+        place = [*CASES].index(row["state"])
+        style = {"color": f"C{place}", "marker": "ox"[place % 2], "markersize": 3 + place % 2}
+        for axis, (value, error, facet) in zip(axes[:, column], rows_of(row), strict=False):
+            axis.plot(angles, value, label=row["state"], **style)
+            band = value - 2.0 * error, value + 2.0 * error
+            axis.fill_between(angles, *band, color=style["color"], alpha=0.3)
+            axis.plot(angles, facet, "--", color=style["color"], linewidth=0.8)
         axes[0, column].set_title(f"incidence {row['incidence']} deg")
-        axes[1, column].set_xlabel("angle of reflection (deg)")
-    axes[0, 0].set_ylabel("DoLP")
-    axes[1, 0].set_ylabel("AoP (deg, from p towards s)")
+        axes[2, column].set_xlabel("angle of reflection (deg)")
+    labels = "DoLP", "AoP (deg, from p towards s)", "AoP, folded into 0 .. 45 deg"
+    for axis, label in zip(axes[:, 0], labels, strict=True):
+        axis.set_ylabel(label)
     axes[0, 0].legend(fontsize="small")
     for axis in axes.flat:
         axis.grid(visible=True, alpha=0.3)
     drawn = io.BytesIO()
-    figure.savefig(drawn, dpi=100, format="png")
+    figure.savefig(drawn, dpi=90, format="png")
     write_file(file, drawn.getvalue())
 
 
