@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 from optipath.spelling import closest
 
 if TYPE_CHECKING:
+    from optipath.surfaces.decisions.decide import decide
+    from optipath.surfaces.decisions.model_choice import ModelChoice
     from optipath.surfaces.ends.photon_ends import photon_ends
     from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.facets.facet_model import single_scattering
@@ -19,8 +21,10 @@ if TYPE_CHECKING:
 __all__ = [
     "HeightField",
     "Hemisphere",
+    "ModelChoice",
     "Photon",
     "Sensor",
+    "decide",
     "energy",
     "load_hemisphere",
     "measure",
@@ -33,6 +37,8 @@ _HOMES = {
     "Photon": "replay.photon",
     "Hemisphere": "hemispheres.hemisphere",
     "Sensor": "hemispheres.sensor",
+    "ModelChoice": "decisions.model_choice",
+    "decide": "decisions.decide",
     "energy": "energies.energy",
     "load_hemisphere": "files.load_hemisphere",
     "measure": "hemispheres.measure",
