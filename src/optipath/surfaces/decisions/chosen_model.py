@@ -38,7 +38,7 @@ def chosen_model(
     difference = run.difference
     scalar = _serves(difference, tolerance)
     evidence.append(
-        f"polarisation changes the light of a pixel by up to {difference}"
+        f"polarisation changes the light of a pixel at most by {difference}"
         f"{_verdict(difference, tolerance)}"
     )
     model = "single-scattering" if single else "scalar" if scalar else "polarized"
@@ -64,7 +64,7 @@ def _single_scattering(
     multiple, apart = run.multiple, run.beside_model
     told = [
         (
-            f"up to {multiple} of a pixel's light has met the surface more than once"
+            f"of a pixel's light at most {multiple} has met the surface more than once"
             f"{_verdict(multiple, tolerance)}"
         ),
         (
@@ -84,10 +84,10 @@ def _serves(found: LargestOf, tolerance: float) -> bool | None:
 
 def _verdict(found: LargestOf, tolerance: float) -> str:
     if found.is_below(tolerance):
-        return ": less than the tolerance"
+        return ", three standard errors to either side: less than the tolerance"
     if found.is_above(tolerance):
-        return ": more than the tolerance"
-    return ": the noise does not tell whether that is more than the tolerance; walk more photons"
+        return ", three standard errors to either side: more than the tolerance"
+    return ", three standard errors to either side: walk more photons to know if that is too much"
 
 
 def _beyond_the_model(run: PairedRun) -> str:

@@ -17,7 +17,7 @@ class LargestOf(NamedTuple):
     Attributes
     ----------
     value, error : float
-        Of the number that is the largest most surely: it less three standard errors is.
+        Of the largest, as it was found; it is too large, as the largest of noisy numbers is.
     least, most : float
         Within what the largest is: that of all numbers less three standard errors, and that of
         all plus three; infinite where an error is not known.
@@ -52,9 +52,8 @@ class LargestOf(NamedTuple):
         if not sizes.size:
             return cls(np.nan, np.nan, 0.0, np.inf)
         far = np.where(np.isnan(known), np.inf, _SURE * known)
-        surely = sizes - far
-        at = int(np.argmax(surely if np.isfinite(surely).any() else sizes))
-        least, most = float(surely.max()), float((sizes + far).max())
+        at = int(np.argmax(sizes))
+        least, most = float((sizes - far).max()), float((sizes + far).max())
         return cls(float(sizes[at]), float(known[at]), max(least, 0.0), most)
 
     def is_below(self, limit: float) -> bool:
@@ -66,8 +65,5 @@ class LargestOf(NamedTuple):
         return self.least > limit
 
     def __str__(self) -> str:
-        all_told = (
-            f"none above {100.0 * self.most:.3g} %" if np.isfinite(self.most) else "some unknown"
-        )
-        error = f"standard error {100.0 * self.error:.2g} %"
-        return f"{100.0 * self.value:.3g} % ({error}; {all_told}, by three of them)"
+        least, most = 100.0 * self.least, 100.0 * self.most
+        return f"{least:.3g} .. {most:.3g} %" if most < np.inf else f"{least:.3g} % or more"
