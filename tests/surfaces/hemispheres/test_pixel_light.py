@@ -1,5 +1,7 @@
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import optipath as op
 
@@ -77,6 +79,21 @@ def test_degrees_and_angles_are_those_of_the_stokes_vectors(silver, source):
     assert np.allclose(np.exp(2j * aop), (s1 + 1j * s2) / np.hypot(s1, s2), atol=1e-7)
     assert np.all((aop > -np.pi / 2.0) & (aop <= np.pi / 2.0))
     assert (silver.aop().units, silver.dop().units, silver.dolp().units) == ("rad", "1", "1")
+
+
+@given(
+    degree=st.floats(0.0, 1.0),
+    angles=st.tuples(st.floats(0.0, np.pi), st.floats(-np.pi, np.pi)),
+)
+@settings(max_examples=20)
+def test_no_light_is_polarised_by_more_than_all_of_it(silver, degree, angles):
+    latitude, longitude = angles
+    level = degree * np.sin(latitude)
+    state = [1.0, level * np.cos(longitude), level * np.sin(longitude), degree * np.cos(latitude)]
+    matrices = silver.mueller[0]
+    lit = matrices[..., 0, 0] > 0.0
+    assert np.all(silver.dop(state).values[lit] <= 1.0 + 1e-12)
+    assert np.all(silver.dolp(state).values[lit] <= silver.dop(state).values[lit] + 1e-12)
 
 
 def test_where_no_light_falls_there_is_no_degree_and_no_angle(silver):
