@@ -123,6 +123,19 @@ def test_four_intensities_tell_the_linear_polarisation(rough):
     assert [i0 + i90, i90 - i0, i45 - i135] == pytest.approx([s0, s1, s2], abs=1e-16)
 
 
+def test_light_scattered_once_in_the_plane_is_that_of_facets():
+    pytest.importorskip("numba")
+    sample = op.Sample([(GOLD, 0.25)], cells=200)
+    once = op.measure(sample, "60 deg", 200_000, sensor=91, events=1)
+    angles = once.sensor.theta[45, [65, 73, 81]]
+    half = 0.5 * (np.radians(60.0) + angles)
+    for angle, theta in zip(angles, half, strict=True):
+        facet = op.Interface(GOLD, theta).mueller("in", "reflected").matrix
+        found, error = once.estimate_toward(lambda matrix: matrix / matrix[0, 0], angle)
+        # Pixels are 2 deg wide, over which light and matrix are not the same.
+        assert np.all(np.abs(found - facet / facet[0, 0]) < 5.0 * error + 1.5e-3)
+
+
 def test_it_is_the_share_of_the_light_that_falls_on_the_pixel(rough):
     row, column = 15, rough.sensor.around(rough.frames_toward("30 deg")["out"].z)[1][0]
     expected = rough.mueller[0][0, row, column, 0]
