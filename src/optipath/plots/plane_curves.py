@@ -83,7 +83,8 @@ def in_plane(
     Examples
     --------
     >>> import optipath as op
-    >>> found = op.measure(op.Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+    >>> sample = op.Sample([(0.5 + 2.1j, 0.3)], cells=200)
+    >>> found = op.measure(sample, "40 deg", photons=16_384, sensor=16)
     >>> ax = in_plane({"silver": found}, "S1")
     >>> ax.get_xlabel(), ax.get_ylabel()
     ('exit angle to the normal (°)', 'S1 (1/sr)')

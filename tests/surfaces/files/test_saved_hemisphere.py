@@ -46,6 +46,18 @@ def test_what_is_loaded_is_what_was_measured_to_the_last_bit(form, glass, metal,
             assert all(np.array_equal(*pair, equal_nan=True) for pair in pairs)
 
 
+def test_what_follows_from_it_is_the_same_with_its_errors(metal, tmp_path):
+    metal.save(tmp_path / "a.nc")
+    again = op.load_hemisphere(tmp_path / "a.nc")
+    for name in ("aop", "dolp", "brdf", "adm", "mdm", "single_scattering"):
+        assert getattr(again, name)().identical(getattr(metal, name)())
+    first, second = (
+        op.Source() >> each.toward("40 deg", wavelength="400 nm") >> op.Detector()
+        for each in (metal, again)
+    )
+    assert np.array_equal(first.trace().stokes, second.trace().stokes)
+
+
 @pytest.mark.parametrize("polarized", ["polarized", "scalar"])
 def test_what_was_not_measured_is_not_there_after_loading_either(polarized, tmp_path):
     found = measured([(1j, 0.3)], polarized=polarized)
