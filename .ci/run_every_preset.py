@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import optipath as op
+from optipath.lab.published.experiment_files import experiment_names, load_experiment
 
 
 def main(command: str) -> None:
@@ -25,6 +26,8 @@ def main(command: str) -> None:
             done += 1
     if not all(op.load_sample(name).fields() for name in op.sample_names()):
         raise SystemExit("a sample without layers")
+    if not all(load_experiment(name).measurements for name in experiment_names()):
+        raise SystemExit("an experiment without measurements")
     counts = f"{done} runs of {len(op.preset_names())} presets, {len(op.sample_names())} samples"
     print(f"{counts} from {op.__file__}")
 

@@ -44,7 +44,7 @@ def resident(process: psutil.Process) -> float:
 
 
 def watch(most: list[float]) -> None:
-    """Keep the most memory that a worker has had."""
+    """Keep the most memory that any worker has had."""
     while True:
         there = [resident(each) for each in workers_of(psutil.Process())]
         most[0] = max([most[0], *there])
@@ -53,13 +53,12 @@ def watch(most: list[float]) -> None:
 
 def keep(photons: float, store: Path) -> None:
     """Measure by two workers, and say what it took."""
-    began, most = time.perf_counter(), [0.0]
-    Thread(target=watch, args=(most,), daemon=True).start()
+    began = time.perf_counter()
     with distributed.LocalCluster(**WORKERS, **LOCAL) as cluster, cluster.get_client() as client:
         found = measured(photons, store=store, scheduler=client)
     took = time.perf_counter() - began
     own = resident(psutil.Process())
-    say(f"  {took:.0f} s, at most {most[0]:.2f} GiB a worker, {own:.2f} GiB where they are added")
+    say(f"  {took:.0f} s, {own:.2f} GiB where they are added")
     np.savez(store.with_suffix(".npz"), *found.parts)
 
 
@@ -108,6 +107,8 @@ def main(photons: float, store: Path) -> None:
     """Run it all."""
     chunks = -(-int(photons) // 2**22)
     say(f"{photons:.0e} photons in {chunks} chunks")
+    most = [0.0]
+    Thread(target=watch, args=(most,), daemon=True).start()
     run = started("keep", photons, store)
     wait_for(run, store, chunks / 3)
     workers_of(psutil.Process(run.pid))[0].kill()
@@ -121,6 +122,7 @@ def main(photons: float, store: Path) -> None:
     assert started("keep", photons, store).wait() == 0
     after = marks(store)
     again = sum(after[name] != moment for name, moment in before.items())
+    say(f"  at most {most[0]:.2f} GiB a worker")
     say(f"  it walked {len(after) - len(before)} chunks, and {again} of those kept once more")
     say("in one process, without a store:")
     assert started("alone", photons, store).wait() == 0

@@ -47,6 +47,7 @@ FOUND = {
     "EffectiveIndex": op.effective_index(0.2 + 3.4j, 0.5),
     "Frame": op.Frame(),
     "FresnelAmplitudes": op.fresnel_amplitudes(0.2 + 3.4j, 0.8, 0.6),
+    "Hemisphere": op.measure(op.Sample([(1j, 0.3)]), 0.5, photons=1000, sensor=4),
     "LightPath": PATH.paths()[0],
     "LuChipman": op.Mueller(np.eye(4)).lu_chipman(),
     "Operation": op.Retarder(0.1, 0.2).couplings()[0].operations[0],

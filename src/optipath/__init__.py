@@ -1,14 +1,10 @@
 """Polarised light along optical paths.
 
-Optical elements are nodes of a path graph, each with its own reference frames. A
-composer aligns the frames and orders the work; the plan it makes runs on one set of
-values or on millions.
+Optical elements are nodes of a path graph, each with its own reference frames. A composer aligns
+the frames and orders the work; the plan it makes runs on one set of values or on millions.
 """
 
-import sys
-from importlib import import_module
-from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 # At once, for Ctrl-C while the others are imported.
 from optipath.errors import (
@@ -31,9 +27,10 @@ from optipath.errors import (
     UnitError,
     ValueFault,
 )
-from optipath.spelling import closest
+from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from optipath import plots as plots
     from optipath import surfaces as surfaces
     from optipath.composer.composer import Composer
     from optipath.elements.attenuator import Attenuator
@@ -79,7 +76,10 @@ if TYPE_CHECKING:
     from optipath.plan.certificate import Certificate, intensity_bounds
     from optipath.plan.light_paths.light_path import LightPath
     from optipath.plan.plan import Plan
+    from optipath.surfaces.files.load_hemisphere import load_hemisphere
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
+    from optipath.surfaces.hemispheres.sensor import Sensor
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_files import load_sample, sample_names
     from optipath.sweeps.uncertainty.propagation import Propagation
@@ -143,6 +143,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Frame",
     "FrameError",
     "FresnelAmplitudes",
+    "Hemisphere",
     "Incidence",
     "Index",
     "IndexFault",
@@ -182,6 +183,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "Retarder",
     "Rotator",
     "Sample",
+    "Sensor",
     "ShapeError",
     "Source",
     "Spectrum",
@@ -202,6 +204,7 @@ __all__ = [  # noqa: RUF022 - as sorted() has it
     "fresnel_reflection",
     "fresnel_transmission",
     "intensity_bounds",
+    "load_hemisphere",
     "load_preset",
     "load_sample",
     "measure",
@@ -262,7 +265,10 @@ _HOMES = {
     "plan.certificate": ["Certificate", "intensity_bounds"],
     "plan.light_paths.light_path": ["LightPath"],
     "plan.plan": ["Plan"],
+    "surfaces.files.load_hemisphere": ["load_hemisphere"],
+    "surfaces.hemispheres.hemisphere": ["Hemisphere"],
     "surfaces.hemispheres.measure": ["measure"],
+    "surfaces.hemispheres.sensor": ["Sensor"],
     "surfaces.samples.sample": ["Sample"],
     "surfaces.samples.sample_files": ["load_sample", "sample_names"],
     "sweeps.uncertainty.propagation": ["Propagation"],
@@ -296,25 +302,5 @@ _HOMES = {
 """Where the names are from; all are imported when the first of them is used (PEP 562)."""
 
 
-def __dir__() -> list[str]:
-    return __all__
-
-
 if not TYPE_CHECKING:  # Else any name would do for who checks types.
-
-    def __getattr__(name: str) -> Any:
-        if name == "__version__":
-            from importlib.metadata import version  # noqa: PLC0415 - takes its time
-
-            return version("optipath")
-        if not any(name in names for names in _HOMES.values()):
-            if find_spec(f"optipath.{name}") is not None:
-                return import_module(f"optipath.{name}")
-            near = closest(name, __all__)
-            cure = f"; did you mean '{near}'?" if near else ""
-            wrong = f"module 'optipath' has no attribute '{name}'{cure}"
-            raise AttributeError(wrong, name=name, obj=sys.modules[__name__])
-        for home, names in _HOMES.items():
-            module = import_module(f"optipath.{home}")
-            globals().update({each: getattr(module, each) for each in names})
-        return globals()[name]
+    __getattr__, __dir__ = lazy_names(__name__, _HOMES, at_once=True)

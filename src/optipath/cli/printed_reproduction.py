@@ -47,10 +47,13 @@ def print_reproduced(
         console.print()
         console.print(cell(f'"{text}"'))
         several = [one for one in found if one.measurement.text == text]
-        console.print(_table(several))
-        measures = dict.fromkeys((one.measurement.measure, one.found.mask) for one in several)
-        for measure, mask in measures:
-            console.print(cell(f"{measure}: {MEASURES[measure].told}" + f"; {mask}" * bool(mask)))
+        for mask in dict.fromkeys(one.found.mask for one in several):
+            console.print(_table([one for one in several if one.found.mask == mask]))
+            if mask:
+                console.print(cell(f"of {mask}"))
+    console.print()
+    for measure in dict.fromkeys(one.measurement.measure for one in found):
+        console.print(cell(f"{measure}: {MEASURES[measure].told}"))
 
 
 def _table(several: Sequence[Reproduced]) -> Table:

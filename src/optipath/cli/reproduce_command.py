@@ -59,27 +59,28 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
     try:
         for experiment in experiments:
             done.append((experiment, []))
-            _run(experiment, done[-1][1], **options)
-            if not as_json:
-                print_reproduced(experiment, done[-1][1], first=len(done) == 1)
+            try:
+                _run(*done[-1], **options)
+            finally:
+                if done[-1][1] and not as_json:
+                    print_reproduced(*done[-1], first=len(done) == 1)
     finally:
-        if as_json:
-            say_json({"experiments": [reproduced_as_json(*one) for one in done if one[1]]})
-        elif done and done[-1][1] and not _complete(*done[-1]):
-            print_reproduced(*done[-1], first=len(done) == 1)
+        if as_json and done and done[0][1]:
+            whole = len(done) == len(experiments) and all(
+                len(found) == len(experiment.measurements) for experiment, found in done
+            )
+            several = [reproduced_as_json(*one) for one in done if one[1]]
+            say_json({"experiments": several, "interrupted": not whole})
 
 
 def _run(experiment: Experiment, found: list[Reproduced], **options: Any) -> None:
-    """Append to what has been found, so that it is there where Ctrl-C comes."""
+    """Do an experiment again; what has been found stays where Ctrl-C comes."""
     from optipath.cli.photon_bar import photon_bar  # noqa: PLC0415
     from optipath.lab.published.reproduction import reproduce  # noqa: PLC0415
 
     with photon_bar(experiment.name) as progress:
-        found.extend(reproduce(experiment, progress=lambda _, *told: progress(*told), **options))
-
-
-def _complete(experiment: Experiment, found: list[Reproduced]) -> bool:
-    return len(found) == len(experiment.measurements)
+        for one in reproduce(experiment, progress=progress, **options):
+            found += [one]
 
 
 def _list(experiments: list[Experiment], *, as_json: bool) -> None:

@@ -21,8 +21,8 @@ def whole(text: str) -> int:
 
 
 def _names(_ctx: click.Context, _param: click.Parameter, incomplete: str) -> list[str]:
-    """Return the samples whose names begin so, for shells."""
-    return [name for name in sample_names() if name.startswith(incomplete)]
+    """Return the samples whose names begin so, and the command in their place, for shells."""
+    return [name for name in (*sample_names(), "reproduce") if name.startswith(incomplete)]
 
 
 SAMPLE = click.Argument(["sample"], required=False, metavar="[SAMPLE]", shell_complete=_names)

@@ -19,9 +19,13 @@ _MEANT = {
     "outputs": "write outputs: ClassVar[tuple[str, ...]], or ",
     "natural": "write natural: ClassVar[str], or ",
     "physical": "write physical: ClassVar[bool], or ",
+    "straight": "write straight: ClassVar[bool], or ",
     "mirrored": "write mirrored: ClassVar[tuple[str, ...]], or ",
 }
 """What is meant by fields that are called like what every element has."""
+
+_GIVEN = ("physical", "straight")
+"""What each element of a class may be given, with a domain; a class of one kind says it once."""
 
 
 def _is_name(port: Any) -> bool:
@@ -66,8 +70,7 @@ def _faults(element_class: type[Any], base: type[Any], kind: Any) -> Iterator[st
         yield f"the kind of element class {name} must be a text, not {shown(kind)}"
     own = {field.name: field.type for field in fields(element_class)}
     for field, annotation in own.items():
-        # An element may be given whether it is physical; a class that never is says so once.
-        if hasattr(base, field) and not (field == "physical" and annotation not in (bool, "bool")):
+        if hasattr(base, field) and not (field in _GIVEN and annotation not in (bool, "bool")):
             yield (
                 f"field '{field}' of element class {name} is called like what every element has; "
                 f"{_MEANT.get(field, '')}give it another name"

@@ -30,6 +30,10 @@ class MuellerElement(Element, kind="mueller"):
         numbers: one that could polarise light by more than 100 % (Cloude's criterion), or let
         out more than comes in. False for what has been measured with noise, which
         `Mueller.nearest_physical` mends, and for amplifiers.
+    straight : bool, optional
+        Whether light keeps its direction. False for what it leaves another way, as a mirror or a
+        sample that scatters light: the frames before and behind are two then, each with the
+        direction of its light for z.
 
     Examples
     --------
@@ -42,6 +46,7 @@ class MuellerElement(Element, kind="mueller"):
     matrix: ElementMatrix
     azimuth: Angle = 0.0
     physical: YesOrNo = True  # type: ignore[misc] # each element says it for itself
+    straight: YesOrNo = True  # type: ignore[misc] # ditto
 
     def couplings(self) -> tuple[Coupling, ...]:
         """Return the matrix as it is given."""

@@ -1,9 +1,8 @@
 """Rough surfaces: fields of heights, samples of such layers, and photons that walk over them."""
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from optipath.spelling import closest
+from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from optipath.surfaces.decisions.decide import decide
@@ -13,6 +12,7 @@ if TYPE_CHECKING:
     from optipath.surfaces.facets.facet_model import single_scattering
     from optipath.surfaces.fields.height_field import HeightField
     from optipath.surfaces.files.load_hemisphere import load_hemisphere
+    from optipath.surfaces.files.measured_polarized import write_measured_polarized
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
     from optipath.surfaces.hemispheres.measure import measure
     from optipath.surfaces.hemispheres.sensor import Sensor
@@ -30,34 +30,25 @@ __all__ = [
     "measure",
     "photon_ends",
     "single_scattering",
+    "write_measured_polarized",
 ]
 
 _HOMES = {
-    "HeightField": "fields.height_field",
-    "Photon": "replay.photon",
-    "Hemisphere": "hemispheres.hemisphere",
-    "Sensor": "hemispheres.sensor",
-    "ModelChoice": "decisions.model_choice",
-    "decide": "decisions.decide",
-    "energy": "energies.energy",
-    "load_hemisphere": "files.load_hemisphere",
-    "measure": "hemispheres.measure",
-    "photon_ends": "ends.photon_ends",
-    "single_scattering": "facets.facet_model",
+    "decisions.decide": ["decide"],
+    "decisions.model_choice": ["ModelChoice"],
+    "ends.photon_ends": ["photon_ends"],
+    "energies.energy": ["energy"],
+    "facets.facet_model": ["single_scattering"],
+    "fields.height_field": ["HeightField"],
+    "files.load_hemisphere": ["load_hemisphere"],
+    "files.measured_polarized": ["write_measured_polarized"],
+    "hemispheres.hemisphere": ["Hemisphere"],
+    "hemispheres.measure": ["measure"],
+    "hemispheres.sensor": ["Sensor"],
+    "replay.photon": ["Photon"],
 }
 """Where the names are from; each is imported when it is used (PEP 562), without a compiler."""
 
 
-def __dir__() -> list[str]:
-    return __all__
-
-
 if not TYPE_CHECKING:  # Else any name would do for who checks types.
-
-    def __getattr__(name: str) -> Any:
-        if name not in _HOMES:
-            near = closest(name, __all__)
-            cure = f"; did you mean '{near}'?" if near else ""
-            raise AttributeError(f"module 'optipath.surfaces' has no attribute '{name}'{cure}")
-        module = import_module(f"optipath.surfaces.{_HOMES[name]}")
-        return globals().setdefault(name, getattr(module, name))
+    __getattr__, __dir__ = lazy_names(__name__, _HOMES)

@@ -8,7 +8,7 @@ import pytest
 import optipath as op
 from optipath.kernels.catalogue import REFLECTION
 from optipath.lab.accuracy.chart import Effort, interface_chart, path_chart
-from optipath.lab.accuracy.chart_drawing import check_form, draw
+from optipath.lab.accuracy.chart_drawing import draw
 from optipath.lab.accuracy.chart_file import chart_text, read_chart
 from optipath.lab.accuracy.contenders import contenders
 from optipath.lab.accuracy.many_paths import many_paths
@@ -116,11 +116,6 @@ def test_a_path_with_an_own_matrix_is_charted_without_jones():
 def test_what_is_no_chart_is_refused(text):
     with pytest.raises(op.OptipathError, match="optipath chart --data"):
         read_chart(text, "x.json")
-
-
-def test_a_form_that_cannot_be_drawn_is_refused(tmp_path):
-    with pytest.raises(op.OptipathError, match="ending"):
-        check_form(tmp_path / "chart.docx")
 
 
 def test_interfaces_in_world_frames_keep_their_incidence():

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import warnings
-from io import BytesIO
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import MissingExtraError, OptipathError
+from optipath.errors import MissingExtraError
 from optipath.lab.bench.timing import duration
-from optipath.values.written_files import write_file
+from optipath.values.picture_files import write_picture
 
 try:
     from matplotlib.figure import Figure
@@ -31,7 +30,6 @@ _PANELS = {
 }
 _COLOURS = {"numpy": "#1f6fb4", "numba": "#d9730d", "jax": "#3a8f3a"}
 _SHAPES = {"float64": "o", "float32": "s", "longdouble": "D"}
-_FORMS = (".png", ".svg", ".pdf")
 _SIDES = [(x, y, side) for y in (4, -11, 14) for x, side in ((6, "left"), (-6, "right"))]
 _INK, _FAINT, _RED = "#333333", "#8a8a8a", "#c0392b"
 _SMALL: dict[str, Any] = {"fontsize": 7.5, "color": _FAINT}
@@ -49,19 +47,6 @@ class _Mark(NamedTuple):
     fails: int
 
 
-def check_form(out: Path) -> None:
-    """Refuse a file in whose form nothing can be drawn.
-
-    Raises
-    ------
-    OptipathError
-        Naming the forms that there are.
-    """
-    if out.suffix.lower() not in _FORMS:
-        known = ", ".join(_FORMS)
-        raise OptipathError(f"'{out}' has an ending that cannot be drawn; use one of: {known}")
-
-
 def draw(chart: Mapping[str, Any], out: Path) -> None:
     """Draw a chart into a file; its ending says in which form.
 
@@ -77,12 +62,10 @@ def draw(chart: Mapping[str, Any], out: Path) -> None:
     OSError
         If it cannot be written; what was there before stays.
     """
-    drawn = BytesIO()
     with warnings.catch_warnings():
         # A title may have letters that the font lacks; they are drawn as boxes.
         warnings.filterwarnings("ignore", message="Glyph")
-        _figure(chart).savefig(drawn, format=out.suffix.lower().removeprefix("."))
-    write_file(out, drawn.getvalue())
+        write_picture(_figure(chart), out)
 
 
 def _figure(chart: Mapping[str, Any]) -> Figure:

@@ -47,6 +47,8 @@ class Measurement:
         How far off a number may be, beside two standard errors.
     brighter_than, noise : float
         Of pixels: how bright they must be, and how well known; see `Hemisphere.adm`.
+    azimuth : float
+        And within how many degrees of the plane of incidence, on the forward side.
     stokes : tuple of float
         The light, where the measure depends on it.
     """
@@ -58,6 +60,7 @@ class Measurement:
     within: float = 0.0
     brighter_than: float = 0.2
     noise: float = 0.2
+    azimuth: float = 180.0
     stokes: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
 
     def agrees(self, value: float, error: float) -> bool | None:

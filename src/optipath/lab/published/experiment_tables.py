@@ -26,10 +26,10 @@ TOP: dict[str, Any] = {"format": int, "description": str, "source": str, "sample
 TOP |= {"wavelengths": list, "photons": int, "sensor": int, "measurements": list}
 MEASUREMENT: dict[str, Any] = {"measure": str, "text": str, "incidence": list, "published": list}
 MEASUREMENT |= {"within": object, "cells": int, "stokes": list}
-MEASUREMENT |= {"brighter_than": object, "noise": object}
+MEASUREMENT |= {"brighter_than": object, "noise": object, "azimuth": object}
 
 _NEEDED = ("format", "description", "source", "sample", "measurements")
-_LIMITS = ("within", "brighter_than", "noise")
+_LIMITS = ("within", "brighter_than", "noise", "azimuth")
 
 
 def experiment_of_text(text: str, path: Path, name: str) -> Experiment:
@@ -82,8 +82,16 @@ def _experiment(document: dict[str, Any], folder: Path, name: str) -> Experiment
 
 
 def _sample(given: str, folder: Path) -> Sample:
-    """Return a sample by its name, or out of a file beside that of the experiment."""
-    return load_sample(folder / given if given.endswith(".toml") else given)
+    """Return a sample by its name, or out of a file beside that of the experiment or below it."""
+    if not given.endswith(".toml"):
+        return load_sample(given)
+    try:
+        there = (folder / given).resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError) as error:  # Of links that go round, and of NUL.
+        raise SurfaceError(f"{shown(given)} cannot be read: {error}") from None
+    if not there:
+        raise SurfaceError(f"'{given}' leads out of the folder of the experiment; put it there")
+    return load_sample(folder / given)
 
 
 def _measured(table: Any, sample: Sample | None, wavelengths: tuple[str, ...]) -> list[Measurement]:

@@ -6,7 +6,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optipath.lab.published.facet_comparison import FARTHEST, FacetComparison
+from optipath.lab.published.facet_comparison import (
+    BLOCKS,
+    FARTHEST,
+    model_excess,
+    model_of,
+    model_off,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,6 +21,9 @@ if TYPE_CHECKING:
 
     from optipath.lab.published.experiment import Measurement
     from optipath.lab.published.walked import Walked
+
+
+_ANY = 180.0
 
 
 class Found(NamedTuple):
@@ -54,34 +63,32 @@ class Measure(NamedTuple):
     several: bool = False
 
 
-def _share(name: str) -> Callable[[Walked, Measurement], Found]:
+def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement], Found]:
     def of(walked: Walked, _: Measurement) -> Found:
-        energy = walked.energy
+        energy = walked.energy.scalar if scalar else walked.energy
+        if name == "R+T":
+            error = np.hypot(energy.absorbed_se, energy.lost_se)
+            return Found(float(energy.R + energy.T), float(error))
         return Found(float(getattr(energy, name)), float(getattr(energy, f"{name}_se")))
 
     return of
-
-
-def _whole(walked: Walked, _: Measurement) -> Found:
-    energy = walked.energy
-    error = np.hypot(energy.absorbed_se, energy.lost_se)
-    return Found(float(energy.R + energy.T), float(error))
 
 
 def _largest(name: str) -> Callable[[Walked, Measurement], Found]:
     def of(walked: Walked, measurement: Measurement) -> Found:
         made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
         found: xr.DataArray = made(brighter_than=measurement.brighter_than, noise=measurement.noise)
-        value, error = found.values, found["se"].values
+        # The other side of the plane of incidence is its image.
+        theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
+        value = np.where(azimuth <= measurement.azimuth, found.values, np.nan)
         mask = f"{sensor.pixels} x {sensor.pixels} pixels: {found.attrs['mask']}"
+        if measurement.azimuth < _ANY:
+            mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
         if np.isnan(value).all():
             return Found(np.nan, np.nan, mask)
         at = np.unravel_index(np.nanargmax(value), value.shape)
-        theta, phi = (np.degrees(angle[at]) for angle in (sensor.theta, sensor.phi))
-        # The other side of the plane of incidence is its image.
-        return Found(
-            float(value[at]), float(error[at]), mask, f"{theta:.0f} deg, {abs(phi):.0f} deg"
-        )
+        pixel = f"{theta[at]:.0f} deg, {azimuth[at]:.0f} deg"
+        return Found(float(value[at]), float(found["se"].values[at]), mask, pixel)
 
     return of
 
@@ -95,7 +102,7 @@ def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
         at = np.unravel_index(sensor.place((beam.sin, 0.0, beam.cos)), sensor.theta.shape)
         found: xr.DataArray = getattr(hemisphere, name)(measurement.stokes)
         value, error = (float(each[0, *at, 0]) for each in (found.values, found["se"].values))
-        mask = f"the pixel of {sensor.pixels} x {sensor.pixels} where a mirror would send the light"
+        mask = f"the one of {sensor.pixels} x {sensor.pixels} pixels where a mirror sends the light"
         if name == "aop":
             # The paper folds it: half the arc tangent of |S2 / S1|.
             value = abs(value) if abs(value) <= np.pi / 4.0 else np.pi / 2.0 - abs(value)
@@ -107,29 +114,36 @@ def _mirrored(name: str) -> Callable[[Walked, Measurement], Found]:
 
 def _excess(component: int) -> Callable[[Walked, Measurement], Found]:
     def of(walked: Walked, _: Measurement) -> Found:
-        return Found(*FacetComparison(walked.hemisphere).excess(component), "all pixels")
+        return Found(*model_excess(walked.hemisphere, component))
 
     return of
 
 
 def _model_s3(walked: Walked, _: Measurement) -> Found:
-    model = FacetComparison(walked.hemisphere).model
-    return Found(float(np.nanmax(np.abs(model[..., 3]))), 0.0, "all pixels")
+    return Found(float(np.max(np.abs(model_of(walked.hemisphere)[..., 3]))), 0.0)
 
 
 def _off(walked: Walked, _: Measurement) -> Found:
-    compared = FacetComparison(walked.once).largest_off()
-    return Found(*compared, f"directions within {np.degrees(FARTHEST):.0f} deg of the normal")
+    mask = f"{BLOCKS} x {BLOCKS} blocks of pixels within {FARTHEST:.0f} deg of the normal"
+    return Found(*model_off(walked.once), mask)
 
+
+_SHARES = {
+    "R_s": "share reflected after one event",
+    "R_m": "share reflected after several events",
+    "R": "share reflected",
+    "T_s": "share let through after one event",
+    "T_m": "share let through after several events",
+    "T": "share let through",
+    "R+T": "share reflected or let through",
+}
 
 MEASURES = {
-    "R_s": Measure("share reflected after one event", _share("R_s")),
-    "R_m": Measure("share reflected after several events", _share("R_m")),
-    "R": Measure("share reflected", _share("R")),
-    "T_s": Measure("share let through after one event", _share("T_s")),
-    "T_m": Measure("share let through after several events", _share("T_m")),
-    "T": Measure("share let through", _share("T")),
-    "R+T": Measure("share reflected or let through", _whole),
+    **{name: Measure(told, _share(name)) for name, told in _SHARES.items()},
+    **{
+        f"scalar-{name}": Measure(f"{told}, without polarisation", _share(name, scalar=True))
+        for name, told in _SHARES.items()
+    },
     "adm": Measure("largest ADM of a pixel", _largest("adm"), several=True),
     "mdm": Measure("largest MDM of a pixel", _largest("mdm"), several=True),
     "dolp": Measure("DoLP of mirrored light", _mirrored("dolp")),

@@ -86,7 +86,7 @@ def _known_again(given: Any, kept: Mapping[str, Any]) -> Sample:
     if not isinstance(given, Sample):
         raise SurfaceError(f"sample is {shown(given)}; give the op.Sample that was measured")
     if _digest(given) != kept["digest"]:
-        raise SurfaceError(f"sample is {given!r}, which is not the one that was measured")
+        raise SurfaceError(f"sample is {given}, which is not the one that was measured")
     return given
 
 

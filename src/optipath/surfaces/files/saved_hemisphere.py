@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import os
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from optipath.errors import MissingExtraError, SurfaceError
+from optipath.surfaces.files.file_faults import told_of
 from optipath.surfaces.files.stokes_picture import StokesPicture
 from optipath.values.given_files import given_file
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
 _WRITERS = {".zarr": ("zarr", "write_zarr"), ".nc": ("h5netcdf", "write_netcdf")}
@@ -37,14 +35,17 @@ def save_hemisphere(hemisphere: Hemisphere, path: Any, source: Any, side: Any) -
     place = given_file(path, SurfaceError)
     if place.suffix == ".exr":
         picture = StokesPicture.of(hemisphere, source, side)
-        _told_of(place, picture.write)
+        with told_of(place):
+            picture.write(place)
     elif place.suffix in _WRITERS:
         if given := [n for n, each in {"source": source, "side": side}.items() if each is not None]:
             raise SurfaceError(
                 f"'{place}' is to hold the light of every source on all sides; leave "
                 f"{'= and '.join(given)}= out, or give a name that ends in .exr for a picture"
             )
-        _told_of(place, _writer(hemisphere, place.suffix))
+        write = _writer(hemisphere, place.suffix)
+        with told_of(place):
+            write(place)
     else:
         raise SurfaceError(
             f"'{place}' has no ending of a hemisphere; give .zarr or .nc for all that was "
@@ -68,14 +69,3 @@ def _extra(module: str, package: str) -> Any:
     except ImportError as fault:
         missing = fault.name if fault.name in ("xarray", "zarr", "h5netcdf", "h5py") else package
         raise MissingExtraError("files of hemispheres", missing, "sweep") from None
-
-
-def _told_of(place: Path, write: Any) -> None:
-    """Write, and tell in a sentence what the file system refuses."""
-    try:
-        write(place)
-    except OSError as fault:
-        why = os.strerror(fault.errno) if fault.errno else fault
-        raise SurfaceError(
-            f"'{place}' cannot be written: {why}; give a name in a folder that takes files"
-        ) from None

@@ -72,12 +72,10 @@ class StokesPicture:
             )
         place = hemisphere.side(sides[0] if side is None else side)
         state = np.array(given_state("source", UNPOLARISED if source is None else source))
-        matrices, _ = hemisphere.mueller
-        sensor = hemisphere.sensor
-        area = (sensor.solid_angle * np.cos(sensor.theta))[:, :, np.newaxis, np.newaxis]
         with np.errstate(over="ignore"):
-            light = np.asarray(matrices[place] @ (state / state[0]) / area, np.float32)
-        seen = np.where(np.isnan(area), np.float32(0.0), light)[::-1]
+            brdf = hemisphere.brdf().to_numpy()[place]
+            light = np.asarray(brdf @ (state / state[0]), np.float32)
+        seen = np.where(np.isnan(light), np.float32(0.0), light)[::-1]
         return cls(
             _channels(seen, hemisphere.wavelengths),
             _attributes(hemisphere, sides[place], state),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from hashlib import sha256
 from importlib.metadata import version
 from typing import TYPE_CHECKING
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
+    from optipath.surfaces.hemispheres.sensor import Sensor
     from optipath.surfaces.samples.sample import Sample
     from optipath.surfaces.samples.sample_layer import Roughness
 
@@ -26,7 +28,15 @@ _SOURCES = "kernels", "engines/formulas", "surfaces"
 """What the bits follow from."""
 
 
-def chunk_identity(seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photons: int) -> str:
+@cache
+def measuring_code() -> str:
+    """Return a hash of all that the bits of a measurement follow from but for what is measured."""
+    return f"{version('optipath')}, {digest_of(_SOURCES)[:16]}"
+
+
+def chunk_identity(
+    seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photons: int, code: str
+) -> str:
     """Return all of what is measured, a line each, so that the first other one can be told.
 
     Parameters
@@ -37,6 +47,8 @@ def chunk_identity(seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photo
         In metres.
     photons : int
         How many there are.
+    code : str
+        As `measuring_code` returns it.
 
     Returns
     -------
@@ -44,9 +56,9 @@ def chunk_identity(seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photo
         Numbers stand in it to their last bit. Indices are those that photons meet, and heights
         are known by a hash, so that neither depends on names of materials and files.
     """
-    beam, sensor = seen.beam, seen.sensor
+    beam = seen.beam
     lines = [
-        f"a measurement by optipath {version('optipath')}, layout {LAYOUT}",
+        f"a measurement by optipath {code}, layout {LAYOUT}",
         *_sample_lines(beam.sample),
         f"index outside: {beam.indices.outside!r}",
         f"indices between: {beam.indices.inner!r}",
@@ -56,13 +68,12 @@ def chunk_identity(seen: SensedBeam, wavelengths: npt.NDArray[np.float64], photo
         f"incidence, cosine and sine: {beam.cos!r}, {beam.sin!r}",
         f"azimuth: {beam.azimuth!r}",
         f"states: {beam.states!r}",
-        f"sensor: {sensor!r}",
+        f"sensor: {_sensor(seen.sensor)}",
         f"polarized: {seen.polarized}",
         f"events: {seen.events}",
         f"most_events: {beam.most_events}",
         f"seed: {beam.seed}",
         f"photons: {photons}",
-        f"sources: {digest_of(_SOURCES)[:16]}",
     ]
     return "\n".join(lines)
 
@@ -74,6 +85,11 @@ def _sample_lines(sample: Sample) -> Iterator[str]:
         yield f"cells: {sample.cells!r}"
         yield f"periodic: {sample.periodic}"
         yield f"surfaces: {sample.surfaces}, of seed {sample.seed}"
+
+
+def _sensor(sensor: Sensor) -> str:
+    side = int(sensor.pixels)
+    return f"{side} x {side} pixels, {sensor.projection}, {int(sensor.parts)} parts"
 
 
 def _told(roughness: Roughness) -> str:

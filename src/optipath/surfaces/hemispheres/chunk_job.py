@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.surfaces.hemispheres.chunk_identity import chunk_identity
+from optipath.errors import SurfaceError
+from optipath.surfaces.hemispheres.chunk_identity import chunk_identity, measuring_code
 from optipath.surfaces.hemispheres.part_sums import PartSums
 from optipath.surfaces.hemispheres.sensed_beam import CHUNK, SensedBeam
 from optipath.sweeps.blocks.block_job import KeptArray, WholeArray
@@ -35,17 +36,20 @@ class ChunkJob:
         How many there are.
     threads : int
         How many walk at a time in each chunk.
+    code : str
+        That of who measures, which workers are to have as well.
     """
 
     seen: SensedBeam
     wavelengths: npt.NDArray[np.float64]
     photons: int
     threads: int = 1
+    code: str = field(default_factory=measuring_code)
 
     @property
     def identity(self) -> str:
         """All of what is measured, a line each."""
-        return chunk_identity(self.seen, self.wavelengths, self.photons)
+        return chunk_identity(self.seen, self.wavelengths, self.photons, self.code)
 
     @property
     def blocks(self) -> int:
@@ -105,7 +109,17 @@ class ChunkJob:
         Returns
         -------
         dict of str to (tuple of slice, ndarray)
+
+        Raises
+        ------
+        SurfaceError
+            If a worker has another optipath than who measures.
         """
+        if measuring_code() != self.code:
+            raise SurfaceError(
+                f"a worker has optipath {measuring_code()}, and the measurement was begun by "
+                f"{self.code}; install one version everywhere, and start workers anew"
+            )
         # Chunks that are walked at one time have other surfaces in turn, each set kept by a sample.
         own = replace(self.seen.beam, sample=copy(self.seen.beam.sample))
         found = replace(self.seen, beam=own).chunk(number, self.photons, self.threads)

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optipath.surfaces.files.saving import Saving
+from optipath.surfaces.files.saved_by_name import Saving
 from optipath.surfaces.hemispheres.facet_modelling import FacetModelling
 from optipath.surfaces.hemispheres.pixel_light import PixelLight
 from optipath.surfaces.hemispheres.polarization_effect import PolarizationEffect
+from optipath.surfaces.hemispheres.toward import Toward
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-class Hemisphere(PixelLight, PolarizationEffect, FacetModelling, Saving):
+class Hemisphere(PixelLight, FacetModelling, Saving, PolarizationEffect, Toward):
     """The Mueller matrix of each pixel of a hemisphere, and what it is without polarisation.
 
     `measure` makes them. The light of a pixel is the share of the light on the sample that goes
@@ -47,5 +48,5 @@ class Hemisphere(PixelLight, PolarizationEffect, FacetModelling, Saving):
         angle = np.degrees(np.arctan2(beam.sin, beam.cos))
         return (
             f"Hemisphere of {beam.sample!r} at {angle:.4g} deg, {sensor.pixels} x {sensor.pixels} "
-            f"pixels, {self.photons} photons"
+            f"pixels, {f'{self.photons} photons' if self.photons else 'known without photons'}"
         )

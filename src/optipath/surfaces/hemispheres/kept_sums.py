@@ -15,7 +15,7 @@ from optipath.sweeps.blocks.keep_blocks import keep_blocks
 from optipath.sweeps.blocks.workers import active_client
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
     from pathlib import Path
 
     from optipath.surfaces.hemispheres.chunk_job import ChunkJob
@@ -58,17 +58,17 @@ def kept_sums(
     # Whoever asks is warned of coarse meshes, and not workers.
     job.seen.beam.sample.fields()
     folder = keep_blocks(replace(job, threads=int(threads)), store, scheduler, tell)
+    there = [zarr.open_array(str(folder / name), mode="r") for name in PartSums._fields]
     found = PartSums.none(job.seen.shape)
     for number in range(job.blocks):
-        found.add(_read(folder, number))
+        found.add(_read(folder, there, number))
     return found
 
 
-def _read(folder: Path, number: int) -> PartSums:
+def _read(folder: Path, there: Iterable[zarr.Array[Any]], number: int) -> PartSums:
     """Return the sums of a chunk."""
     try:
-        group = zarr.open_group(str(folder), mode="r")
-        return PartSums(*(group[name][number] for name in PartSums._fields))  # type: ignore[arg-type, index]
+        return PartSums(*(each[number] for each in there))  # type: ignore[arg-type]
     except (OSError, RuntimeError, ValueError, KeyError, TypeError) as fault:
         raise JobError(
             f"chunk {number} of '{folder}' cannot be read ({fault}); delete "

@@ -12,6 +12,7 @@ from optipath.errors import MissingExtraError, SurfaceError, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.energies.given_run import processors
 from optipath.surfaces.hemispheres.chunk_job import ChunkJob
+from optipath.surfaces.hemispheres.flat_light import flat_light, is_flat
 from optipath.surfaces.hemispheres.given_store import given_store
 from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 from optipath.surfaces.hemispheres.part_sums import PartSums
@@ -32,7 +33,13 @@ if TYPE_CHECKING:
     from optipath.surfaces.samples.sample import Sample
 
 _KINDS = ("both", "polarized", "scalar")
+_NOTHING_TO_KEEP = (
+    "all interfaces of the sample are flat: its light is known without photons, and there is "
+    "nothing to keep; leave out store and scheduler"
+)
 _MOST = 1_000_000_000_000
+_IN_PLANE = 1e-9
+"""The sine of an azimuth whose plane of incidence is that of x, but for roundings."""
 
 
 def measure(
@@ -54,6 +61,10 @@ def measure(
     progress: Callable[[int, int], None] | None = None,
 ) -> Hemisphere:
     """Return the Mueller matrix of a sample for light from one direction, in all directions.
+
+    Of a sample of flat interfaces alone all light is known, and goes into one pixel of each side:
+    no photons are walked, ``photons`` and the counts are 0, and so are the errors (unless
+    ``events`` or less than 1000 ``most_events`` cut the light short).
 
     Parameters
     ----------
@@ -80,7 +91,8 @@ def measure(
         After how many events light is seen: 1 for what is scattered once; any number by default.
     symmetric : bool, optional
         Whether the two sides of the plane of incidence are taken to be mirror images, which
-        halves the variance; by default where the sample is isotropic.
+        halves the variance; by default where the sample is isotropic. One with a direction may
+        be so from 0 and 180 deg, as where ``alpha`` is a pair.
     most_events : int, optional
         After how many events a photon is given up.
     threads : int, optional
@@ -131,6 +143,12 @@ def measure(
     )
     assert pixels is not None  # noqa: S101 - or a fault has been raised
     mirrors = sample.isotropic if mirrors is None else mirrors
+    if mirrors and not sample.isotropic and abs(np.sin(beam.azimuth)) > _IN_PLANE:
+        raise SurfaceError(
+            f"symmetric is True, and azimuth {np.degrees(beam.azimuth):.6g} deg; pixels are "
+            f"mirrored across the plane of x, so give an azimuth of 0 or 180 deg, or leave "
+            f"symmetric out"
+        )
     states = (UNPOLARISED,) if polarized == "scalar" else STATES
     seen = SensedBeam(replace(beam, states=states), pixels, polarized, events)
     refuse_too_large(
@@ -143,7 +161,11 @@ def measure(
     _check_extras("xarray", *(() if place is None else ("zarr", "dask", "distributed")))
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
     when = np.atleast_1d(np.ravel(when))
-    if place is None:
+    if is_flat(seen):
+        if place is not None:
+            raise SurfaceError(_NOTHING_TO_KEEP)
+        sums = flat_light(seen)
+    elif place is None:
         walking = processors() if threads is None else int(threads)
         sums = _summed(seen, int(photons), walking, progress)
     else:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from optipath.errors import SurfaceError, shown
+from optipath.values.arrays.read_only import same
 
 if TYPE_CHECKING:
     from optipath.surfaces.hemispheres.part_sums import PartSums
@@ -40,6 +41,17 @@ class MeasuredPixels:
     wavelengths: Numbers
     symmetric: bool
 
+    def __eq__(self, other: object) -> Any:
+        if type(other) is not type(self):
+            return NotImplemented
+        assert isinstance(other, MeasuredPixels)  # noqa: S101 - for who checks types
+        mine, its = ((each.seen, each.parts, each.symmetric) for each in (self, other))
+        # No wavelength is NaN, which is here the same as itself.
+        alike = np.array_equal(self.wavelengths, other.wavelengths, equal_nan=True)
+        return alike and same(mine, its)
+
+    __hash__ = None  # type: ignore[assignment]
+
     @property
     def sensor(self) -> Sensor:
         """The pixels."""
@@ -47,7 +59,7 @@ class MeasuredPixels:
 
     @property
     def photons(self) -> int:
-        """How many have been walked."""
+        """How many have been walked; none where all interfaces are flat, and light is known."""
         return int(self.parts.photons.sum())
 
     @cached_property

@@ -17,7 +17,7 @@ _MIRRORED = np.outer([1.0, 1.0, -1.0, -1.0], [1.0, 1.0, -1.0, -1.0]).ravel()
 
 
 class PartSums(NamedTuple):
-    """Sums over photons, part by part.
+    """Sums over photons, part by part; or, where none are walked, light that is known exactly.
 
     Attributes
     ----------
@@ -26,7 +26,8 @@ class PartSums(NamedTuple):
     counts : ndarray of int, shape (sides, rows, columns)
         How many photons have fallen on each pixel.
     photons : ndarray of int, shape (parts,)
-        How many photons have been walked.
+        How many photons have been walked; none where the sum over the parts is the light itself,
+        and has no error.
     """
 
     sums: Numbers
@@ -68,9 +69,13 @@ class PartSums(NamedTuple):
         Returns
         -------
         value, error : ndarray
-            The error is NaN where there are less than two parts.
+            The error is NaN where there are less than two parts of the photons.
         """
         total, photons = self.sums.sum(axis=0), self.photons.sum()
+        if not photons:
+            with np.errstate(invalid="ignore", divide="ignore"):
+                value = found(total)
+            return value, np.zeros_like(value)
         with np.errstate(invalid="ignore", divide="ignore"):
             value = found(total / photons)
             # Of the differences from the whole, since the squares of the values cancel.

@@ -59,14 +59,13 @@ class PixelLight(MeasuredPixels):
         >>> brdf.dims, brdf.units, brdf.se.dims == brdf.dims
         (('side', 'y', 'x', 'wavelength', 'out', 'in'), '1/sr', True)
         """
-        sensor = self.sensor
-        area = (sensor.solid_angle * np.cos(sensor.theta))[:, :, np.newaxis]
+        area = (self.sensor.solid_angle * np.cos(self.sensor.theta))[:, :, np.newaxis]
         if not polarized:
-            found = self.own.estimate(lambda light: self.intensities(light) / area)
-            return self._array("brdf", found, "BRDF without polarisation", "1/sr")
-        area = area[..., np.newaxis, np.newaxis]
-        found = self.own.estimate(lambda light: self.matrices(light) / area)
-        return self._array("brdf", found, "Mueller matrix of the BRDF", "1/sr", ("out", "in"))
+            value, error = (each / area for each in self.scalar)
+            return self._array("brdf", (value, error), "BRDF without polarisation", "1/sr")
+        value, error = (each / area[..., np.newaxis, np.newaxis] for each in self.mueller)
+        what = "Mueller matrix of the BRDF"
+        return self._array("brdf", (value, error), what, "1/sr", ("out", "in"))
 
     def stokes(self, source: npt.ArrayLike = UNPOLARISED) -> xr.DataArray:
         """Return the Stokes vector of the light that goes into each pixel.

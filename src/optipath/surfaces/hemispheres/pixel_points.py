@@ -56,5 +56,5 @@ def pixel_points(sensor: Sensor, points: int) -> Iterator[tuple[Numbers, Numbers
             radius = np.hypot(x, y)
             area = 0.5 * (end - begin) * half * weight_x * weight_y * projection.density(radius)
             theta = np.where(area > 0.0, projection.angle(np.minimum(radius, 1.0)), 0.0)
-            level = np.sin(theta) / radius
+            level = np.sin(theta) / np.where(radius > 0.0, radius, 1.0)
             yield np.stack([level * x, level * y, np.cos(theta)], axis=-1), area

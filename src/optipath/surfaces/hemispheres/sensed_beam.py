@@ -14,6 +14,7 @@ from optipath.surfaces.walk.photon_beam import BLOCK, PORTION
 from optipath.surfaces.walk.walk_code import pixel_code
 from optipath.surfaces.walk.walk_layout import DOWN, EVENTS, OUTCOME, UP
 from optipath.surfaces.walk.walked_in_order import walked_in_order
+from optipath.values.arrays.read_only import same_fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,7 +48,7 @@ class _Seen(NamedTuple):
     ends: npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SensedBeam:
     """Photons, and how they are seen; chunks of them do not depend on each other.
 
@@ -67,6 +68,9 @@ class SensedBeam:
     sensor: Sensor
     polarized: str
     events: int | None
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
 
     @property
     def sides(self) -> tuple[str, ...]:

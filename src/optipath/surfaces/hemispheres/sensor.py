@@ -17,6 +17,10 @@ from optipath.surfaces.hemispheres.projections import PROJECTIONS
 from optipath.values.whole_numbers import whole_number
 
 Numbers = npt.NDArray[np.float64]
+Places = npt.NDArray[np.int64]
+
+_BORDER = 1e-6
+"""How far from the border of a pixel, in pixels, directions still are on it."""
 
 
 @dataclass(frozen=True)
@@ -116,13 +120,40 @@ class Sensor:
         -------
         ndarray of int, shape (...)
         """
+        last = self.pixels - 1
+        column, row = (np.clip(each.astype(np.int64), 0, last) for each in self._at(directions))
+        return np.asarray(row * self.pixels + column)
+
+    def around(self, direction: npt.ArrayLike) -> tuple[Places, Places]:
+        """Return the pixel in which a direction is, or all those on whose border it is.
+
+        Parameters
+        ----------
+        direction : array_like, shape (3,)
+            A unit vector, upwards or downwards.
+
+        Returns
+        -------
+        rows, columns : ndarray of int, shape (pixels,)
+            Of one pixel, of two or of four: where there is an even number along each side, all
+            directions in the plane of incidence are on the border of two.
+
+        Examples
+        --------
+        >>> print(*Sensor(64).around([0.6, 0.0, 0.8]), *Sensor(65).around([0.6, 0.0, 0.8]))
+        [31 32] [45 45] [32] [45]
+        """
+        last = self.pixels - 1
+        columns, rows = (
+            np.unique(np.clip(np.floor([each - _BORDER, each + _BORDER]).astype(int), 0, last))
+            for each in self._at(direction)
+        )
+        return np.repeat(rows, len(columns)), np.tile(columns, len(rows))
+
+    def _at(self, directions: npt.ArrayLike) -> tuple[Numbers, Numbers]:
+        """Return where directions are, in columns and in rows from the corner."""
         x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
         sin = np.hypot(x, y)
         radius = PROJECTIONS[self.projection].radius(sin, np.abs(z))
-        scale = radius / np.where(sin > 0.0, sin, 1.0)
-        last = self.pixels - 1
-        column, row = (
-            np.clip(((scale * each + 1.0) * (0.5 * self.pixels)).astype(np.int64), 0, last)
-            for each in (x, y)
-        )
-        return np.asarray(row * self.pixels + column)
+        scale, half = radius / np.where(sin > 0.0, sin, 1.0), 0.5 * self.pixels
+        return (scale * x + 1.0) * half, (scale * y + 1.0) * half

@@ -65,6 +65,14 @@ class SampleLayer:
         return isinstance(self.roughness, tuple) and self.roughness != (0.0, 0.0)
 
     @property
+    def is_flat(self) -> bool:
+        """Whether it is a plane that goes on for ever."""
+        rough = self.roughness
+        if isinstance(rough, HeightField):
+            return rough.is_flat and rough.periodic
+        return rough == (0.0, 0.0)
+
+    @property
     def isotropic(self) -> bool:
         """Whether no direction is any other."""
         rough = self.roughness

@@ -24,6 +24,7 @@ from optipath.surfaces.walk.walk_layout import (
     SUMS,
 )
 from optipath.surfaces.walk.walked_block import WalkedBlock
+from optipath.values.arrays.read_only import same_fields
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -41,7 +42,7 @@ TURN = 1 << 19
 """How many photons walk over a realisation before another is drawn in its place."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PhotonBeam:
     """What is needed to walk any block of photons; blocks do not depend on each other.
 
@@ -77,6 +78,9 @@ class PhotonBeam:
     states: tuple[tuple[float, float, float, float], ...]
     seed: int
     most_events: int
+
+    __eq__ = same_fields
+    __hash__ = None  # type: ignore[assignment]
 
     @cached_property
     def lights(self) -> int:

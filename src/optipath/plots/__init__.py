@@ -1,0 +1,43 @@
+"""Pictures, drawn with Matplotlib into axes that are given or made; nothing is shown by itself."""
+
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from optipath.errors import MissingExtraError
+from optipath.lazy_names import lazy_names
+
+if TYPE_CHECKING:
+    from optipath.plots.difference_discs import differences
+    from optipath.plots.facet_panel import beside_facets
+    from optipath.plots.hemisphere_map import hemisphere
+    from optipath.plots.mueller_map import mueller_hemisphere
+    from optipath.plots.plane_curves import in_plane
+    from optipath.plots.saved_picture import save
+
+__all__ = [
+    "beside_facets",
+    "differences",
+    "hemisphere",
+    "in_plane",
+    "mueller_hemisphere",
+    "save",
+]
+
+_HOMES = {
+    "difference_discs": ["differences"],
+    "facet_panel": ["beside_facets"],
+    "hemisphere_map": ["hemisphere"],
+    "mueller_map": ["mueller_hemisphere"],
+    "plane_curves": ["in_plane"],
+    "saved_picture": ["save"],
+}
+"""Where the names are from; each is imported when it is used (PEP 562)."""
+
+
+def _check_matplotlib() -> None:
+    if find_spec("matplotlib") is None:
+        raise MissingExtraError("pictures", "matplotlib", "plot")
+
+
+if not TYPE_CHECKING:  # Else any name would do for who checks types.
+    __getattr__, __dir__ = lazy_names(__name__, _HOMES, needs=_check_matplotlib)

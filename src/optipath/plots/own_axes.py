@@ -1,0 +1,73 @@
+"""Axes to draw into: those that are given, or those of a figure of their own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from optipath.errors import OptipathError, shown
+
+if TYPE_CHECKING:
+    Panel: TypeAlias = np.ndarray[Any, Any]
+
+
+def own_axes(given: Any, size: tuple[float, float]) -> Axes:
+    """Return the axes that are given, or those of a new figure that no window belongs to.
+
+    Parameters
+    ----------
+    given : Axes or None
+        What a caller has.
+    size : tuple of float
+        Of a new figure, in inches.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    OptipathError
+        If what is given is something else.
+    """
+    if given is None:
+        return Figure(figsize=size, layout="constrained").add_subplot()
+    if not isinstance(given, Axes):
+        raise OptipathError(f"ax is {shown(given)}; give Axes of Matplotlib, or leave it out")
+    return given
+
+
+def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> Panel:
+    """Return the axes that are given, or those of a new figure, row by row.
+
+    Parameters
+    ----------
+    given : array_like of Axes, or None
+        What a caller has.
+    shape : tuple of int
+        How many rows and columns there are to be.
+    size : tuple of float
+        Of a new figure, in inches.
+
+    Returns
+    -------
+    ndarray of Axes
+
+    Raises
+    ------
+    OptipathError
+        If what is given is something else, or of another shape.
+    """
+    if given is None:
+        return Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
+    panel = np.array(given, object)
+    if panel.size != shape[0] * shape[1] or not all(isinstance(ax, Axes) for ax in panel.flat):
+        rows, columns = shape
+        raise OptipathError(
+            f"axes are {shown(given)}; give {rows} x {columns} Axes of Matplotlib, as "
+            f"figure.subplots({rows}, {columns}) makes them, or leave them out"
+        )
+    return panel.reshape(shape)

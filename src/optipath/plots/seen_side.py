@@ -1,0 +1,167 @@
+"""SeenSide: one side of a measured sample, at one wavelength, for light of one state."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, SurfaceError, listed, shown
+from optipath.paths.format.faults import Faults
+from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+from optipath.surfaces.hemispheres.projections import PROJECTIONS
+from optipath.surfaces.walk.given_beam import given_state
+from optipath.values.displayed import displayed
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SeenSide:
+    """One side of a measured sample, at one wavelength, for light of one state.
+
+    Attributes
+    ----------
+    measured : Hemisphere
+        All of it.
+    side : {"reflected", "transmitted"}
+        Which side.
+    place : int or None
+        Of the wavelength, among those measured; None where they are all seen together.
+    source : tuple of float, (S0, S1, S2, S3)
+        The light that comes in, in the frame whose x is horizontal.
+    """
+
+    measured: Hemisphere
+    side: str
+    place: int | None
+    source: tuple[float, ...]
+
+    @classmethod
+    def of(
+        cls, measured: Any, side: Any, wavelength: Any, source: Any, *, every: bool = False
+    ) -> SeenSide:
+        """Return the side that pictures are asked for.
+
+        Parameters
+        ----------
+        measured : Hemisphere
+            What `measure` returned.
+        side : {"reflected", "transmitted"}
+            Above the sample, or below.
+        wavelength : float, str or None
+            One of those measured; None where there is only one.
+        source : array_like, shape (4,)
+            The Stokes vector of the light that comes in.
+        every : bool, optional
+            Whether all wavelengths are seen together.
+
+        Returns
+        -------
+        SeenSide
+
+        Raises
+        ------
+        SurfaceError
+            With all faults at once.
+        """
+        if not isinstance(measured, Hemisphere):
+            raise SurfaceError(f"{shown(measured)} is no Hemisphere; give what op.measure returned")
+        faults = Faults()
+        faults.attempt("", measured.side, side)
+        place = None if every else faults.attempt("", _place, measured.wavelengths, wavelength)
+        state = faults.attempt("", given_state, "source", source)
+        if faults:
+            raise SurfaceError(*faults)
+        assert state is not None  # noqa: S101 - or a fault has been raised
+        return cls(measured, side, place, state)
+
+    def pixels(self, numbers: Numbers) -> Numbers:
+        """Return what is known of the pixels of this side, NaN beyond the horizon.
+
+        Parameters
+        ----------
+        numbers : ndarray, shape (sides, rows, columns, wavelengths, ...)
+            Of all sides and wavelengths.
+
+        Returns
+        -------
+        ndarray, shape (rows, columns, ...)
+        """
+        found = numbers[self.measured.side(self.side), :, :, self.place].copy()
+        found[self.measured.sensor.solid_angle == 0.0] = np.nan
+        return found
+
+    def radius(self, theta: float) -> float:
+        """Return how far from the centre of the disc light falls, 1 at the horizon.
+
+        Parameters
+        ----------
+        theta : float
+            Its angle to the normal, in radians.
+
+        Returns
+        -------
+        float
+        """
+        projection = PROJECTIONS[self.measured.sensor.projection]
+        return float(projection.radius(np.sin(theta), np.cos(theta)))
+
+    @property
+    def mirrored(self) -> float:
+        """The angle to the normal of light that a smooth sample reflects or lets through, in rad.
+
+        NaN where all of it is totally reflected.
+        """
+        beam = self.measured.seen.beam
+        if self.side == "reflected":
+            return float(np.arctan2(beam.sin, beam.cos))
+        # A clear base has one index for all wavelengths that are measured together.
+        sin = beam.sin * beam.indices.outside / float(beam.indices.n.flat[0])
+        return float(np.arcsin(sin)) if sin <= 1.0 else np.nan
+
+    def titled(self, what: str) -> str:
+        """Return the title of a picture of this side."""
+        seen, when = self.measured.seen, self.measured.wavelengths
+        parts = [what, self.side, f"incidence {degrees(np.arctan2(seen.beam.sin, seen.beam.cos))}"]
+        if self.place is not None and not np.isnan(when[self.place]):
+            parts.append(f"{when[self.place] * 1e9:.5g} nm")
+        elif self.place is None and len(when) > 1:
+            parts.append(f"{len(when)} wavelengths")
+        parts += {None: [], 1: ["one event"]}.get(seen.events, [f"{seen.events} events"])
+        if any(self.source[1:]):
+            parts[-1] += "\nsource ({:g}, {:g}, {:g}, {:g})".format(*self.source)
+        return ", ".join(parts)
+
+
+def degrees(angle: float) -> str:
+    """Return an angle in radians, as titles have it."""
+    return f"{np.degrees(angle):.4g}°"
+
+
+def _place(wavelengths: Numbers, wanted: Any) -> int:
+    """Return which of some wavelengths is wanted."""
+    if wanted is None and len(wavelengths) == 1:
+        return 0
+    if np.isnan(wavelengths).any():
+        raise SurfaceError("wavelength is given, but nothing depends on it; leave it out")
+    there = listed([displayed(each, "nm") for each in wavelengths])
+    if wanted is None:
+        raise SurfaceError(f"wavelength is missing; give one of {there}")
+    try:
+        when = np.asarray(Wavelength().resolve(wanted).value, float)
+    except OptipathError as fault:
+        raise SurfaceError(*fault.faults) from None
+    if when.size != 1:
+        raise SurfaceError(f"wavelength is {shown(wanted)}; give one of {there}")
+    near = np.isclose(wavelengths, when.item(), rtol=1e-9, atol=0.0)
+    if not near.any():
+        raise SurfaceError(
+            f"{displayed(when.item(), 'nm')} has not been measured; give a wavelength of {there}"
+        )
+    return int(np.argmax(near))

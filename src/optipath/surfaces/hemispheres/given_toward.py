@@ -1,0 +1,137 @@
+"""What users say of the light of a hemisphere: directions and a wavelength, read and checked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.errors import OptipathError, SurfaceError, listed, shown
+from optipath.surfaces.facets.directions import frame_along
+from optipath.values.domains.quantities import ANGLE
+from optipath.values.parameters import Parameter
+from optipath.values.units import format_quantity
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from optipath.light.frames import Frame
+
+_SAME = 1e-9
+"""By how much of itself a wavelength may differ from the one that is meant."""
+
+
+def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
+    """Return the frame of light toward a direction, or several.
+
+    Parameters
+    ----------
+    given : float, str or array_like
+        An angle in the plane of incidence, or a unit vector of shape (..., 3).
+    azimuth : float
+        Towards which side light goes that is mirrored, from x towards y.
+    up : bool
+        Whether it is above the sample.
+
+    Returns
+    -------
+    Frame
+        Its x is perpendicular to the meridional plane.
+
+    Raises
+    ------
+    SurfaceError
+        If that is no direction on this side of the sample.
+
+    Examples
+    --------
+    >>> print(direction_of(["30 deg", "-30 deg"], 0.0, up=True).z.round(6))
+    [[ 0.5       0.        0.866025]
+     [-0.5       0.        0.866025]]
+    """
+    if isinstance(given, Parameter):
+        raise SurfaceError(
+            f"direction is {given.called}; give a direction, and make an element for each"
+        )
+    try:
+        if _is_angle(given):
+            given = _in_plane(ANGLE.check("direction", given), azimuth, up=up)
+        return frame_along("direction", given, up=up)
+    except SurfaceError:
+        raise
+    except OptipathError as fault:
+        raise SurfaceError(*fault.faults) from None
+
+
+def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:
+    """Return the place of a wavelength among those that have been measured.
+
+    Parameters
+    ----------
+    known : ndarray, shape (wavelengths,)
+        In metres; NaN where nothing depends on it.
+    given : float, str or None
+        Which is meant; None of one.
+
+    Returns
+    -------
+    int
+
+    Raises
+    ------
+    SurfaceError
+        If it is not said which of several is meant, or it is none of them.
+
+    Examples
+    --------
+    >>> wavelength_place(np.array([4e-7, 5e-7]), "500 nm")
+    1
+    """
+    if given is None:
+        if len(known) > 1:
+            raise SurfaceError(
+                f"{len(known)} wavelengths have been measured; give one of them, {_told(known)}"
+            )
+        return 0
+    if np.isnan(known[0]):
+        raise SurfaceError(
+            f"wavelength is {shown(given)}, but nothing of the sample depends on it; leave it out"
+        )
+    try:
+        wanted = np.asarray(Wavelength().resolve(given).value)
+    except OptipathError as fault:
+        raise SurfaceError(*fault.faults) from None
+    if wanted.ndim:
+        raise SurfaceError(f"wavelength has the shape {wanted.shape}; give one, {_told(known)}")
+    nearest = int(np.argmin(np.abs(known - wanted)))
+    if abs(known[nearest] - wanted) > _SAME * wanted:
+        raise SurfaceError(
+            f"wavelength {format_quantity(float(wanted), 'nm')} has not been measured; give "
+            f"{_told(known)}"
+        )
+    return nearest
+
+
+def _is_angle(given: Any) -> bool:
+    """Tell whether it is an angle, or several as texts: numbers in a row are a vector."""
+    array = np.asarray(given, dtype=object)
+    return array.ndim == 0 or isinstance(array.ravel()[0] if array.size else None, str)
+
+
+def _in_plane(angle: npt.NDArray[np.float64], azimuth: float, *, up: bool) -> Any:
+    if np.any(beyond := np.abs(angle) >= np.pi / 2.0):
+        worst = float(angle[beyond].flat[0])
+        raise SurfaceError(
+            f"direction is {worst:.6g} rad ({np.degrees(worst):.6g} deg) from the normal; give an "
+            f"angle in the plane of incidence below 90 deg, such as '45 deg'"
+        )
+    sin, cos = np.sin(angle), np.cos(angle)
+    height = cos if up else -cos
+    # Adding 0 turns -0 into 0.
+    return np.stack([sin * np.cos(azimuth), sin * np.sin(azimuth), height], axis=-1) + 0.0
+
+
+def _told(known: npt.NDArray[np.float64]) -> str:
+    named = [format_quantity(float(each), "nm") for each in known[:6]]
+    more = ["..."] if len(known) > 6 else []
+    return listed([*named, *more]) if more else " or ".join(named)

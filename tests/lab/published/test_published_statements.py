@@ -1,0 +1,140 @@
+"""What the text of M. Wang et al., Optics Express 25(19), 2017, says of its simulations in words.
+
+Each is tested with its noise: by how much polarisation changes the light that goes to the grazing
+side of the forward lobe, where the maps of the paper have their largest values.
+"""
+
+import os
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+import optipath as op
+
+LONG = pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="walks for a minute")
+LIGHT = "420 nm", "540 nm", "660 nm"
+SENSOR = op.surfaces.Sensor(32)
+FORWARD = (np.degrees(SENSOR.theta) > 60.0) & (np.abs(np.degrees(SENSOR.phi)) < 20.0)
+
+
+@pytest.fixture(autouse=True)
+def _photons_can_walk():
+    pytest.importorskip("numba")
+    pytest.importorskip("xarray")
+
+
+def sample_of(number):
+    return op.load_sample(f"wang-2017-simulation-{number:02}")
+
+
+@lru_cache(maxsize=8)
+def hemisphere(number, incidence="60 deg", photons=40_000, metal=None):
+    """A simulation, or the same on the metal of another one, on few surfaces."""
+    sample = sample_of(number)
+    if metal is not None:
+        roughness = [layer.roughness for layer in sample.layers]
+        layers = [(1.5, roughness[0]), (sample_of(metal).layers[-1].index, roughness[1])]
+        sample = op.Sample(layers)
+    wavelengths = LIGHT if isinstance(sample.layers[-1].index, op.Material) else None
+    return op.measure(replace(sample, surfaces=4), incidence, photons, wavelengths, SENSOR)
+
+
+def forward_change(seen):
+    """(S0 - U) / U of what goes to the grazing side of the lobe, by wavelength, and its error."""
+
+    def change(light):
+        scalar = seen.intensities(light)[0][FORWARD].sum(axis=0)
+        return seen.matrices(light)[0, ..., 0, 0][FORWARD].sum(axis=0) / scalar - 1.0
+
+    return seen.own.estimate(change)
+
+
+def average_difference(seen):
+    """The mean of |S0 - U| / U over wavelengths there, and no less than its error."""
+    value, error = forward_change(seen)
+    return np.abs(value).mean(), np.sqrt(np.mean(error**2))
+
+
+def is_smaller(one, other):
+    (small, its_error), (large, error) = (average_difference(each) for each in (one, other))
+    return large - small > 4.0 * np.hypot(error, its_error)
+
+
+@pytest.mark.parametrize(
+    ("rough", "smooth"),
+    [(2, 1), (8, 7), *(pytest.param(*pair, marks=LONG) for pair in [(9, 7), (15, 16)])],
+)
+def test_the_rougher_a_sample_is_the_smaller_is_what_polarisation_changes(rough, smooth):
+    assert is_smaller(hemisphere(rough), hemisphere(smooth))
+
+
+@LONG
+def test_a_rougher_aluminium_under_a_varnish_changes_less():
+    rough, smooth = (hemisphere(each, "80 deg", 400_000) for each in (12, 11))
+    assert is_smaller(rough, smooth)
+
+
+def test_aluminium_changes_less_than_gold():
+    assert is_smaller(hemisphere(11), hemisphere(7))
+
+
+def test_aluminium_changes_less_than_copper():
+    assert is_smaller(hemisphere(11), hemisphere(7, metal=10))
+
+
+@pytest.mark.parametrize("number", [7, *(pytest.param(one, marks=LONG) for one in (10, 13, 14))])
+def test_what_polarisation_changes_depends_on_the_wavelength(number):
+    value, error = forward_change(hemisphere(number))
+    blue, _, red = value
+    assert abs(blue - red) > 8.0 * np.hypot(error[0], error[2])
+
+
+@pytest.mark.parametrize("number", [1, 7])
+def test_without_polarisation_the_forward_edge_is_brighter(number):
+    # Of gold in the blue, where it reflects as a glass of a high index does.
+    value, error = forward_change(hemisphere(number))
+    assert value[0] < -5.0 * error[0]
+
+
+def test_without_polarisation_the_lobe_reaches_farther_at_the_forward_edge():
+    seen, theta = hemisphere(1), SENSOR.theta[FORWARD]
+
+    def farther(light):
+        scalar = seen.intensities(light)[0, ..., 0][FORWARD]
+        polarised = seen.matrices(light)[0, ..., 0, 0, 0][FORWARD]
+        return np.asarray(np.average(theta, weights=scalar) - np.average(theta, weights=polarised))
+
+    value, error = seen.own.estimate(farther)
+    assert value > 5.0 * error
+
+
+@pytest.mark.parametrize("number", [5, pytest.param(6, marks=LONG)])
+def test_one_interface_has_none_at_10_deg_and_at_most_two_per_cent_elsewhere(number):
+    value, error = forward_change(hemisphere(number, "10 deg"))
+    assert np.all(np.abs(value) < 5.0 * error + 5e-4)
+    largest = 0.0
+    for incidence in ("40 deg", "60 deg", "80 deg"):
+        value, error = forward_change(hemisphere(number, incidence))
+        assert np.all(np.abs(value) < 0.02 + 3.0 * error)
+        largest = max(largest, np.max(np.abs(value) - 3.0 * error))
+    assert largest > 0.005
+
+
+@pytest.mark.parametrize("k", [0.45, 0.55, 0.65, 0.8, 1.0, 2.0, 4.0])
+def test_a_base_of_n_over_k_2_polarises_by_80_per_cent_somewhere_only_for_k_above_06(k):
+    reflected = op.Interface(2.0 * k + 1j * k, np.radians(np.linspace(0.5, 89.5, 179)))
+    dop = reflected.mueller("in", "reflected").polarizance
+    assert (dop.max() > 0.8) == (k > 0.6)
+
+
+@pytest.mark.parametrize("k", [0.65, 1.0, 2.0, 4.0])
+def test_a_base_of_n_over_k_above_2_polarises_still_more(k):
+    theta = np.radians(np.linspace(0.5, 89.5, 179))
+    most = [
+        op.Interface(ratio * k + 1j * k, theta).mueller("in", "reflected").polarizance.max()
+        for ratio in (0.5, 1.0, 2.0, 3.0, 6.0)
+    ]
+    assert np.all(np.diff(most) > 0.0)
+    assert [one > 0.8 for one in most] == [False, False, True, True, True]

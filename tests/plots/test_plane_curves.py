@@ -1,0 +1,106 @@
+import numpy as np
+import pytest
+
+import optipath as op
+from measured_hemispheres import measured
+from optipath.surfaces import Sensor, single_scattering
+from pictures import faults_of, texts_of
+
+pytest.importorskip("matplotlib")
+QUANTITIES = ["S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "difference"]
+
+
+def curve_of(ax):
+    return next(line for line in ax.get_lines() if len(line.get_xdata()) > 2)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_every_quantity_has_a_curve_with_names_and_units(quantity):
+    ax = op.plots.in_plane(measured("glass on glass"), quantity)
+    assert ax.get_title() == f"{quantity}, reflected, incidence 60°"
+    assert ax.get_xlabel() == "exit angle to the normal (°)"
+    assert ax.get_ylabel()
+    assert len(curve_of(ax).get_xdata()) == 16
+
+
+def test_several_curves_have_their_names_and_no_text_is_over_another():
+    several = {"glass": measured("glass on glass"), "silver": measured("silver")}
+    ax = op.plots.in_plane(several, "DoLP")
+    assert faults_of(ax.figure) == []
+    assert {"glass", "silver"} <= {text.get_text() for text in texts_of(ax.figure)}
+    lines = [line for line in ax.get_lines() if len(line.get_xdata()) > 2]
+    assert len({line.get_color() for line in lines}) == 2
+    assert len({line.get_linestyle() for line in lines}) == 2  # In print, too.
+
+
+def test_a_curve_that_is_added_looks_otherwise():
+    ax = op.plots.in_plane(measured("silver"), "S0")
+    op.plots.in_plane({"glass": measured("glass on glass")}, "S0", ax)
+    first, second = (line for line in ax.get_lines() if len(line.get_xdata()) > 2)
+    assert first.get_color() != second.get_color()
+
+
+def test_bands_reach_two_standard_errors_up_and_down():
+    silver = measured("silver")
+    ax = op.plots.in_plane(silver, "S0")
+    middle, area = slice(7, 9), silver.sensor.solid_angle[7:9].sum(axis=0)
+    mean, error = silver.own.estimate(
+        lambda n: silver.matrices(n)[0, middle, :, 0, 0, 0].sum(axis=0) / area
+    )
+    np.testing.assert_allclose(curve_of(ax).get_ydata(), mean)
+    (band,) = (each.get_paths()[0].vertices for each in ax.collections)
+    np.testing.assert_allclose(band[:, 1].max(), (mean + 2.0 * error).max())
+
+
+@pytest.mark.parametrize("pixels", [32, 33])
+def test_curves_are_in_frames_of_the_plane_of_incidence(pixels):
+    """The model's light along directions in the plane, beside pixels that hold the model's."""
+    found = op.measure(op.Sample([(0.5 + 2.1j, 0.5)]), 0.7, 600, sensor=Sensor(pixels), events=1)
+    model = found.single_scattering(points=4).values
+    parts = np.broadcast_to(model.reshape(*model.shape[:-2], 16), (16, *model.shape[:-2], 16))
+    number = found.parts.sums.shape[-1] - 16
+    sums = np.concatenate([parts, np.zeros((*parts.shape[:-1], number))], axis=-1)
+    sums = sums * found.parts.photons[:, None, None, None, None, None]
+    modelled = type(found)(
+        found.seen, found.parts._replace(sums=sums), found.wavelengths, found.symmetric
+    )
+    source = (1.0, 0.3, 0.5, 0.4)
+    angles = np.radians(curve_of(op.plots.in_plane(modelled)).get_xdata())
+    up = np.stack([np.sin(angles), 0.0 * angles, np.cos(angles)], axis=-1)
+    brdf = single_scattering(0.5 + 2.1j, 0.5, (np.sin(0.7), 0.0, -np.cos(0.7)), up).matrix
+    # In frames along (0, 0, 1) x direction; a turn by 180 deg changes no Stokes vector.
+    expected = (brdf @ source) * np.cos(angles)[:, np.newaxis]
+    # Photons next to the normal have frames that differ within a pixel.
+    compared = (np.abs(angles) < 1.2) & (np.abs(angles) > 3.5 * np.pi / pixels)
+    for component in range(4):
+        curve = curve_of(op.plots.in_plane(modelled, f"S{component}", source=source))
+        np.testing.assert_allclose(
+            curve.get_ydata()[compared],
+            expected[compared, component],
+            rtol=0,
+            atol=0.01 * expected.max(),
+        )
+
+
+def test_an_angle_that_goes_on_from_the_other_end_is_no_line_across():
+    ax = op.plots.in_plane(measured("silver"), "AoP", source=(1.0, -0.9, 0.1, 0.0), known_to=90.0)
+    angles = curve_of(ax).get_ydata()
+    steps = np.abs(np.diff(angles))
+    assert not np.any(steps[~np.isnan(steps)] > 90.0)
+
+
+def test_a_smooth_sample_has_its_line():
+    ax = op.plots.in_plane(measured("clear"), side="transmitted")
+    lines = [line for line in ax.get_lines() if len(line.get_xdata()) == 2]
+    refracted = np.degrees(np.arcsin(np.sin(np.radians(60.0)) / 1.5))
+    np.testing.assert_allclose(lines[0].get_xdata(), refracted)
+
+
+def test_no_curve_at_all_is_refused():
+    with pytest.raises(op.SurfaceError, match="give one Hemisphere at least"):
+        op.plots.in_plane({})
+
+
+def test_the_difference_of_polarised_light_is_refused():
+    with pytest.raises(op.SurfaceError, match="of unpolarised light; leave source out"):
+        op.plots.in_plane(measured("silver"), "difference", source=(1, 1, 0, 0))

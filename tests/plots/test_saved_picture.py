@@ -1,0 +1,64 @@
+import subprocess
+import sys
+
+import pytest
+
+import optipath as op
+from measured_hemispheres import measured
+
+figures = pytest.importorskip("matplotlib.figure")
+
+
+@pytest.mark.parametrize(
+    ("form", "begins", "holds"),
+    [
+        ("png", b"\x89PNG", b""),
+        ("svg", b"<?xml", b">angle of polarisation (\xc2\xb0)</text>"),
+        ("pdf", b"%PDF", b"/FontFile2"),  # TrueType, no outlines
+    ],
+)
+def test_a_picture_is_saved_in_every_form_with_texts_as_such(form, begins, holds, tmp_path):
+    file = tmp_path / f"map.{form}"
+    op.plots.save(op.plots.hemisphere(measured("glass on glass"), "AoP"), file, 60)
+    content = file.read_bytes()
+    assert content.startswith(begins)
+    assert holds in content
+
+
+def test_a_picture_that_is_drawn_anew_has_the_same_bits(tmp_path):
+    files = [tmp_path / "a.svg", tmp_path / "b.svg"]
+    for file in files:
+        op.plots.save(op.plots.in_plane(measured("silver"), "S1"), file)
+    assert files[0].read_bytes() == files[1].read_bytes()
+
+
+@pytest.mark.parametrize("name", ["map.jpg", "map", "map.svg.gz"])
+def test_an_ending_that_cannot_be_drawn_is_refused(name, tmp_path):
+    figure = figures.Figure()
+    with pytest.raises(op.OptipathError, match=r"cannot be drawn; use one of: .png, .svg, .pdf"):
+        op.plots.save(figure, tmp_path / name)
+    assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("nothing", [None, [], "map"])
+def test_what_is_no_picture_is_refused(nothing, tmp_path):
+    with pytest.raises(op.OptipathError, match="give what a function of plots returned"):
+        op.plots.save(nothing, tmp_path / "map.png")
+
+
+def test_pictures_need_no_window():
+    names = "; ".join(f"op.plots.{name}" for name in op.plots.__all__)
+    code = f"import sys, optipath as op; {names}; print('matplotlib.pyplot' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"
+
+
+def test_an_unknown_picture_is_told():
+    with pytest.raises(AttributeError, match="'hemispher'; did you mean 'hemisphere'"):
+        _ = op.plots.hemispher
+
+
+def test_pictures_without_matplotlib_say_what_to_install(monkeypatch):
+    monkeypatch.setattr(op.plots, "find_spec", {}.get)
+    with pytest.raises(op.OptipathError, match=r"pip install 'optipath\[plot\]'"):
+        op.plots.__getattr__("save")
