@@ -15,11 +15,11 @@ def told(capsys, *arguments):
 
 
 def test_the_model_is_told_with_its_evidence(capsys):
-    given = ["glass-on-glass", "--incidence", "60", "--photons", "1e5"]
+    given = ["glass-on-glass", "--incidence", "60", "--photons", "5e4"]
     status, out, _ = told(capsys, *given)
     assert status == 0
     assert "the polarised model is needed for a tolerance of 2 %" in out
-    assert "100,000 photons, 64 x 64 pixels" in out
+    assert "50,000 photons, 64 x 64 pixels" in out
 
 
 def test_json_has_one_object_for_each_angle(capsys):

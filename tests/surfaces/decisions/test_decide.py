@@ -6,7 +6,7 @@ from optipath.surfaces import decide
 pytest.importorskip("numba")
 pytest.importorskip("xarray")
 
-FEW = {"photons": 100_000, "sensor": 16}
+FEW = {"photons": 50_000, "sensor": 16}
 
 
 def test_a_flat_stack_is_decided_without_photons():

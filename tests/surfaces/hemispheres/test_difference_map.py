@@ -16,13 +16,13 @@ PUBLISHED = {50: 0.165, 56: 0.19, 60: 0.205, 65: 0.215}
 
 @pytest.fixture(scope="module")
 def glass():
-    return op.measure(op.load_sample("glass-on-glass"), "60 deg", 100_000, sensor=32)
+    return op.measure(op.load_sample("glass-on-glass"), "60 deg", 50_000, sensor=32)
 
 
 @pytest.fixture(scope="module")
 def gold():
     sample, lights = op.load_sample("glass-on-gold"), ["450 nm", "550 nm", "650 nm"]
-    return op.measure(sample, "60 deg", 100_000, lights, sensor=32)
+    return op.measure(sample, "60 deg", 50_000, lights, sensor=32)
 
 
 def relative(hemisphere, side="reflected"):
@@ -106,7 +106,7 @@ def test_noise_that_is_not_known_masks_nothing_silently():
 
 
 def test_a_paired_run_needs_300_times_fewer_photons_than_two_separate_ones():
-    sample, given = op.load_sample("glass-on-glass"), {"photons": 65_536, "sensor": 16}
+    sample, given = op.load_sample("glass-on-glass"), {"photons": 32_768, "sensor": 16}
     paired = op.measure(sample, "60 deg", seed=0, **given)
     polarised = op.measure(sample, "60 deg", seed=1, polarized="polarized", **given)
     scalar = op.measure(sample, "60 deg", seed=2, polarized="scalar", **given)
