@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from numbers import Real
+from typing import Any
 
 from optipath.errors import shown
 
 
-def positive(what: str, number: object) -> list[str]:
+def positive(what: str, number: Any) -> list[str]:
     """Return the sentence for what is no number above 0; none for one that is, or for None.
 
     Parameters
     ----------
-    what, number : str, object
+    what, number : str, Any
         What it is of, and what was given; infinity serves.
 
     Returns
