@@ -26,6 +26,7 @@ def positive(what: str, number: Any) -> list[str]:
     >>> positive("largest", -1.0), positive("largest", 2), positive("largest", None)
     (['largest is -1.0; give a number above 0'], [], [])
     """
-    if number is None or (isinstance(number, Real) and not isinstance(number, bool) and number > 0):
+    real = isinstance(number, Real) and not isinstance(number, bool)
+    if number is None or (real and float(number) > 0.0):
         return []
     return [f"{what} is {shown(number)}; give a number above 0"]
