@@ -54,7 +54,8 @@ def hemisphere(
         What is drawn; the last three compare light with polarisation and without, in per cent, as
         methods of `Hemisphere` do.
     ax : Axes, optional
-        Where; a figure of its own by default, ``.figure`` of what is returned.
+        Where, best of a figure with ``layout="constrained"``, which makes room for all that is
+        beside the disc; a figure of its own by default, ``.figure`` of what is returned.
     source : array_like, shape (4,), optional
         The Stokes vector of the light that comes in, in the frame whose x is horizontal;
         unpolarised by default.
