@@ -54,11 +54,11 @@ def test_photons_that_met_one_facet_are_as_the_model_says(layer, incidence):
     assert 0.1 < np.median(squares) < 1.5
 
 
-@pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="photons for an hour")
+@pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="photons for minutes")
 def test_the_model_is_within_2e_3_of_the_largest_light():
     total = None
-    for seed in range(400):
-        found = once((SILVER, 0.3), "40 deg", 1 << 19, cells=960, seed=seed)
+    for seed in range(1000, 1130):
+        found = once((SILVER, 0.3), "40 deg", 1 << 19, cells=960, surfaces=16, seed=seed)
         if total is None:
             total = found
         else:
