@@ -9,6 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pictures import faults_of
+
 EXAMPLES = Path(__file__).parents[1] / "examples"
 pytest.importorskip("jax")
 
@@ -70,3 +72,13 @@ def test_the_documents_have_every_case_of_the_convergence_of_surfaces():
     example = runpy.run_path(EXAMPLES / "surface_convergence.py")
     stored = json.loads((EXAMPLES.parent / "docs" / "surfaces.json").read_text("utf-8"))
     assert {example["Case"](*row["case"]) for row in stored} == set(example["CASES"])
+
+
+def test_no_text_in_the_pictures_of_hemispheres_is_over_another_or_cut():
+    pytest.importorskip("numba")
+    pytest.importorskip("xarray")
+    example = runpy.run_path(EXAMPLES / "hemisphere_maps.py")
+    for name, drawn in example["pictures"](photons=2048, pixels=24):
+        figure = drawn if hasattr(drawn, "axes") else drawn.flat[0].figure
+        assert faults_of(figure) == [], name
+        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()

@@ -126,6 +126,7 @@ def test_an_interrupt_keeps_what_is_done(capsys, monkeypatch):
         (["Own"], "see the names with `optipath surface reproduce --list`"),
         (["pane.toml"], "the experiment: 'source' is missing"),
         (["own.toml", "--photons", "0"], "photons must be a whole number of 1 or more, not 0"),
+        (["own.toml", "--photons", "0", "--json"], "photons must be a whole number of 1 or more"),
         (["own.toml", "--photons", "x"], "'x' is no whole number"),
         (["own.toml", "--incidence", "3"], "option '--incidence' is unknown"),
     ],

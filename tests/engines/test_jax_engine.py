@@ -23,8 +23,9 @@ def _double():
 
 # JAX takes long to compile a pile of plates, which is what a window is many times.
 PRESETS = {*op.preset_names()} - {"pile-of-plates", "absorbing-pile"}
-# Light that goes round, or through a stack, has no one Jones vector, and a sheet no Jones matrix.
-WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window", "dichroic-sheet"}
+# Light that goes round, or through a stack, has no one Jones vector; others have no Jones matrix.
+NO_MATRIX = {"dichroic-sheet", "ellipsometer-rough"}
+WITH_JONES = PRESETS - {"glass-slab", "coated-metal", "sky-and-window"} - NO_MATRIX
 # Each is compiled for seconds; all of them where OPTIPATH_SETS is set.
 FEW = {"npgr026", "fresnel-rhomb", "faraday-isolator", "copper-gold-spectrum"}
 

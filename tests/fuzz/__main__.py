@@ -10,7 +10,7 @@ import sys
 import time
 
 import click
-from tests.fuzz import calls, command_lines, options, presets, samples, values
+from tests.fuzz import calls, command_lines, experiments, options, presets, samples, values
 from tests.fuzz.attack import fault_of
 
 _MAKERS = {
@@ -20,6 +20,7 @@ _MAKERS = {
     "command-lines": command_lines.make,
     "options": options.make,
     "samples": samples.make,
+    "experiments": experiments.make,
 }
 
 

@@ -33,6 +33,13 @@ def test_several_curves_have_their_names_and_no_text_is_over_another():
     assert len({line.get_linestyle() for line in lines}) == 2  # In print, too.
 
 
+def test_a_curve_that_is_added_looks_otherwise():
+    ax = op.plots.in_plane(measured("silver"), "S0")
+    op.plots.in_plane({"glass": measured("glass on glass")}, "S0", ax)
+    first, second = (line for line in ax.get_lines() if len(line.get_xdata()) > 2)
+    assert first.get_color() != second.get_color()
+
+
 def test_bands_reach_two_standard_errors_up_and_down():
     silver = measured("silver")
     ax = op.plots.in_plane(silver, "S0")

@@ -1,11 +1,12 @@
 """The public interface as a user's code sees it; checked by mypy, and run."""
 
+import functools
 from typing import Any
 
 import numpy as np
 
 import optipath as op
-from optipath.surfaces import single_scattering
+from optipath.surfaces import single_scattering, write_measured_polarized
 
 
 class HalfWavePlate(op.Element, kind="typed-half-wave-plate"):
@@ -153,3 +154,12 @@ too_colourful: np.ndarray = displayed.outside
 def of_pages() -> tuple[op.Material, op.Material]:
     gold = op.Material.named("gold", page="Johnson", wavelength="516 nm")
     return gold, op.Material.from_yaml("mine.yml", k=0.0, extrapolate="nearest")
+
+
+def of_files() -> op.Hemisphere:
+    found = op.load_hemisphere("a.nc", sample=varnished)
+    found.save("a.exr", source=[1.0, 1.0, 0.0, 0.0], side="reflected")
+    brdf = functools.partial(single_scattering, 1.5, 0.3)
+    write_measured_polarized("a.pbsdf", brdf, wavelengths=["450 nm"], shape=(9, 9, 9))
+    write_measured_polarized("b.pbsdf", [found, found])
+    return found

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -11,7 +10,7 @@ import click
 from optipath.cli.console import say
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.progress_bar import progress_bar
-from optipath.cli.text_files import NewFile, read_text, told_of, write
+from optipath.cli.text_files import NewFile, check_place, read_text, told_of, write
 from optipath.paths.presets.loader import preset_names
 from optipath.values.picture_files import check_form
 
@@ -97,12 +96,8 @@ def _measure_and_draw(measure: Callable[[Tell], Chart], out: Path, data: Path | 
     if data is not None and data.absolute() == out.absolute():
         raise click.UsageError(f"--out and --data both write '{out}'; give two files")
     for file in (out, data):
-        if file is not None and not file.absolute().parent.is_dir():
-            raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
-        if file is not None and not all(
-            os.access(place, os.W_OK) for place in (file.absolute().parent, file) if place.exists()
-        ):
-            raise click.ClickException(f"'{file}' cannot be written: permission denied")
+        if file is not None:
+            check_place(file)
     with progress_bar(1.0) as tell:
         chart = measure(lambda what, done: tell(what, completed=done))
     if data is not None:

@@ -65,7 +65,7 @@ def _reproduce(names: tuple[str, ...], *, listed: bool, as_json: bool, **options
                 if done[-1][1] and not as_json:
                     print_reproduced(*done[-1], first=len(done) == 1)
     finally:
-        if as_json:
+        if as_json and done and done[0][1]:
             whole = len(done) == len(experiments) and all(
                 len(found) == len(experiment.measurements) for experiment, found in done
             )
@@ -79,7 +79,7 @@ def _run(experiment: Experiment, found: list[Reproduced], **options: Any) -> Non
     from optipath.lab.published.reproduction import reproduce  # noqa: PLC0415
 
     with photon_bar(experiment.name) as progress:
-        for one in reproduce(experiment, progress=lambda _, *told: progress(*told), **options):
+        for one in reproduce(experiment, progress=progress, **options):
             found += [one]
 
 

@@ -8,16 +8,28 @@ import click
 from click.core import ParameterSource
 
 from optipath.cli.console import JSON, PlainConsole, cell, headed, say, say_json, title
+from optipath.cli.drawn_map import DRAWING, draw_map
 from optipath.cli.misplaced import StrictCommand
-from optipath.cli.surface_options import REDRAWING, SAMPLE, WALKING
+from optipath.cli.surface_options import DECIDE, REDRAWING, SAMPLE, WALKING
 from optipath.errors import listed
 from optipath.surfaces.samples.sample_files import load_sample, sample_descriptions
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from optipath.cli.energy_outcome import EnergyOutcome
 
 
-def _surface(sample: str | None, *, as_json: bool, **options: Any) -> None:
+def _surface(
+    sample: str | None,
+    *,
+    decide: bool,
+    quantity: str | None,
+    side: str,
+    out: Path | None,
+    as_json: bool,
+    **options: Any,
+) -> None:
     """List rough samples, or tell what share of light one of them sends back and lets through.
 
     optipath surface reproduce [NAME]... does published experiments again, and has options of its
@@ -27,6 +39,17 @@ def _surface(sample: str | None, *, as_json: bool, **options: Any) -> None:
         raise click.UsageError("options stand behind it; write optipath surface reproduce first")
     if sample is None:
         _list_samples(as_json=as_json)
+    elif quantity is not None:
+        if decide:
+            raise click.UsageError("--decide and --map are two questions; ask one at a time")
+        draw_map(sample, quantity, side, out, as_json=as_json, **options)
+    elif out is not None or side != "reflected":
+        raise click.UsageError("--out and --side are of a map; say of what, --map S0")
+    elif decide:
+        # Neither a list of samples nor an energy needs it.
+        from optipath.cli.printed_choice import print_choices  # noqa: PLC0415
+
+        print_choices(sample, as_json=as_json, **options)
     else:
         _walk(sample, as_json=as_json, **options)
 
@@ -57,7 +80,7 @@ class _SurfaceCommand(StrictCommand):
 
 
 surface = click.command(
-    "surface", cls=_SurfaceCommand, params=[SAMPLE, *WALKING, *REDRAWING, JSON]
+    "surface", cls=_SurfaceCommand, params=[SAMPLE, DECIDE, *WALKING, *REDRAWING, *DRAWING, JSON]
 )(_surface)
 
 

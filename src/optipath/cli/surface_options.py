@@ -43,6 +43,12 @@ TOLERANCE = click.Option(
     type=float,
     help="Walk until the standard error of what is reflected is no larger, such as 0.002.",
 )
+DECIDE = click.Option(
+    ["--decide"],
+    is_flag=True,
+    help="Tell which model suffices, polarised or not or single scattering, and why. --tolerance "
+    "is then the relative error of a pixel's light that will do, 0.02 by default.",
+)
 WAVELENGTHS = click.Option(
     ["--wavelength"],
     metavar="'516 nm'",

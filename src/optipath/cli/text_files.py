@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -53,6 +54,21 @@ def read_text(file: Path) -> str:
         raise click.ClickException(f"'{file}' cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
         raise click.ClickException(f"'{file}' is no text in UTF-8") from None
+
+
+def check_place(file: Path) -> None:
+    """Refuse a file that cannot be written, before the work for it is done.
+
+    Raises
+    ------
+    click.ClickException
+        If there is no such folder, or no permission.
+    """
+    folder = file.absolute().parent
+    if not folder.is_dir():
+        raise click.ClickException(f"'{file}' cannot be written: there is no such folder")
+    if not all(os.access(place, os.W_OK) for place in (folder, file) if place.exists()):
+        raise click.ClickException(f"'{file}' cannot be written: permission denied")
 
 
 def write(file: Path, content: bytes) -> None:

@@ -50,7 +50,8 @@ def differences(
     Examples
     --------
     >>> import optipath as op
-    >>> found = op.measure(op.Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+    >>> sample = op.Sample([(0.5 + 2.1j, 0.3)], cells=200)
+    >>> found = op.measure(sample, "40 deg", photons=16_384, sensor=16)
     >>> [ax.get_title() for ax in differences(found)]
     ['with polarisation, S0', 'without polarisation, U', 'difference, S0 - U']
     """
@@ -75,5 +76,5 @@ def differences(
     for ax, title in zip(panel, titles, strict=True):
         ax.set_title(title)
     if axes is None:
-        panel[0].get_figure(root=True).suptitle(seen.titled("light"))
+        panel[0].figure.figure.suptitle(seen.titled("light"))
     return panel

@@ -130,7 +130,7 @@ def head_panel(axes: Any, given: Any, seen: SeenSide, what: str, hatched: str = 
             *(f"+ {each.get_label()}" for each in _keys(seen)),
         ]
         told += [f"hatched: {hatched}"] if hatched else []
-        figure = axes.flat[0].get_figure(root=True)
+        figure = axes.flat[0].figure.figure
         figure.suptitle(f"{seen.titled(what)}\n{'; '.join(told)}", fontsize="medium")
 
 

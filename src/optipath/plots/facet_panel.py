@@ -61,7 +61,7 @@ def beside_facets(
     Examples
     --------
     >>> import optipath as op
-    >>> sample = op.Sample([(0.5 + 2.1j, 0.3)])
+    >>> sample = op.Sample([(0.5 + 2.1j, 0.3)], cells=200)
     >>> found = op.measure(sample, "40 deg", photons=16_384, sensor=16, events=1)
     >>> beside_facets(found).shape
     (3, 4)

@@ -82,7 +82,8 @@ def hemisphere(
     Examples
     --------
     >>> import optipath as op
-    >>> found = op.measure(op.Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+    >>> sample = op.Sample([(0.5 + 2.1j, 0.3)], cells=200)
+    >>> found = op.measure(sample, "40 deg", photons=16_384, sensor=16)
     >>> hemisphere(found, "DoLP").get_title()
     'DoLP, reflected, incidence 40°'
     """

@@ -29,6 +29,9 @@ _COLOURS = "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#0
 
 _LINES = "-", "--", "-.", (0, (1, 1)), (0, (6, 2)), (0, (4, 1, 1, 1, 1, 1)), "-"
 
+_CURVE = "curve in the plane of incidence"
+"""By which curves are found again, so that the next one looks otherwise."""
+
 
 def in_plane(
     measured: Hemisphere | Mapping[str, Hemisphere],
@@ -80,7 +83,8 @@ def in_plane(
     Examples
     --------
     >>> import optipath as op
-    >>> found = op.measure(op.Sample([(0.5 + 2.1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
+    >>> sample = op.Sample([(0.5 + 2.1j, 0.3)], cells=200)
+    >>> found = op.measure(sample, "40 deg", photons=16_384, sensor=16)
     >>> ax = in_plane({"silver": found}, "S1")
     >>> ax.get_xlabel(), ax.get_ylabel()
     ('exit angle to the normal (°)', 'S1 (1/sr)')
@@ -92,9 +96,7 @@ def in_plane(
     sides = {
         str(name): SeenSide.of(each, side, wavelength, source) for name, each in several.items()
     }
-    given, ax = ax, own_axes(ax, (7.0, 4.4))
-    if given is None:
-        ax.set_prop_cycle(color=_COLOURS, linestyle=_LINES)
+    ax = own_axes(ax, (7.0, 4.4))
     for name, seen in sides.items():
         _draw_curve(ax, PlaneCut(seen), drawn, name, known_to)
     ax.set(xlim=(-90.0, 90.0), xlabel="exit angle to the normal (°)", ylabel=drawn.label)
@@ -115,8 +117,9 @@ def _draw_curve(
 ) -> None:
     value, error = drawn.known(cut, known_to)
     angles = np.degrees(cut.angles)
-    (line,) = ax.plot(angles, value, label=name or None)
-    colour = line.get_color()
+    before = sum(line.get_gid() == _CURVE for line in ax.get_lines()) % len(_COLOURS)
+    colour = _COLOURS[before]
+    ax.plot(angles, value, color=colour, linestyle=_LINES[before], label=name or None, gid=_CURVE)
     band = BAND * np.nan_to_num(error)
     ax.fill_between(angles, value - band, value + band, color=colour, alpha=0.25, linewidth=0.0)
     if not np.isnan(mirrored := cut.seen.mirrored):

@@ -41,5 +41,5 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
     first = np.array(drawn, object).ravel()[:1]
     if not (first.size and isinstance(first[0], Axes | Figure)):
         raise OptipathError(f"{shown(drawn)} is no picture; give what a function of plots returned")
-    figure: Any = first[0].get_figure(root=True) if isinstance(first[0], Axes) else first[0]
+    figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
     write_picture(figure, Path(file), dots_per_inch)

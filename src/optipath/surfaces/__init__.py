@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from optipath.surfaces.decisions.decide import decide
+    from optipath.surfaces.decisions.model_choice import ModelChoice
     from optipath.surfaces.ends.photon_ends import photon_ends
     from optipath.surfaces.energies.energy import energy
     from optipath.surfaces.facets.facet_model import single_scattering
@@ -19,8 +21,10 @@ if TYPE_CHECKING:
 __all__ = [
     "HeightField",
     "Hemisphere",
+    "ModelChoice",
     "Photon",
     "Sensor",
+    "decide",
     "energy",
     "load_hemisphere",
     "measure",
@@ -30,6 +34,8 @@ __all__ = [
 ]
 
 _HOMES = {
+    "decisions.decide": ["decide"],
+    "decisions.model_choice": ["ModelChoice"],
     "ends.photon_ends": ["photon_ends"],
     "energies.energy": ["energy"],
     "facets.facet_model": ["single_scattering"],

@@ -86,7 +86,9 @@ def test_photons_give_the_same_within_their_noise(tmp_path):
     near = (slice(None), slice(9), slice(6))
     apart = np.abs(table["M"] - expected["M"])[near][..., 0, 0]
     spread = table["M00_se"][near] + 0.01 * expected["M"][near][..., 0, 0]
-    assert (apart < 5.0 * spread).mean() > 0.99
+    known = np.isfinite(spread)
+    assert known.mean() > 0.9
+    assert (apart < 5.0 * spread)[known].mean() > 0.99
     assert bytes(table["description"]).decode().startswith("Hemisphere of Sample([((0.2+3j), 0.3)]")
 
 

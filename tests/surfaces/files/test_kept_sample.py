@@ -26,7 +26,7 @@ def saved(tmp_path):
 
 def test_a_sample_that_has_no_form_in_files_is_told_where_it_is_asked_for(saved):
     found, file = saved
-    again = op.surfaces.load_hemisphere(file)
+    again = op.load_hemisphere(file)
     assert same_bits(again, found)
     assert not again.seen.beam.sample.isotropic
     assert repr(again).startswith("Hemisphere of a sample that is not known at 40 deg")
@@ -38,7 +38,7 @@ def test_a_sample_that_has_no_form_in_files_is_told_where_it_is_asked_for(saved)
 
 def test_it_can_be_given(saved):
     found, file = saved
-    again = op.surfaces.load_hemisphere(file, sample=sample_of_heights(description="the same"))
+    again = op.load_hemisphere(file, sample=sample_of_heights(description="the same"))
     assert same_bits(again, found)
     assert again.seen.beam.block(0, 16).photons == 16
 
@@ -46,15 +46,15 @@ def test_it_can_be_given(saved):
 def test_another_sample_is_refused(saved):
     _, file = saved
     with pytest.raises(op.SurfaceError, match=r"is not the one that was measured"):
-        op.surfaces.load_hemisphere(file, sample=sample_of_heights(seed=2))
+        op.load_hemisphere(file, sample=sample_of_heights(seed=2))
     with pytest.raises(op.SurfaceError, match=r"sample is 'mirror'; give the op.Sample"):
-        op.surfaces.load_hemisphere(file, sample="mirror")
+        op.load_hemisphere(file, sample="mirror")
 
 
 def test_a_sample_that_is_not_known_is_saved_again_and_can_be_given_then(saved):
     found, file = saved
-    op.surfaces.load_hemisphere(file).save(file)
-    again = op.surfaces.load_hemisphere(file, sample=sample_of_heights())
+    op.load_hemisphere(file).save(file)
+    again = op.load_hemisphere(file, sample=sample_of_heights())
     assert same_bits(again, found)
 
 
@@ -66,8 +66,8 @@ def test_heights_of_a_file_may_be_others_now_and_are_not_read(tmp_path):
     found = op.measure(sample, "40 deg", PHOTONS, sensor=12)
     found.save(tmp_path / "a.nc")
     np.save(tmp_path / "heights.npy", 2.0 * heights())
-    again = op.surfaces.load_hemisphere(tmp_path / "a.nc")
+    again = op.load_hemisphere(tmp_path / "a.nc")
     assert same_bits(again, found)
     with pytest.raises(op.SurfaceError, match=r"its heights are not in this file; give it"):
         _ = again.seen.beam.sample.layers
-    assert op.surfaces.load_hemisphere(tmp_path / "a.nc", sample=sample).seen.beam.sample == sample
+    assert op.load_hemisphere(tmp_path / "a.nc", sample=sample).seen.beam.sample == sample

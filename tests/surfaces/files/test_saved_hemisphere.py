@@ -34,7 +34,7 @@ def same_indices(first, second):
 def test_what_is_loaded_is_what_was_measured_to_the_last_bit(form, glass, metal, tmp_path):
     for name, hemisphere in {"glass": glass, "metal": metal}.items():
         hemisphere.save(tmp_path / f"{name}{form}")
-        again = op.surfaces.load_hemisphere(tmp_path / f"{name}{form}")
+        again = op.load_hemisphere(tmp_path / f"{name}{form}")
         assert same_bits(again, hemisphere)
         beams = again.seen.beam, hemisphere.seen.beam
         for each in ("sample", "azimuth", "seed", "most_events"):
@@ -46,11 +46,23 @@ def test_what_is_loaded_is_what_was_measured_to_the_last_bit(form, glass, metal,
             assert all(np.array_equal(*pair, equal_nan=True) for pair in pairs)
 
 
+def test_what_follows_from_it_is_the_same_with_its_errors(metal, tmp_path):
+    metal.save(tmp_path / "a.nc")
+    again = op.load_hemisphere(tmp_path / "a.nc")
+    for name in ("aop", "dolp", "brdf", "adm", "mdm", "single_scattering"):
+        assert getattr(again, name)().identical(getattr(metal, name)())
+    first, second = (
+        op.Source() >> each.toward("40 deg", wavelength="400 nm") >> op.Detector()
+        for each in (metal, again)
+    )
+    assert np.array_equal(first.trace().stokes, second.trace().stokes)
+
+
 @pytest.mark.parametrize("polarized", ["polarized", "scalar"])
 def test_what_was_not_measured_is_not_there_after_loading_either(polarized, tmp_path):
     found = measured([(1j, 0.3)], polarized=polarized)
     found.save(tmp_path / "a.nc")
-    assert same_bits(op.surfaces.load_hemisphere(tmp_path / "a.nc"), found)
+    assert same_bits(op.load_hemisphere(tmp_path / "a.nc"), found)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -73,7 +85,7 @@ def test_others_open_it_as_the_dataset_with_names_and_units(form, metal, tmp_pat
 def test_a_hemisphere_takes_the_place_of_another(form, glass, metal, tmp_path):
     glass.save(tmp_path / f"a{form}")
     metal.save(tmp_path / f"a{form}")
-    assert same_bits(op.surfaces.load_hemisphere(tmp_path / f"a{form}"), metal)
+    assert same_bits(op.load_hemisphere(tmp_path / f"a{form}"), metal)
     assert len([*tmp_path.iterdir()]) == 1
 
 
@@ -99,7 +111,7 @@ def test_what_was_there_stays_where_writing_fails(form, glass, metal, tmp_path, 
     monkeypatch.setattr(xr.Dataset, way, full)
     with pytest.raises(op.SurfaceError, match=rf"a{form}' cannot be written: No space left"):
         metal.save(tmp_path / f"a{form}")
-    assert same_bits(op.surfaces.load_hemisphere(tmp_path / f"a{form}"), glass)
+    assert same_bits(op.load_hemisphere(tmp_path / f"a{form}"), glass)
     assert len([*tmp_path.iterdir()]) == 1
 
 
@@ -140,20 +152,20 @@ def test_a_missing_extra_is_told(form, package, extra, metal, tmp_path, monkeypa
         metal.save(tmp_path / f"b{form}")
     if form != ".exr":
         with pytest.raises(op.OptipathError, match=rf"{package}, .* 'optipath\[{extra}\]'"):
-            op.surfaces.load_hemisphere(tmp_path / f"a{form}")
+            op.load_hemisphere(tmp_path / f"a{form}")
 
 
 def test_what_is_not_there_or_is_something_else_is_told(tmp_path):
     with pytest.raises(op.SurfaceError, match=r"there is no '.*a.nc'"):
-        op.surfaces.load_hemisphere(tmp_path / "a.nc")
+        op.load_hemisphere(tmp_path / "a.nc")
     with pytest.raises(op.SurfaceError, match=r"is no file of a hemisphere; save it"):
-        op.surfaces.load_hemisphere("a.csv")
+        op.load_hemisphere("a.csv")
     (tmp_path / "a.nc").write_bytes(b"no NetCDF at all")
     (tmp_path / "a.zarr").mkdir()
     xr.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
     for name in ("a.nc", "a.zarr", "b.nc"):
         with pytest.raises(op.SurfaceError, match=rf"{name}' is no hemisphere, or a damaged one"):
-            op.surfaces.load_hemisphere(tmp_path / name)
+            op.load_hemisphere(tmp_path / name)
 
 
 def test_a_file_of_another_layout_is_told_with_the_version_that_reads_it(metal, tmp_path):
@@ -165,7 +177,7 @@ def test_a_file_of_another_layout_is_told_with_the_version_that_reads_it(metal, 
     with pytest.raises(
         op.SurfaceError, match=r"layout 7, .* reads layout 1; load it by optipath 0"
     ):
-        op.surfaces.load_hemisphere(tmp_path / "b.nc")
+        op.load_hemisphere(tmp_path / "b.nc")
 
 
 def test_a_file_whose_sums_are_cut_off_is_a_damaged_one(metal, tmp_path):
@@ -173,4 +185,4 @@ def test_a_file_whose_sums_are_cut_off_is_a_damaged_one(metal, tmp_path):
     with xr.open_dataset(tmp_path / "a.nc", engine="h5netcdf") as found:
         found.load().isel(part=slice(3)).to_netcdf(tmp_path / "b.nc", engine="h5netcdf")
     with pytest.raises(op.SurfaceError, match=r"or a damaged one"):
-        op.surfaces.load_hemisphere(tmp_path / "b.nc")
+        op.load_hemisphere(tmp_path / "b.nc")

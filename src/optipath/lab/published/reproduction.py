@@ -42,7 +42,7 @@ def reproduce(
     *,
     seed: int = 0,
     threads: int | None = None,
-    progress: Callable[[str, int, int], None] | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Iterator[Reproduced]:
     """Do an experiment again, and yield what is found, one after the other.
 
@@ -57,7 +57,7 @@ def reproduce(
     threads : int, optional
         How many walk at a time; as many as there are processors by default.
     progress : callable, optional
-        Told the angle of incidence, how many photons there are, and of how many.
+        Told how many photons of a direction there are, and of how many.
 
     Yields
     ------
@@ -80,16 +80,7 @@ def reproduce(
     """
     count = experiment.photons if photons is None else photons
     for walks, measurements in experiment.by_walks():
-        told = _told(progress, walks.incidence)
-        walked = Walked(experiment, walks, count, seed, threads, told)
+        walked = Walked(experiment, walks, count, seed, threads, progress)
         for measurement in measurements:
             found = MEASURES[measurement.measure].of(walked, measurement)
             yield Reproduced(measurement, found, count)
-
-
-def _told(
-    progress: Callable[[str, int, int], None] | None, incidence: str
-) -> Callable[[int, int], None] | None:
-    if progress is None:
-        return None
-    return lambda done, total: progress(f"incidence {incidence}", done, total)

@@ -6,17 +6,14 @@ import errno
 import os
 import secrets
 import shutil
-from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
 from optipath.errors import SurfaceError
 from optipath.surfaces.files.kept_hemisphere import MEASUREMENT
 from optipath.values.written_files import drafted
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 _RECORD = ".zattrs"
 """The file of a Zarr group in which its attributes are."""
@@ -61,6 +58,7 @@ def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
     SurfaceError
         If something else is there.
     """
+    folder = Path(os.path.realpath(folder))
     if folder.exists() and not _is_hemisphere(folder):
         raise SurfaceError(
             f"'{folder}' is there already, and is no hemisphere; give another name, or move it away"
@@ -75,13 +73,10 @@ def write_zarr(dataset: xr.Dataset, folder: Path) -> None:
         dataset.to_zarr(draft, encoding=encoding, zarr_format=2, consolidated=True)
         if folder.exists():
             folder.rename(old)
-        try:
-            draft.rename(folder)
-        except OSError:
-            with suppress(OSError):
-                old.rename(folder)
-            raise
+        draft.rename(folder)
     finally:
+        if old.exists() and not folder.exists():
+            old.rename(folder)
         for left in (draft, old):
             shutil.rmtree(left, ignore_errors=True)
 

@@ -45,7 +45,7 @@ class LevelPixels:
     matrices : ndarray, shape (rows, columns, wavelengths, 4, 4)
         In 1 / sr; 0 where there is none.
     errors : ndarray, shape (rows, columns, wavelengths)
-        The standard errors of M00.
+        The standard errors of M00; NaN where they are not known.
     """
 
     sensor: Sensor
@@ -73,9 +73,11 @@ class LevelPixels:
         """
         brdf, sensor = hemisphere.brdf(), hemisphere.sensor
         there = ~np.isnan(sensor.theta)
-        found, errors = (np.where(np.isnan(a), 0.0, a)[0] for a in (brdf.to_numpy(), brdf.se))
+        seen = there[..., np.newaxis]
+        found = np.where(seen[..., np.newaxis, np.newaxis], brdf.to_numpy()[0], 0.0)
+        errors = np.where(seen, brdf.se.to_numpy()[0, ..., 0, 0], 0.0)
         found[..., 1:3, :] = _unturned(sensor, there) @ found[..., 1:3, :]
-        return cls(sensor, there.astype(float), found, errors[..., 0, 0])
+        return cls(sensor, there.astype(float), found, errors)
 
     def at(self, directions: Numbers) -> tuple[Numbers, Numbers]:
         """Return what there is in directions, in their level frames, from the nearest four pixels.
@@ -89,7 +91,8 @@ class LevelPixels:
         -------
         matrices : ndarray, shape (n, wavelengths, 4, 4)
         errors : ndarray, shape (n, wavelengths)
-            Of M00, as if all four were wrong on one side: no less than the standard error.
+            Of M00, as if all four were wrong on one side: no less than the standard error. NaN
+            where that of one is not known.
         """
         x, y, z = directions.T
         sin = np.hypot(x, y)

@@ -53,7 +53,8 @@ def write_measured_polarized(
     wavelength, 4, 4) in 1 / sr, without the cosine, with Mitsuba's sign of S3, in frames with x
     across the directions of the light that comes and goes; ``phi_d``, ``theta_d`` and ``theta_h``
     (`HalfAngles`), ``wvls`` in nm, and ``description``. Of hemispheres there is ``M00_se``
-    besides, no less than the standard error of M00, which the plugin does not read.
+    besides, no less than the standard error of M00 (NaN where it is not known), which the plugin
+    does not read.
 
     Parameters
     ----------
@@ -146,8 +147,8 @@ def _nanometres(wavelengths: npt.NDArray[np.float64]) -> npt.NDArray[np.uint16]:
         )
     if whole.size > _MOST or np.any(np.diff(whole) <= 0.0):
         raise SurfaceError(
-            f"wavelengths are {whole.tolist()} nm; the plugin reads up to {_MOST}, one larger than "
-            f"the other"
+            f"wavelengths are {whole.tolist()} nm; the plugin reads up to {_MOST} that differ, the "
+            f"shortest first"
         )
     return whole.astype(np.uint16)
 

@@ -57,7 +57,7 @@ class Saving:
         >>> found = op.measure(op.Sample([(1j, 0.3)]), "40 deg", photons=16_384, sensor=16)
         >>> with TemporaryDirectory() as folder:
         ...     found.save(Path(folder, "mirror.nc"))
-        ...     again = op.surfaces.load_hemisphere(Path(folder, "mirror.nc"))
+        ...     again = op.load_hemisphere(Path(folder, "mirror.nc"))
         >>> bool((again.mueller[1] == found.mueller[1]).all()), again.seen.beam.sample
         (True, Sample([(1j, 0.3)]))
         """

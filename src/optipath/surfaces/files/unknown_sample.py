@@ -28,7 +28,7 @@ class UnknownSample:
     >>> UnknownSample("its heights are in no file", isotropic=True, digest="").layers
     Traceback (most recent call last):
     optipath.errors.SurfaceError: the sample of this hemisphere is not known: its heights are in \
-no file; give it, op.surfaces.load_hemisphere(path, sample=...)
+no file; give it, op.load_hemisphere(path, sample=...)
     """
 
     why: str
@@ -53,7 +53,7 @@ no file; give it, op.surfaces.load_hemisphere(path, sample=...)
             raise AttributeError(name)  # Python itself asks for what need not be there.
         raise SurfaceError(
             f"the sample of this hemisphere is not known: {self.why}; give it, "
-            f"op.surfaces.load_hemisphere(path, sample=...)"
+            f"op.load_hemisphere(path, sample=...)"
         )
 
     def __repr__(self) -> str:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 Numbers = npt.NDArray[np.float64]
 
-MOST_EVENTS = 1000
+_MOST_EVENTS = 1000
 """From how many events on nothing is left of light between flat interfaces."""
 
 
@@ -38,7 +38,7 @@ def is_flat(seen: SensedBeam) -> bool:
     bool
     """
     beam = seen.beam
-    whole = seen.events is None and beam.most_events >= MOST_EVENTS
+    whole = seen.events is None and beam.most_events >= _MOST_EVENTS
     return whole and all(layer.is_flat for layer in beam.sample.layers)
 
 

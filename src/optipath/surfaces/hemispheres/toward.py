@@ -94,10 +94,10 @@ class Toward:
             raise SurfaceError(self._nothing_falls(direction, dark, side))
         try:
             return MuellerElement(matrices, straight=False)
-        except ValueFault as fault:
+        except ValueFault:
             raise SurfaceError(
-                f"of {self.photons} photons, by chance more light falls on the pixel than can be "
-                f"({fault}); measure with more photons"
+                f"by chance, {self.photons} photons bring more light of some polarisation to the "
+                f"pixel than falls on the sample; measure with more photons"
             ) from None
 
     def estimate_toward(

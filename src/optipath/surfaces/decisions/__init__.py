@@ -1,0 +1,1 @@
+"""Which model of light a rough sample needs."""

@@ -1,0 +1,98 @@
+"""PairedRun: some photons with polarisation and without, and what they tell pixel by pixel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from optipath.surfaces.decisions.largest_of import LargestOf
+from optipath.surfaces.hemispheres.measure import measure
+
+if TYPE_CHECKING:
+    from optipath.surfaces.hemispheres.hemisphere import Hemisphere
+    from optipath.surfaces.hemispheres.pixel_mask import PixelMask
+    from optipath.surfaces.samples.sample import Sample
+
+Numbers = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PairedRun:
+    """Photons that fall on a sample, all that come back, and those that have met it once.
+
+    Attributes
+    ----------
+    sample, incidence : Sample, float
+        What they fall on, and how.
+    mask : PixelMask
+        Which pixels count.
+    side : str
+        Where they are looked at.
+    walked : dict
+        What else `measure` takes.
+    """
+
+    sample: Sample
+    incidence: Any
+    mask: PixelMask
+    side: str
+    walked: dict[str, Any]
+
+    @cached_property
+    def hemisphere(self) -> Hemisphere:
+        """The light of all photons."""
+        return measure(self.sample, self.incidence, **self.walked)
+
+    @cached_property
+    def once(self) -> Hemisphere:
+        """The light of those of the same photons that have met the surface once."""
+        return measure(self.sample, self.incidence, **self.walked, polarized="scalar", events=1)
+
+    @cached_property
+    def counts(self) -> npt.NDArray[np.bool_]:
+        """The pixels that count, (rows, columns)."""
+        found = self.hemisphere
+        light = found.scalar[0][found.side(self.side)].mean(axis=-1)
+        return self.mask.bright(np.where(np.isnan(found.sensor.theta), np.nan, light))
+
+    @cached_property
+    def difference(self) -> LargestOf:
+        """The largest abs(S0 - U) / U of a pixel at a wavelength."""
+        found = self.hemisphere.relative_difference(
+            self.side, brighter_than=self.mask.brighter_than
+        )
+        counts = self.counts
+        return LargestOf.of(found.values[counts], found.se.values[counts])
+
+    @cached_property
+    def multiple(self) -> LargestOf:
+        """The largest share of a pixel's light that has met the surface more than once."""
+        every, single = self.hemisphere.own, self.once.own
+        both = every._replace(
+            sums=np.concatenate([every.sums[..., -1:], single.sums[..., -1:]], axis=-1)
+        )
+        value, error = both.estimate(lambda light: 1.0 - light[..., 1] / light[..., 0])
+        at, counts = self.hemisphere.side(self.side), self.counts
+        return LargestOf.of(value[at][counts], error[at][counts])
+
+    @cached_property
+    def beside_model(self) -> float:
+        """The light that pixels that count reflect once by the analytic model, over that found."""
+        model = self.once.single_scattering().values[0][..., 0, 0]
+        found = self.once.scalar[0][0]
+        return float(
+            np.max(np.abs(model[self.counts].sum(axis=0) / found[self.counts].sum(axis=0) - 1.0))
+        )
+
+    @property
+    def told(self) -> str:
+        """How it was made, in words."""
+        sensor = self.hemisphere.sensor
+        return (
+            f"{self.hemisphere.photons:,} photons, {sensor.pixels} x {sensor.pixels} pixels, of "
+            f"which {self.counts.sum()} count: {self.mask}"
+        )

@@ -1,0 +1,51 @@
+"""What polarisation makes of light on a sample whose interfaces are flat: exact."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.layer_stack import LayerStack
+from optipath.elements.source import Source
+from optipath.elements.terminal import Detector
+from optipath.paths.path_graph import PathGraph
+from optipath.paths.polarization_matters import polarization
+
+if TYPE_CHECKING:
+    from optipath.surfaces.samples.sample_indices import SampleIndices
+
+
+def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> float:
+    """Return (S0 - U) / U of all unpolarised light that a smooth sample sends to one side.
+
+    Parameters
+    ----------
+    indices : SampleIndices
+        Of its media.
+    incidence : float or str
+        The angle, in radians or with a unit.
+    side : {"reflected", "transmitted"}
+        Above the sample, or below.
+
+    Returns
+    -------
+    float
+        Of several wavelengths, that of the largest size.
+
+    Examples
+    --------
+    >>> from optipath.surfaces.samples.sample import Sample
+    >>> indices = Sample([(1.5, 0.1), (2.4, 0.1)]).indices()
+    >>> print(round(100.0 * smooth_difference(indices, "60 deg", "reflected"), 3))
+    -2.9
+    """
+    media: list[Any] = [indices.outside, *indices.inner, indices.base]
+    path = PathGraph()
+    path.add("light", Source())
+    path.add("sample", LayerStack(media, incidence))
+    path.add("seen", Detector())
+    path.connect("light", "sample.in")
+    path.connect(f"sample.{side}", "seen.in")
+    found = np.ravel(polarization(path).difference)
+    return float(found[np.argmax(np.abs(found))])
