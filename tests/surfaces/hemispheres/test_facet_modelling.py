@@ -135,7 +135,7 @@ def test_each_wavelength_has_its_index():
 
 @pytest.mark.parametrize("incidence", ["45 deg", 0.0])
 def test_a_sample_with_a_direction_is_modelled_in_the_frame_of_the_light(incidence):
-    sample = op.Sample([(SILVER, (0.3, 0.15))], cells=320)
+    sample = op.Sample([(SILVER, (0.3, 0.15))], cells=320, surfaces=8)
     found = op.measure(sample, incidence, 40_000, sensor=8, azimuth=0.7, events=1)
     model = found.single_scattering().values[0, ..., 0, :, :]
     value, error = (each[0, ..., 0, :, :] for each in found.mueller)
