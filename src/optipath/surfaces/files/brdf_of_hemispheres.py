@@ -74,7 +74,7 @@ class BrdfOfHemispheres:
         first = found[0]
         for each, before in zip(found[1:], found, strict=False):
             if not np.array_equal(each.wavelengths, first.wavelengths, equal_nan=True):
-                raise SurfaceError(f"{each!r} has other wavelengths than {first!r}")
+                raise SurfaceError(f"{each} has other wavelengths than {first}")
             if each.seen.beam.sample != first.seen.beam.sample:
                 raise SurfaceError(f"{each} is of another sample than {first}")
             if _incidence(each) == _incidence(before):
