@@ -18,13 +18,14 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import optipath as op
+from optipath.surfaces import Sensor
 from optipath.values.written_files import write_file
 
 SAMPLE, WAVELENGTH = "wang-2017-figures-7-9", "670 nm"
 PHOTONS = 1 << 24
-PIXELS = 181  # of 1 deg, and one row of them along the plane of incidence
-INCIDENCES = 30, 45, 60
-APART = np.arange(-15, 16)
+SENSOR = Sensor(181)  # pixels of 1 deg, one row of them along the plane of incidence
+ALONG = np.degrees(SENSOR.theta[90, 90:])  # where their centres are
+INCIDENCES, APART = (30, 45, 60), 15.5
 NAMES = "DoLP", "AoP"
 ANALYZER = np.radians([0.0, 45.0, 90.0, 135.0])[:, np.newaxis]
 
@@ -57,39 +58,40 @@ def turned_from(whole, matrix):
     return np.stack([degree, np.remainder(angle + 90.0, 180.0) - 90.0])
 
 
-def measured(incidence):
+def measured(incidence, angles):
     """Return DoLP and AoP over the angle of reflection, and their standard errors."""
-    sample, towards = op.load_sample(SAMPLE), [f"{incidence + apart} deg" for apart in APART]
-    hemisphere = op.measure(sample, f"{incidence} deg", PHOTONS, WAVELENGTH, sensor=PIXELS)
+    sample, towards = op.load_sample(SAMPLE), [f"{angle} deg" for angle in angles]
+    hemisphere = op.measure(sample, f"{incidence} deg", PHOTONS, WAVELENGTH, sensor=SENSOR)
     found = of_matrix(hemisphere.toward(towards).matrix)
     _, error = hemisphere.estimate_toward(functools.partial(turned_from, found), towards)
     return found, error
 
 
-def of_smooth_facets(incidence):
+def of_smooth_facets(incidence, angles):
     """Return the same of facets that mirror light into each direction: at half the angle."""
-    gold = op.load_sample(SAMPLE).indices(WAVELENGTH)
-    index, half = complex(gold.base), np.radians(incidence + APART / 2.0)
+    gold = complex(op.load_sample(SAMPLE).indices(WAVELENGTH).base)
+    half = np.radians(0.5 * (incidence + angles))
     smooth = op.load_preset("ellipsometer-pcsa")
-    return polarization(smooth, n=index.real, k=index.imag, theta=half)
+    return polarization(smooth, n=gold.real, k=gold.imag, theta=half)
 
 
 def curves():
     """Measure all curves, as JSON has them."""
     rows = []
     for incidence in INCIDENCES:
-        values, errors = measured(incidence)
-        smooth = of_smooth_facets(incidence)
+        angles = ALONG[np.abs(ALONG - incidence) < APART]
+        values, errors = measured(incidence, angles)
+        smooth = of_smooth_facets(incidence, angles)
         for place, state in enumerate(CASES):
-            row = {"incidence": incidence, "state": state}
-            for name, which in (("DoLP", 0), ("AoP", 1)):
+            row = {"incidence": incidence, "state": state, "reflection": angles.round(4).tolist()}
+            for which, name in enumerate(NAMES):
                 digits = 5 - which
                 row[name] = values[which, place].round(digits).tolist()
                 row[f"{name}_se"] = errors[which, place].round(digits + 1).tolist()
                 row[f"{name}_facet"] = smooth[which, place].round(digits).tolist()
             rows.append(row)
-    told = {"sample": SAMPLE, "wavelength": WAVELENGTH, "photons": PHOTONS, "pixels": PIXELS}
-    return told | {"apart": APART.tolist(), "curves": rows}
+    told = {"sample": SAMPLE, "wavelength": WAVELENGTH, "photons": PHOTONS}
+    return told | {"pixels": SENSOR.pixels, "curves": rows}
 
 
 def rows_of(row):
@@ -116,7 +118,7 @@ def draw(found, file):
     )
     for row in found["curves"]:
         column = INCIDENCES.index(row["incidence"])
-        angles = np.array(found["apart"]) + row["incidence"]
+        angles = row["reflection"]
         place = [*CASES].index(row["state"])
         style = {"color": f"C{place}", "marker": "ox"[place % 2], "markersize": 3 + place % 2}
         for axis, (value, error, facet) in zip(axes[:, column], rows_of(row), strict=False):
@@ -141,8 +143,8 @@ def table(found):
     """Print what is seen where a smooth surface would mirror the light."""
     print("| incidence | state | DoLP | AoP (deg) | DoLP of a facet | AoP of a facet (deg) |")
     print("| --- | --- | --- | --- | --- | --- |")
-    middle = len(found["apart"]) // 2
     for row in found["curves"]:
+        middle = np.argmin(np.abs(np.array(row["reflection"]) - row["incidence"]))
         degree, angle = (
             f"{row[name][middle]:.{digits}f} ± {row[f'{name}_se'][middle]:.{digits}f}"
             for name, digits in (("DoLP", 4), ("AoP", 2))
