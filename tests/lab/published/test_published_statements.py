@@ -110,6 +110,44 @@ def test_without_polarisation_the_lobe_reaches_farther_at_the_forward_edge():
     assert value > 5.0 * error
 
 
+def coplanar(n, m, incidence, exit_angle):
+    """|S0 - U| / U of light refracted in, reflected by a facet that bisects, and refracted out."""
+
+    def through(theta):
+        refracted = np.arcsin(np.sin(theta) / n)
+        return 1.0 - shares(np.cos(theta), n * np.cos(refracted), n), refracted
+
+    def shares(cos, other, ratio):
+        r = (cos - other) / (cos + other), (ratio**2 * cos - other) / (ratio**2 * cos + other)
+        return np.abs(r) ** 2
+
+    into, arriving = through(incidence)
+    out, leaving = through(exit_angle)
+    half = 0.5 * (arriving + leaving)
+    reflected = shares(np.cos(half), np.sqrt((m / n) ** 2 - np.sin(half) ** 2 + 0j), m / n)
+    each = into * reflected * out
+    return 1.0 - each.mean() / (into.mean() * reflected.mean() * out.mean())
+
+
+@pytest.mark.parametrize(("angle", "known"), [(50, 14.6), (56, 16.5), (60, 18.0), (65, 19.9)])
+def test_light_reflected_by_the_base_is_changed_as_by_smooth_faces(angle, known):
+    # To within what faces of alpha 0.1 tilt it.
+    exact = 100.0 * coplanar(1.5, 2.4, np.radians(angle), np.radians(80.0))
+    assert exact == pytest.approx(known, abs=0.05)
+    few = replace(sample_of(1), surfaces=4)
+    seen = op.measure(few, f"{angle} deg", 50_000, sensor=45, events=3)
+    theta, azimuth = np.degrees(seen.sensor.theta), np.abs(np.degrees(seen.sensor.phi))
+    there = (theta > 77.0) & (theta < 83.0) & (azimuth < 10.0)
+
+    def change(light):
+        scalar = seen.intensities(light)[0, ..., 0][there].sum()
+        return np.asarray(1.0 - seen.matrices(light)[0, ..., 0, 0, 0][there].sum() / scalar)
+
+    value, error = seen.own.estimate(change)
+    assert abs(100.0 * value - exact) < 0.8 + 400.0 * error
+    assert error < 0.006
+
+
 @pytest.mark.parametrize("number", [5, pytest.param(6, marks=LONG)])
 def test_one_interface_has_none_at_10_deg_and_at_most_two_per_cent_elsewhere(number):
     value, error = forward_change(hemisphere(number, "10 deg"))
