@@ -3,7 +3,7 @@
     pip install "optipath[fast,plot,sweep]"
     python examples/hemisphere_maps.py docs
 
-Measures three samples, a minute of two processors, and draws the pictures of
+Measures three samples, two minutes of one processor, and draws the pictures of
 docs/virtual-ellipsometry.md into the folder.
 """
 

@@ -18,7 +18,7 @@ _SAMPLES = {
 
 @cache
 def measured(name, projection="equidistant", events=None):
-    """A hemisphere of 16 x 16 pixels at an incidence of 60 deg, by 60,000 photons."""
+    """A hemisphere of 16 x 16 pixels at an incidence of 60 deg, by 24,000 photons."""
     pytest.importorskip("numba")
     pytest.importorskip("xarray")
     given = {"sensor": Sensor(16, projection), "events": events, "threads": 1}
@@ -28,4 +28,4 @@ def measured(name, projection="equidistant", events=None):
         given["wavelengths"] = ["500 nm", "600 nm"]
     else:
         layers = _SAMPLES[name]
-    return op.measure(op.Sample(layers), "60 deg", 60_000, **given)
+    return op.measure(op.Sample(layers), "60 deg", 24_000, **given)

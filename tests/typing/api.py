@@ -156,6 +156,12 @@ def of_pages() -> tuple[op.Material, op.Material]:
     return gold, op.Material.from_yaml("mine.yml", k=0.0, extrapolate="nearest")
 
 
+def of_pictures(found: op.Hemisphere) -> None:
+    drawn = op.plots.hemisphere(found, "ADM", source=[1, 0, 0, 0], mask={"noise": None})
+    titles: list[str] = [drawn.get_title(), op.plots.in_plane({"a": found}, "S1").get_title()]
+    op.plots.save(op.plots.differences(found, wavelength="550 nm"), titles[0], dots_per_inch=80)
+
+
 def of_files() -> op.Hemisphere:
     found = op.load_hemisphere("a.nc", sample=varnished)
     found.save("a.exr", source=[1.0, 1.0, 0.0, 0.0], side="reflected")

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from optipath.cli.console import PlainConsole, say, say_json, title
 from optipath.cli.given_walk import given_walks
 from optipath.cli.photon_bar import photon_bar
@@ -58,11 +60,22 @@ def print_choices(
             say(f"{walk.direction}: {found[-1].explain()}")
     if as_json:
         several = [
-            {"incidence": plain(walk.incidence.shown), "unit": walk.incidence.unit, **asdict(each)}
+            {
+                "incidence": plain(walk.incidence.shown),
+                "units": {"incidence": walk.incidence.unit},
+                **asdict(each),
+                "difference": _plain(each.difference),
+                "multiple": _plain(each.multiple),
+            }
             for walk, each in zip(walks, found, strict=True)
         ]
         one = several[0] if len(several) == 1 else {"directions": several}
         say_json({"sample": sample, **one})
+
+
+def _plain(pair: tuple[float, float] | None) -> Any:
+    """Return a number and its error as JSON has them; one that is not known is null."""
+    return None if pair is None else plain(np.asarray(pair))
 
 
 def _decided(walk: GivenWalk, tolerance: float, threads: int | None, progress: Any) -> ModelChoice:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,20 +87,17 @@ def beside_facets(
     toned = ColourScale.light(largest_of(both[..., 0]))
     signed = ColourScale.signed_light(largest_of(both[..., 1:]))
     linear = ColourScale.signed(largest_of(apart))
-    images: dict[ColourScale, Any] = {}
-    for row, values in enumerate((by_photons, by_model, apart)):
-        for column in range(4):
-            scale = linear if row == 2 else signed if column else toned
-            ax = panel[row, column]
-            image = draw_disc(ax, seen, values[..., column], scale, labelled=False)
-            images[scale] = image, [*images.get(scale, (image, []))[1], ax]
-            ax.set_title(f"S{column}, {_ROWS[row]}")
-    for scale, label, place in (
-        (toned, "S0 (1/sr)", "left"),
-        (signed, "S1, S2, S3 (1/sr)", "right"),
-        (linear, "difference (% of the largest S0)", "right"),
+    values = np.stack([by_photons, by_model, apart])
+    for rows, columns, scale, label, place in (
+        ((0, 1), (0,), toned, "S0 (1/sr)", "left"),
+        ((0, 1), (1, 2, 3), signed, "S1, S2, S3 (1/sr)", "right"),
+        ((2,), (0, 1, 2, 3), linear, "difference (% of the largest S0)", "right"),
     ):
-        image, where = images[scale]
-        scale.bar(image, where, label, location=place, shrink=0.8)
+        for row, column in product(rows, columns):
+            ax: Any = panel[row, column]
+            image = draw_disc(ax, seen, values[row, ..., column], scale, labelled=False)
+            ax.set_title(f"S{column}, {_ROWS[row]}")
+        together = list(panel[np.ix_(rows, columns)].flat)
+        scale.bar(image, together, label, location=place, shrink=0.8)
     head_panel(panel, axes, seen, "scattered once")
     return panel

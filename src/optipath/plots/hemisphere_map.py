@@ -11,6 +11,7 @@ from optipath.paths.format.faults import Faults
 from optipath.plots.disc import draw_disc
 from optipath.plots.own_axes import own_axes
 from optipath.plots.pixel_quantity import PixelQuantity, quantity_named
+from optipath.plots.positive import positive
 from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
@@ -53,7 +54,8 @@ def hemisphere(
         What is drawn; the last three compare light with polarisation and without, in per cent, as
         methods of `Hemisphere` do.
     ax : Axes, optional
-        Where; a figure of its own by default, ``.figure`` of what is returned.
+        Where, best of a figure with ``layout="constrained"``, which makes room for all that is
+        beside the disc; a figure of its own by default, ``.figure`` of what is returned.
     source : array_like, shape (4,), optional
         The Stokes vector of the light that comes in, in the frame whose x is horizontal;
         unpolarised by default.
@@ -88,7 +90,11 @@ def hemisphere(
     'DoLP, reflected, incidence 40°'
     """
     drawn = quantity_named(quantity)
-    seen = _seen(drawn, measured, side, wavelength, source, mask)
+    faults = [*positive("largest", largest), *positive("known_to", known_to)]
+    if largest is not None and drawn.is_bounded:
+        faults.append(f"largest is given, but colours of {drawn.variable} end at their own limits")
+    faults += drawn.faults_of(mask)
+    seen = _seen(drawn, faults, measured, side, wavelength, source)
     pixels = drawn.known(seen, known_to, mask)
     ax = own_axes(ax, (5.6, 5.0))
     scale = drawn.scale(pixels.largest if largest is None else largest)
@@ -100,16 +106,14 @@ def hemisphere(
 
 def _seen(
     drawn: PixelQuantity,
+    others: list[str],
     measured: Hemisphere,
     side: str,
     wavelength: Any,
     source: npt.ArrayLike,
-    mask: Mapping[str, float | None] | None,
 ) -> SeenSide:
-    """Return what is to be drawn, and refuse what does not go with the quantity."""
-    faults = Faults()
-    if mask and not drawn.masked:
-        faults.append(f"mask is given, but {drawn.variable} has none; leave it out")
+    """Return what is to be drawn; refuse what does not go with the quantity, beside others."""
+    faults = Faults(others)
     if drawn.over_wavelengths and wavelength is not None:
         faults.append(f"{drawn.variable} is of all wavelengths together; leave wavelength out")
         wavelength = None

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.errors import SurfaceError
 from optipath.plots.colour_scale import ColourScale
 from optipath.plots.disc import draw_disc, head_panel
 from optipath.plots.own_axes import own_panel
 from optipath.plots.pixel_quantity import largest_of
+from optipath.plots.positive import positive
 from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
@@ -62,6 +64,8 @@ def mueller_hemisphere(
     >>> mueller_hemisphere(found)[0, 1].get_title()
     'M01 / M00'
     """
+    if faults := positive("known_to", known_to):
+        raise SurfaceError(*faults)
     seen = SeenSide.of(measured, side, wavelength, UNPOLARISED)
     panel = own_panel(axes, (4, 4), (9.6, 9.4))
     value, error = map(

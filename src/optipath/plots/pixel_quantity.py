@@ -56,9 +56,9 @@ class PixelQuantity(NamedTuple):
         Returns its `ColourScale` for the largest of its sizes.
     known_to : float
         The standard error up to which a pixel is shown.
-    masked : bool
-        Whether it compares light with and without polarisation under a mask, for a source that is
-        unpolarised.
+    masked : tuple of str
+        By what, where it compares light with and without polarisation under a mask, for a source
+        that is unpolarised.
     over_wavelengths : bool
         Whether it is of all wavelengths together.
     """
@@ -69,8 +69,25 @@ class PixelQuantity(NamedTuple):
     of: Callable[[SeenSide, Mapping[str, Any]], KnownPixels]
     scale: Callable[[float], ColourScale]
     known_to: float = np.inf
-    masked: bool = False
+    masked: tuple[str, ...] = ()
     over_wavelengths: bool = False
+
+    @property
+    def is_bounded(self) -> bool:
+        """Whether its colours are those of all values that it can have."""
+        return self.scale in (_share, _axis)
+
+    def faults_of(self, mask: Mapping[str, Any] | None) -> list[str]:
+        """Return sentences for what is no mask of it.
+
+        Examples
+        --------
+        >>> quantity_named("S0").faults_of({"noise": None})
+        ['mask is given, but S0 has none; leave it out']
+        """
+        if mask and not self.masked:
+            return [f"mask is given, but {self.variable} has none; leave it out"]
+        return [fault for key in mask or {} for fault in unknown("mask", key, self.masked)]
 
     @property
     def label(self) -> str:
@@ -139,7 +156,8 @@ _aop = partial(_state, "aop", float(np.degrees(1.0)))
 _difference = partial(_effect, "relative_difference")
 _adm, _mdm = partial(_effect, "adm"), partial(_effect, "mdm")
 
-_OVER_ALL = {"masked": True, "over_wavelengths": True}
+_MASK = "brighter_than", "noise", "known_to"
+_OVER_ALL: dict[str, Any] = {"masked": _MASK, "over_wavelengths": True}
 
 QUANTITIES = (
     PixelQuantity("S0", "S0", "1/sr", partial(_component, 0), _light),
@@ -149,7 +167,9 @@ QUANTITIES = (
     PixelQuantity("DoP", "degree of polarisation", "", _dop, _share, 0.1),
     PixelQuantity("DoLP", "degree of linear polarisation", "", _dolp, _share, 0.1),
     PixelQuantity("AoP", "angle of polarisation", "°", _aop, _axis, 10.0),
-    PixelQuantity("difference", "S0 / U - 1", "%", _difference, ColourScale.signed, masked=True),
+    PixelQuantity(
+        "difference", "S0 / U - 1", "%", _difference, ColourScale.signed, masked=_MASK[:1]
+    ),
     PixelQuantity("ADM", "mean of |S0 - U| / U", "%", _adm, ColourScale.share, **_OVER_ALL),
     PixelQuantity("MDM", "largest |S0 - U| / U", "%", _mdm, ColourScale.share, **_OVER_ALL),
 )

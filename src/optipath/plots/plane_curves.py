@@ -11,6 +11,7 @@ from optipath.errors import SurfaceError
 from optipath.plots.own_axes import own_axes
 from optipath.plots.plane_cut import PlaneCut
 from optipath.plots.plane_quantity import plane_quantity_named
+from optipath.plots.positive import positive
 from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
@@ -92,6 +93,8 @@ def in_plane(
     several = measured if isinstance(measured, Mapping) else {"": measured}
     if not several:
         raise SurfaceError("measured is an empty mapping; give one Hemisphere at least")
+    if faults := positive("known_to", known_to):
+        raise SurfaceError(*faults)
     drawn = plane_quantity_named(quantity)
     sides = {
         str(name): SeenSide.of(each, side, wavelength, source) for name, each in several.items()

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from optipath.errors import OptipathError, shown
+from optipath.plots.positive import positive
 from optipath.values.picture_files import write_picture
 
 if TYPE_CHECKING:
@@ -41,5 +42,7 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
     first = np.array(drawn, object).ravel()[:1]
     if not (first.size and isinstance(first[0], Axes | Figure)):
         raise OptipathError(f"{shown(drawn)} is no picture; give what a function of plots returned")
+    if faults := positive("dots_per_inch", dots_per_inch):
+        raise OptipathError(*faults)
     figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
     write_picture(figure, Path(file), dots_per_inch)

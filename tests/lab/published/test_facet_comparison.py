@@ -11,7 +11,7 @@ from optipath.lab.published.facet_comparison import model_excess, model_of, mode
 
 pytest.importorskip("numba")
 pytest.importorskip("xarray")
-LONG = pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="walks 30 million photons")
+LONG = pytest.mark.skipif("OPTIPATH_SETS" not in os.environ, reason="walks 16 million photons")
 SILVER = op.load_sample("wang-2017-figure-4")
 
 
@@ -45,5 +45,7 @@ def test_the_model_is_slightly_below_the_simulation(silver, component):
 
 @LONG
 def test_the_model_is_that_of_photons_after_one_event_beyond_30_deg_from_grazing():
-    off, error = model_off(op.measure(SILVER, "40 deg", 30_000_000, events=1))
-    assert off < 2e-3 + 2.0 * error < 5e-3
+    # Many surfaces: by how much they differ is most of the error.
+    sample = replace(SILVER, surfaces=64)
+    off, error = model_off(op.measure(sample, "40 deg", 16_000_000, sensor=64, events=1))
+    assert off < 2e-3 + 2.0 * error < 0.011

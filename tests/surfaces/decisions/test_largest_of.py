@@ -1,0 +1,26 @@
+import numpy as np
+
+from optipath.surfaces.decisions.largest_of import LargestOf
+
+
+def test_three_standard_errors_to_either_side_are_within():
+    found = LargestOf.of([0.1, -0.2], [0.01, 0.02])
+    np.testing.assert_allclose([found.value, found.least, found.most], [0.2, 0.14, 0.26])
+
+
+def test_the_noise_of_another_number_may_reach_further():
+    found = LargestOf.of([0.1, 0.2], [0.1, 0.001])
+    assert found.value == 0.2
+    assert not found.is_below(0.3)
+    assert found.is_above(0.19)
+
+
+def test_an_error_that_is_not_known_leaves_the_largest_open():
+    found = LargestOf.of([0.01, 0.02], [np.nan, 0.001])
+    assert not found.is_below(1e6)
+    assert str(found) == "1.7 % or more"
+
+
+def test_of_no_numbers_nothing_is_known():
+    assert not LargestOf.of([], []).is_below(1.0)
+    assert not LargestOf.of([], []).is_above(0.0)
