@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import optipath as op
 from pictures import faults_of
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
@@ -82,3 +83,15 @@ def test_no_text_in_the_pictures_of_hemispheres_is_over_another_or_cut():
         figure = drawn if hasattr(drawn, "axes") else drawn.flat[0].figure
         assert faults_of(figure) == [], name
         assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
+
+
+def test_the_virtual_ellipsometer_tells_the_polarisation_that_smooth_facets_make():
+    pytest.importorskip("matplotlib")
+    pytest.importorskip("xarray")
+    example = runpy.run_path(EXAMPLES / "rough_ellipsometer.py")
+    gold = complex(op.load_sample(example["SAMPLE"]).indices(example["WAVELENGTH"]).base)
+    matrix = op.Interface(gold, "50 deg").mueller("in", "reflected").matrix
+    found, expected = example["of_matrix"](matrix[np.newaxis]), matrix @ [1.0, 0.0, 1.0, 0.0]
+    facets = example["of_smooth_facets"](45, np.array([55.0]))
+    np.testing.assert_allclose(found, facets, rtol=0, atol=1e-11)
+    assert found[0, 1, 0] == pytest.approx(np.hypot(expected[1], expected[2]) / expected[0])

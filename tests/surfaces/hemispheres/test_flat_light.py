@@ -122,3 +122,13 @@ def test_there_is_nothing_to_keep_in_a_store(tmp_path):
         pytest.importorskip(extra)
     with pytest.raises(op.OptipathError, match=r"flat: .* leave out store and scheduler"):
         op.measure(GLASS_ON_DIAMOND, 0.5, store=tmp_path / "kept.zarr")
+
+
+@pytest.mark.parametrize(
+    ("incidence", "percent"),
+    [("50 deg", 1.785), ("56 deg", 2.498), ("60 deg", 2.9), ("65 deg", 3.167)],
+)
+def test_the_bound_of_smooth_glass_on_diamond_is_that_of_its_layers(incidence, percent):
+    # In closed form: both faces' rounds with polarisation over those by the mean of each face.
+    found = op.measure(GLASS_ON_DIAMOND, incidence, sensor=32).adm()
+    assert 100.0 * float(found.max()) == pytest.approx(percent, abs=6e-4)
