@@ -10,7 +10,7 @@ import numpy.typing as npt
 from optipath.elements.interface import Interface
 from optipath.elements.source import Source
 from optipath.elements.terminal import Detector
-from optipath.errors import SurfaceError
+from optipath.errors import SurfaceError, shown
 from optipath.paths.path_graph import PathGraph
 from optipath.paths.polarization_matters import polarization
 from optipath.values.domains.quantities import INCIDENCE
@@ -67,7 +67,7 @@ def smooth_exit(
     """
     if not is_whole(depth, 0, len(sample.layers) - 1):
         raise SurfaceError(
-            f"there is no interface {depth!r}; give one from 0 to {len(sample.layers) - 1}"
+            f"there is no interface {shown(depth)}; give one from 0 to {len(sample.layers) - 1}"
         )
     angles = [
         np.asarray(INCIDENCE.check(name, value), float)
