@@ -207,6 +207,13 @@ def test_what_is_let_through_is_seen_from_below():
         np.testing.assert_allclose(found, expected, rtol=0, atol=1e-15)
 
 
+def test_whoever_looks_along_the_normal_is_warned_of_frames_that_turn(rough):
+    with pytest.warns(op.PhotonWarning, match="more and smaller pixels"):
+        rough.toward("2 deg")
+    rough.toward("20 deg")
+
+
+@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
 @pytest.mark.parametrize("alpha", [0.02, 0.3])
 @pytest.mark.parametrize("layers", [[GOLD], [1.5], [1.5, 2.4], [1.5, GOLD], [1j]])
 def test_every_pixel_is_an_element_that_can_be(alpha, layers):

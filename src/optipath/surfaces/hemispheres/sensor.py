@@ -150,6 +150,21 @@ class Sensor:
         )
         return np.repeat(rows, len(columns)), np.tile(columns, len(rows))
 
+    def radius(self, directions: npt.ArrayLike) -> Numbers:
+        """Return how far directions are from the normal on the image, of which the rim is 1.
+
+        Parameters
+        ----------
+        directions : array_like, shape (..., 3)
+            Unit vectors, upwards or downwards.
+
+        Returns
+        -------
+        ndarray, shape (...)
+        """
+        x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
+        return PROJECTIONS[self.projection].radius(np.hypot(x, y), np.abs(z))
+
     def _at(self, directions: npt.ArrayLike) -> tuple[Numbers, Numbers]:
         """Return where directions are, in columns and in rows from the corner."""
         x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)

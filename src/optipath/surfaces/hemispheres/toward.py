@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from optipath.elements.mueller_element import MuellerElement
-from optipath.errors import SurfaceError, ValueFault, shown
+from optipath.errors import PhotonWarning, SurfaceError, ValueFault, shown
 from optipath.light.frames import Frame
 from optipath.surfaces.hemispheres.given_toward import direction_of, wavelength_place
+from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
+from optipath.surfaces.samples.sample import Sample
 from optipath.values.arrays.shapes import first_place
+from optipath.values.calls_up import calls_up
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,8 +24,11 @@ if TYPE_CHECKING:
 
 Numbers = npt.NDArray[np.float64]
 
+_FEW_PIXELS = 2.0
+"""So near the normal frames turn so much within a pixel that a twenty-fifth of S1, S2 is lost."""
 
-class Toward:
+
+class Toward(MeasuredPixels):
     """A hemisphere that stands in paths: its light toward one direction, or several.
 
     A direction is an angle in the plane of incidence, from the normal on the side of the sample
@@ -32,18 +39,6 @@ class Toward:
     What goes toward a direction is what falls on its pixel; on the border of pixels, on all of
     them together (`Sensor.around`).
     """
-
-    seen: Any
-    own: Any
-    sensor: Any
-    wavelengths: Numbers
-    matrices: Callable[[Numbers], Numbers]
-    side: Callable[[Any], int]
-
-    if TYPE_CHECKING:
-
-        @property
-        def photons(self) -> int: ...
 
     def toward(
         self,
@@ -80,6 +75,13 @@ class Toward:
             none falls on the pixel, by chance more than comes in, or no Mueller matrix has been
             measured; if it is not said which of several wavelengths is meant.
 
+        Warns
+        -----
+        PhotonWarning
+            If a direction is within two pixels of the normal, about which the frames of the
+            photons of one pixel turn: their sum has lost linear polarisation, by the share
+            1 / (6 r^2) at r pixels.
+
         Examples
         --------
         >>> import optipath as op
@@ -89,6 +91,7 @@ class Toward:
         True
         """
         pixels = self._toward(direction, side, wavelength)
+        self._warn_next_to_normal(direction, side)
         matrices, _ = pixels.estimate(self.matrices)
         if np.any(dark := matrices[..., 0, 0] == 0.0):
             raise SurfaceError(self._nothing_falls(direction, dark, side))
@@ -180,6 +183,20 @@ class Toward:
         """Towards which side the light goes that comes in."""
         beam = self.seen.beam
         return 0.0 if beam.sample.isotropic else beam.azimuth
+
+    def _warn_next_to_normal(self, direction: Any, side: str) -> None:
+        z = direction_of(direction, self._azimuth, up=side == "reflected").z
+        radius = 0.5 * self.sensor.pixels * self.sensor.radius(z)
+        sample = self.seen.beam.sample
+        is_flat = isinstance(sample, Sample) and all(layer.is_flat for layer in sample.layers)
+        if not is_flat and np.any(near := radius < _FEW_PIXELS):
+            warnings.warn(
+                f"direction{first_place(near)} ({shown(direction)}) is within {_FEW_PIXELS:.0f} "
+                f"pixels of the normal, where frames turn within a pixel and linear polarisation "
+                f"is lost; measure with more and smaller pixels",
+                PhotonWarning,
+                calls_up(),
+            )
 
     def _nothing_falls(self, direction: Any, dark: npt.NDArray[np.bool_], side: str) -> str:
         where = f"direction{first_place(dark)} ({shown(direction)})"
