@@ -55,3 +55,15 @@ def test_light_at_several_wavelengths_has_an_axis_for_them():
 def test_too_few_photons_are_told():
     with pytest.raises(op.SurfaceError, match="photons must be a whole number of 1 or more"):
         surfaces.photon_ends(SILVER, "40 deg", photons=0)
+
+
+def test_light_along_the_normal_is_in_the_frame_of_light_beside_it():
+    # A flat face sends polarised light back as it was, however the sample below it lies.
+    sample = op.Sample([(1.5, 0.0), (0.5 + 2.1j, (0.3, 0.15))], cells=400)
+    found = surfaces.photon_ends(sample, 0.0, 200, azimuth=0.7, stokes=[1, 1, 0, 0])
+    once = found.events == 1
+    assert np.all(found.x[once] == [0.0, 1.0, 0.0])
+    # It vibrates along (-sin 0.7, cos 0.7, 0), and y is (-1, 0, 0).
+    along, across = np.cos(0.7), np.sin(0.7)
+    expected = [1.0, along**2 - across**2, 2.0 * along * across, 0.0]
+    np.testing.assert_allclose(found.stokes[once], [expected] * once.sum(), rtol=0, atol=1e-14)

@@ -125,3 +125,11 @@ def test_another_projection_gives_the_same(hemispheres, tmp_path):
     first, second = (measured_tables.read(tmp_path / f"{n}.pbsdf")["M"] for n in "ab")
     near = (slice(None), slice(5), slice(5))
     assert np.abs(first[near] - second[near]).max() < 0.05 * np.abs(first[near]).max()
+
+
+def test_odd_sensors_have_light_about_the_normal_too(tmp_path):
+    found = [without_noise(angle, pixels=21) for angle in range(0, 90, 15)]
+    write_measured_polarized(tmp_path / "a.pbsdf", found, shape=(5, 13, 13))
+    matrices = measured_tables.read(tmp_path / "a.pbsdf")["M"]
+    brightest = np.nanmax(matrices[..., 0, 0])
+    assert np.nanmax(np.abs(matrices)) < 1.01 * brightest

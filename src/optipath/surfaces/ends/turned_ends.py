@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from optipath.kernels.carriers.carried import stokes_of
 from optipath.kernels.carriers.structures import ROTATION
+from optipath.kernels.filters.rotation import align
 from optipath.kernels.geometry.facet import plane_at_facet
 from optipath.kernels.numbers.primitives import NUMPY
 from optipath.surfaces.walk.walk_layout import (
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from optipath.surfaces.walk.photon_beam import PhotonBeam
 
 Numbers = npt.NDArray[np.float64]
+
+_ACROSS = 0.0, 1.0, 0.0
 
 
 class TurnedDirections(NamedTuple):
@@ -81,9 +84,14 @@ def turned_directions(beam: PhotonBeam, found: Numbers) -> TurnedDirections:
     back = -found[:, AZIMUTH] if beam.sample.isotropic else np.zeros(len(found))
     k, old_x = (_turned(found[:, place : place + 3], back) for place in (END_K, END_X))
     _, _, x, *turn = plane_at_facet(NUMPY)(tuple(k.T), tuple(old_x.T), (0.0, 0.0, 1.0))
-    return TurnedDirections(
-        k, *(np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
-    )
+    x, turns = (np.stack(np.broadcast_arrays(*each), axis=-1) for each in (x, turn))
+    along = (k[:, 0] == 0.0) & (k[:, 1] == 0.0)
+    if np.any(along):
+        # There is no meridional plane, and x is that of light beside it that goes on towards x.
+        old, z = x[along], k[along, 2]
+        turns[along] = np.stack(align(NUMPY)(old[:, 1], z * old[:, 0]), axis=-1)
+        x[along] = _ACROSS
+    return TurnedDirections(k, x, turns)
 
 
 def turned_ends(beam: PhotonBeam, found: Numbers) -> TurnedEnds:

@@ -22,6 +22,9 @@ Numbers = npt.NDArray[np.float64]
 _PARTS = 8
 """Into how many parts the sides of pixels are split, over which frames are averaged."""
 
+_ALL_LOST = 1e-6
+"""Where as little is left of what is polarised, nothing is to be had of it."""
+
 _RIM = 1.0 - 1e-9
 """How far from the centre parts of pixels are taken to be: light along the horizon has no frame."""
 
@@ -77,6 +80,12 @@ class LevelPixels:
         found = np.where(seen[..., np.newaxis, np.newaxis], brdf.to_numpy()[0], 0.0)
         errors = np.where(seen, brdf.se.to_numpy()[0, ..., 0, 0], 0.0)
         found[..., 1:3, :] = _unturned(sensor, there) @ found[..., 1:3, :]
+        if sensor.pixels % 2 and sensor.pixels > 1:
+            # Of light about the normal all that is linear is lost; its neighbours have it.
+            middle = sensor.pixels // 2
+            beside = [(middle - 1, middle), (middle + 1, middle)]
+            beside += [(middle, middle - 1), (middle, middle + 1)]
+            found[middle, middle] = np.mean([found[place] for place in beside], axis=0)
         return cls(sensor, there.astype(float), found, errors)
 
     def at(self, directions: Numbers) -> tuple[Numbers, Numbers]:
@@ -180,7 +189,8 @@ def _unturned(sensor: Sensor, there: npt.NDArray[np.bool_]) -> Numbers:
     turns = level_frame(z).turn_to(frame_along("the pixel", z, up=True))
     c[there], s[there] = (each.mean(axis=(-2, -1)) for each in turns)
     rows = np.stack([np.stack([c, -s], -1), np.stack([s, c], -1)], -2)
-    return (rows / (c * c + s * s)[..., None, None])[:, :, None]
+    left = c * c + s * s
+    return (rows / np.where(left > _ALL_LOST, left, 1.0)[..., None, None])[:, :, None]
 
 
 def each_wavelength(frame: Frame) -> Frame:

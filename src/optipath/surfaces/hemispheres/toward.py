@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 Numbers = npt.NDArray[np.float64]
 
-_FEW_PIXELS = 2.0
-"""So near the normal frames turn so much within a pixel that a twenty-fifth of S1, S2 is lost."""
+_FEW_PIXELS = 4.0
+"""So near the normal frames turn so much within a pixel that a hundredth of S1, S2 is lost."""
 
 
 class Toward(MeasuredPixels):
@@ -78,7 +78,7 @@ class Toward(MeasuredPixels):
         Warns
         -----
         PhotonWarning
-            If a direction is within two pixels of the normal, about which the frames of the
+            If a direction is within four pixels of the normal, about which the frames of the
             photons of one pixel turn: their sum has lost linear polarisation, by the share
             1 / (6 r^2) at r pixels.
 
