@@ -26,6 +26,11 @@ brighter_than = 0.2
 noise = 0.2
 azimuth = 20
 cells = 100
+
+[[measurements]]
+measure = "dolp"
+incidence = ["50 deg"]
+text = "a half"
 stokes = [1.0, 0.0, 0.5, 0.0]
 """
 _SAMPLE = op.Sample([(1.5, 0.1), (2.4, 0.2)]).to_toml()

@@ -118,3 +118,104 @@ def test_all_faults_of_a_file_are_told_at_once(tmp_path):
 def test_what_is_wrong_is_told(old, new, told, tmp_path):
     text = OWN if "{sample}" in old else OWN.replace("{sample}", "glass-rough")
     assert any(told in fault for fault in refused(tmp_path, text.replace(old, new)))
+
+
+OTHER = OWN.replace("{sample}", "glass-rough")
+TEXT = 'text = "a tenth"'
+KEYS = ("stokes", "azimuth", "noise", "brighter_than", "sensor", "cells")
+
+
+@pytest.mark.parametrize("key", ["stokes", "azimuth", "brighter_than", "noise", "cells"])
+def test_what_a_measure_does_not_depend_on_is_refused(key, tmp_path):
+    value = "[1.0, 0.0, 0.5, 0.0]" if key == "stokes" else "20"
+    for name, measure in MEASURES.items():
+        text = OTHER.replace('"R"', f'"{name}"').replace(TEXT, f"{TEXT}\n{key} = {value}")
+        if key in measure.takes:
+            assert load_experiment(written(tmp_path, text)).measurements
+        else:
+            (fault,) = refused(tmp_path, text)
+            assert fault == (
+                f"measurements[0]: '{key}' is given, but measure '{name}' does not depend on it; "
+                f"leave it out"
+            )
+
+
+def test_each_key_is_of_the_measures_that_it_has_a_meaning_for():
+    known = {key: {name for name, one in MEASURES.items() if key in one.takes} for key in KEYS}
+    shares = {"R_s", "R_m", "R", "T_s", "T_m", "T", "R+T"}
+    without_pixels = shares | {f"scalar-{name}" for name in shares}
+    assert known["stokes"] == shares | {"dolp", "aop"}
+    assert known["azimuth"] == known["noise"] == known["brighter_than"] == {"adm", "mdm"}
+    assert known["sensor"] == set(MEASURES) - without_pixels
+    assert known["cells"] == set(MEASURES) - {"model-S3"}  # Of the model alone.
+
+
+def test_pixels_are_refused_where_none_are_measured(tmp_path):
+    text = OTHER.replace("[[measurements]]", "sensor = 64\n[[measurements]]")
+    assert refused(tmp_path, text) == (
+        "'sensor' is given, but not for 'R', which no pixels see; leave it out",
+    )
+    more = text + '[[measurements]]\nmeasure = "adm"\nincidence = ["1 rad"]\ntext = "none"\n'
+    assert load_experiment(written(tmp_path, more)).sensor == 64
+
+
+def test_cells_of_a_sample_without_random_fields_are_refused(tmp_path):
+    (tmp_path / "pane.toml").write_text(op.Sample([(1.7, 0.0)]).to_toml(), "utf-8")
+    text = OWN.replace("{sample}", "pane.toml").replace(TEXT, f"{TEXT}\ncells = 20")
+    (fault,) = refused(tmp_path, text)
+    assert fault.startswith("measurements[0]: ")
+    assert "cells" in fault
+
+
+def test_a_tolerance_of_nothing_that_is_published_is_refused(tmp_path):
+    text = OTHER.replace("published = [0.1, [0.05, 0.1]]", "within = 0.1")
+    (fault,) = refused(tmp_path, text)
+    assert fault.endswith(
+        "'within' is given, but nothing is 'published'; give both, or leave it out"
+    )
+
+
+@pytest.mark.parametrize("azimuth", [500, 180.1, -1, "nan"])
+def test_an_azimuth_is_within_180_deg(azimuth, tmp_path):
+    text = OTHER.replace('"R"', '"adm"').replace(TEXT, f"{TEXT}\nazimuth = {azimuth}")
+    assert refused(tmp_path, text) == (
+        f"measurements[0]: 'azimuth' is {azimuth}; write a number from 0 to 180, in degrees",
+    )
+
+
+def test_the_cure_of_a_missing_wavelength_is_one_of_the_file(tmp_path):
+    text = OWN.replace("{sample}", "gold-rough")
+    (fault,) = refused(tmp_path, text)
+    cure = 'wavelengths = ["550 nm"]'
+    assert fault.endswith(f"depends on the wavelength; give one above [[measurements]], {cure}")
+    cured = text.replace("[[measurements]]", f"{cure}\n[[measurements]]")
+    assert load_experiment(written(tmp_path, cured)).measurements[0].walks.wavelengths == (
+        "550 nm",
+    )
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('["60 deg", "1 rad"]', '"50 deg"', "measurements[0]: 'incidence' must be a list, not"),
+        ('"R"', "3", "measurements[0]: 'measure' must be a text, not 3"),
+        ('"glass-rough"', "3", "the experiment: 'sample' must be a text, not 3"),
+        (OTHER[OTHER.index("[[") :], "measurements = 3", "'measurements' must be a list, not 3"),
+        ("[[measurements]]", "wavelengths = 3\n[[measurements]]", "'wavelengths' must be a list"),
+    ],
+)
+def test_a_key_of_the_wrong_type_is_told_once(old, new, told, tmp_path):
+    (fault,) = refused(tmp_path, OTHER.replace(old, new))
+    assert told in fault
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "told"),
+    [
+        ('["60 deg", "1 rad"]\n', "[]\n", "incidence is empty; give one angle or more, such as"),
+        ('"1 rad"', "1.0", 'incidence: 1.0 is no text; write one such as "60 deg"'),
+        (OTHER[OTHER.index("[[") :], "measurements = []", "measures nothing; add a table [[meas"),
+    ],
+)
+def test_what_measures_nothing_is_refused(old, new, told, tmp_path):
+    assert any(told in fault for fault in refused(tmp_path, OTHER.replace(old, new)))

@@ -35,6 +35,25 @@ def test_shares_of_a_flat_face_are_those_of_fresnel():
     assert (mask, pixel) == ("", "")
 
 
+def test_shares_are_those_of_the_light_that_is_given():
+    r_s, r_p = amplitudes(1.5, np.pi / 3)
+    for s1, known in ((1.0, r_s), (-1.0, r_p)):
+        light = (1.0, s1, 0.0, 0.0)
+        value, error, *_ = found(op.Sample([(1.5, 0)]), "R", "60 deg", stokes=light)
+        assert abs(value - abs(known) ** 2) < 5 * error < 0.02
+
+
+def test_lights_from_one_direction_are_told_apart():
+    walks = Walks("60 deg", (), None)
+    lights = [(1.0, s1, 0.0, 0.0) for s1 in (1.0, -1.0, 0.0)]
+    several = tuple(Measurement("R", "", walks, stokes=light) for light in lights)
+    experiment = Experiment("own", "", "", op.Sample([(1.5, 0)]), several)
+    both = [one.found for one in reproduce(experiment, 20_000)]
+    assert both[0].value > 0.15
+    assert both[1].value < 0.05
+    assert abs((both[0].value + both[1].value) / 2.0 - both[2].value) < 5 * both[2].error
+
+
 @pytest.mark.parametrize("measure", ["R+T", "scalar-R+T"])
 def test_glass_reflects_or_lets_through_all_light(measure):
     value, error, *_ = found(op.Sample([(1.5, 0.3)], surfaces=2, cells=400), measure, "60 deg")
@@ -103,3 +122,8 @@ def test_progress_is_told_of_each_direction():
     again = reproduce(experiment, 1000, progress=lambda *counts: told.append(counts))
     assert all(one.agrees for one in again)
     assert told.count((1000, 1000)) >= 3
+
+
+def test_too_few_photons_are_told_with_a_cure_that_can_be_followed():
+    with pytest.raises(op.SurfaceError, match=r"measure with more photons$"):
+        found(op.Sample([(1.5, 0.3)], cells=400), "adm", "60 deg", 1)

@@ -13,6 +13,7 @@ from optipath.lab.published.facet_comparison import (
     model_of,
     model_off,
 )
+from optipath.values.cures import of_files
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
     from optipath.lab.published.walked import Walked
 
 
-_ANY = 180.0
+ANY_AZIMUTH = 180.0
+"""Within how many degrees of the plane of incidence all pixels are, on either side."""
 
 
 class Found(NamedTuple):
@@ -54,18 +56,22 @@ class Measure(NamedTuple):
         What it is.
     of : callable
         Returns it of photons, and of what is asked.
+    takes : tuple of str
+        The keys of an experiment's file that it depends on, of those that not all measures do.
     several : bool
         Whether light may have several wavelengths.
     """
 
     told: str
     of: Callable[[Walked, Measurement], Found]
+    takes: tuple[str, ...]
     several: bool = False
 
 
 def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement], Found]:
-    def of(walked: Walked, _: Measurement) -> Found:
-        energy = walked.energy.scalar if scalar else walked.energy
+    def of(walked: Walked, measurement: Measurement) -> Found:
+        whole = walked.energy(measurement.stokes)
+        energy = whole.scalar if scalar else whole
         if name == "R+T":
             error = np.hypot(energy.absorbed_se, energy.lost_se)
             return Found(float(energy.R + energy.T), float(error))
@@ -77,12 +83,15 @@ def _share(name: str, *, scalar: bool = False) -> Callable[[Walked, Measurement]
 def _largest(name: str) -> Callable[[Walked, Measurement], Found]:
     def of(walked: Walked, measurement: Measurement) -> Found:
         made, sensor = getattr(walked.hemisphere, name), walked.hemisphere.sensor
-        found: xr.DataArray = made(brighter_than=measurement.brighter_than, noise=measurement.noise)
+        with of_files():  # Cures are what the file, or the command, can follow.
+            found: xr.DataArray = made(
+                brighter_than=measurement.brighter_than, noise=measurement.noise
+            )
         # The other side of the plane of incidence is its image.
         theta, azimuth = np.degrees(sensor.theta), np.abs(np.degrees(sensor.phi))
         value = np.where(azimuth <= measurement.azimuth, found.values, np.nan)
         mask = f"{sensor.pixels} x {sensor.pixels} pixels: {found.attrs['mask']}"
-        if measurement.azimuth < _ANY:
+        if measurement.azimuth < ANY_AZIMUTH:
             mask += f", azimuth within {measurement.azimuth:g} deg of the plane of incidence"
         if np.isnan(value).all():
             return Found(np.nan, np.nan, mask)
@@ -138,20 +147,28 @@ _SHARES = {
     "R+T": "share reflected or let through",
 }
 
+_LIGHT = ("cells", "stokes")
+_PIXELS = ("cells", "sensor")
+_SEVERAL_PIXELS = (*_PIXELS, "brighter_than", "noise", "azimuth")
+
 MEASURES = {
-    **{name: Measure(told, _share(name)) for name, told in _SHARES.items()},
+    **{name: Measure(told, _share(name), _LIGHT) for name, told in _SHARES.items()},
     **{
-        f"scalar-{name}": Measure(f"{told}, without polarisation", _share(name, scalar=True))
+        f"scalar-{name}": Measure(
+            f"{told}, without polarisation", _share(name, scalar=True), ("cells",)
+        )
         for name, told in _SHARES.items()
     },
-    "adm": Measure("largest ADM of a pixel", _largest("adm"), several=True),
-    "mdm": Measure("largest MDM of a pixel", _largest("mdm"), several=True),
-    "dolp": Measure("DoLP of mirrored light", _mirrored("dolp")),
-    "aop": Measure("AoP of mirrored light, 0 .. 45 deg", _mirrored("aop")),
-    "model-S0": Measure("S0 of the facet model, over that of photons, less 1", _excess(0)),
-    "model-S1": Measure("S1 of the facet model, over that of photons, less 1", _excess(1)),
-    "model-S2": Measure("S2 of the facet model, over that of photons, less 1", _excess(2)),
-    "model-S3": Measure("largest S3 of the facet model", _model_s3),
-    "model-off": Measure("facet model off photons after one event, over the largest S0", _off),
+    "adm": Measure("largest ADM of a pixel", _largest("adm"), _SEVERAL_PIXELS, several=True),
+    "mdm": Measure("largest MDM of a pixel", _largest("mdm"), _SEVERAL_PIXELS, several=True),
+    "dolp": Measure("DoLP of mirrored light", _mirrored("dolp"), (*_PIXELS, "stokes")),
+    "aop": Measure("AoP of mirrored light, 0 .. 45 deg", _mirrored("aop"), (*_PIXELS, "stokes")),
+    "model-S0": Measure("S0 of the facet model, over that of photons, less 1", _excess(0), _PIXELS),
+    "model-S1": Measure("S1 of the facet model, over that of photons, less 1", _excess(1), _PIXELS),
+    "model-S2": Measure("S2 of the facet model, over that of photons, less 1", _excess(2), _PIXELS),
+    "model-S3": Measure("largest S3 of the facet model", _model_s3, ("sensor",)),
+    "model-off": Measure(
+        "facet model off photons after one event, over the largest S0", _off, _PIXELS
+    ),
 }
 """By the names that files of experiments have."""

@@ -48,17 +48,20 @@ class Walked:
     threads: int | None = None
     progress: Callable[[int, int], None] | None = None
 
-    @cached_property
-    def energy(self) -> Energy:
-        """What share of the light comes back and goes through."""
-        with self._meant_mesh():
-            return energy(
-                self.sample,
-                self.walks.incidence,
-                self.photons,
-                wavelength=self.walks.wavelengths[0] if self.walks.wavelengths else None,
-                **self._walking,
-            )
+    def energy(self, stokes: tuple[float, ...]) -> Energy:
+        """Return what share of light of a Stokes vector comes back and goes through."""
+        known: dict[tuple[float, ...], Energy] = vars(self).setdefault("_energies", {})
+        if stokes not in known:
+            with self._meant_mesh():
+                known[stokes] = energy(
+                    self.sample,
+                    self.walks.incidence,
+                    self.photons,
+                    wavelength=self.walks.wavelengths[0] if self.walks.wavelengths else None,
+                    stokes=stokes,
+                    **self._walking,
+                )
+        return known[stokes]
 
     @cached_property
     def hemisphere(self) -> Hemisphere:

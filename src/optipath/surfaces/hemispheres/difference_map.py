@@ -10,6 +10,7 @@ import xarray as xr
 from optipath.errors import SurfaceError
 from optipath.surfaces.hemispheres.pixel_array import coordinates
 from optipath.surfaces.hemispheres.pixel_mask import Numbers, PixelMask
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -77,7 +78,7 @@ def difference_map(
     if noise is not None and np.isnan(error).all():
         raise SurfaceError(
             f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
-            "it; measure with more photons, or give noise=None"
+            f"it; measure with more photons{cure(', or give noise=None', '')}"
         )
     counts = mask.bright(_light(hemisphere, at))
     counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
