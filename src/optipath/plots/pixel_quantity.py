@@ -86,7 +86,7 @@ class PixelQuantity(NamedTuple):
         >>> quantity_named("S0").faults_of({"noise": None})
         ['mask is given, but S0 has none; leave it out']
         """
-        if not self.masked and (mask or not isinstance(mask, Mapping | None)):
+        if not self.masked and (not isinstance(mask, Mapping | None) or mask):
             return [f"mask is given, but {self.variable} has none; leave it out"]
         if not isinstance(mask, Mapping | None):
             return [f"mask is {shown(mask)}; give a mapping, such as {{'brighter_than': 0.5}}"]
