@@ -183,3 +183,11 @@ def test_what_is_no_hemisphere_is_refused(wrong):
 def test_what_are_no_axes_is_refused(glass):
     with pytest.raises(op.OptipathError, match="give Axes of Matplotlib, or leave it out"):
         op.plots.hemisphere(glass, "S0", 3)
+
+
+@pytest.mark.parametrize("mask", [0.5, 0.0, "noise", np.ones(2)])
+def test_a_mask_that_is_no_mapping_is_refused(glass, mask):
+    with pytest.raises(op.SurfaceError, match=r"give a mapping, such as {'brighter_than': 0\.5}"):
+        op.plots.hemisphere(glass, "ADM", mask=mask)
+    with pytest.raises(op.SurfaceError, match="S0 has none; leave it out"):
+        op.plots.hemisphere(glass, mask=mask)

@@ -82,3 +82,11 @@ def test_what_has_not_been_measured_is_told():
     found = op.measure(sample, "60 deg", polarized="polarized", **options)
     with pytest.raises(op.SurfaceError, match="has not been measured; measure with polarized"):
         op.plots.differences(found)
+
+
+def test_mueller_matrices_are_known_to_a_tenth_by_default():
+    silver = measured("silver")
+    usual, given = (
+        op.plots.mueller_hemisphere(silver, known_to=limit)[1, 0] for limit in (None, 0.1)
+    )
+    np.testing.assert_array_equal(pixels_of(usual).mask, pixels_of(given).mask)

@@ -5,6 +5,7 @@ import optipath as op
 from measured_hemispheres import measured
 from optipath.surfaces import Sensor, single_scattering
 from pictures import faults_of, texts_of
+from rough_samples import rough
 
 pytest.importorskip("matplotlib")
 QUANTITIES = ["S0", "S1", "S2", "S3", "DoP", "DoLP", "AoP", "difference"]
@@ -104,3 +105,68 @@ def test_no_curve_at_all_is_refused():
 def test_the_difference_of_polarised_light_is_refused():
     with pytest.raises(op.SurfaceError, match="of unpolarised light; leave source out"):
         op.plots.in_plane(measured("silver"), "difference", source=(1, 1, 0, 0))
+
+
+def names_of(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+def test_the_wavelength_is_for_those_that_have_several():
+    gold, silver = measured("gold"), measured("silver")
+    ax = op.plots.in_plane({"silver": silver, "gold": gold}, wavelength="600 nm")
+    assert ax.get_title() == "S0, reflected, in the plane of incidence, 600 nm"
+    assert names_of(ax) == ["silver", "gold"]
+    curves = [line.get_ydata() for line in ax.get_lines() if len(line.get_xdata()) > 2]
+    alone = op.plots.in_plane(silver), op.plots.in_plane(gold, wavelength="600 nm")
+    np.testing.assert_array_equal(curves, [curve_of(each).get_ydata() for each in alone])
+
+
+def one_of_gold(wavelength):
+    gold = op.Material.tabulated(["400 nm", "700 nm"], [1.5, 0.2], [1.9, 4.1])
+    return op.measure(op.Sample([(gold, rough(0.3))]), "60 deg", 1000, wavelength, sensor=8)
+
+
+def test_legends_tell_wavelengths_that_differ():
+    several = {"a": one_of_gold("450 nm"), "b": measured("gold"), "c": measured("silver")}
+    ax = op.plots.in_plane(several, wavelength="600 nm", source=[1, 0, 1, 0])
+    assert ax.get_title() == "S0, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
+    assert names_of(ax) == ["a, 450 nm", "b, 600 nm", "c"]
+
+
+@pytest.mark.parametrize(
+    ("names", "given", "sentence"),
+    [
+        (["silver", "gold"], {}, r"^gold: wavelength is missing; give one of 500 nm and 600 nm$"),
+        (["silver", "gold"], {"wavelength": 5.5e-7}, "^gold: 550 nm has not been measured"),
+        (["silver", "mirror"], {"wavelength": 5e-7}, "^silver and mirror: .* leave it out$"),
+        (["silver", "mirror"], {"source": [0, 0, 0, 0]}, "^silver and mirror: .* no intensity"),
+        (["silver", "clear"], {"side": "transmitted"}, "^silver: no side"),
+        (
+            ["silver", "gold"],
+            {"known_to": 0, "wavelength": 1},
+            "^2 faults:\n- known_to.*\n- gold: ",
+        ),
+    ],
+)
+def test_faults_name_their_curves(names, given, sentence):
+    with pytest.raises(op.SurfaceError, match=sentence):
+        op.plots.in_plane({name: measured(name) for name in names}, **given)
+
+
+def test_what_is_no_hemisphere_is_told_by_its_name():
+    with pytest.raises(op.SurfaceError, match=r"^b: 3 is no Hemisphere"):
+        op.plots.in_plane({"a": measured("silver"), "b": 3})
+
+
+def test_the_one_wavelength_that_was_measured_may_be_left_out():
+    found = one_of_gold("450 nm")
+    with pytest.raises(op.SurfaceError, match="give a wavelength of 450 nm, or leave it out"):
+        op.plots.in_plane(found, wavelength="600 nm")
+    assert op.plots.in_plane(found).get_title() == "S0, reflected, incidence 60°, 450 nm"
+
+
+def test_titles_of_several_curves_tell_the_source():
+    several = {name: measured(name) for name in ("silver", "mirror")}
+    ax = op.plots.in_plane(several, "S3", source=[1, 0, 1, 0])
+    assert ax.get_title() == "S3, reflected, in the plane of incidence\nsource (1, 0, 1, 0)"
+    assert faults_of(ax.figure) == []

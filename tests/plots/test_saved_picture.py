@@ -62,3 +62,18 @@ def test_pictures_without_matplotlib_say_what_to_install(monkeypatch):
     monkeypatch.setattr(op.plots, "find_spec", {}.get)
     with pytest.raises(op.OptipathError, match=r"pip install 'optipath\[plot\]'"):
         op.plots.__getattr__("save")
+
+
+@pytest.mark.parametrize("place", ["nowhere/map.png", "a.png/b.png", "folder.png"])
+def test_a_place_that_takes_no_file_is_told_by_the_name_that_was_given(place, tmp_path):
+    (tmp_path / "a.png").write_bytes(b"")
+    (tmp_path / "folder.png").mkdir()
+    with pytest.raises(op.OptipathError, match=rf"{place}' cannot be written: ") as told:
+        op.plots.save(figures.Figure(), tmp_path / place)
+    assert "draft" not in str(told.value)
+
+
+@pytest.mark.parametrize("name", [3, None, b"map.png", ""])
+def test_what_is_no_name_of_a_file_is_refused(name):
+    with pytest.raises(op.OptipathError, match="name of a file"):
+        op.plots.save(figures.Figure(), name)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from optipath.plots.own_axes import Panel
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
+_KNOWN_TO = 0.1
+
 
 def mueller_hemisphere(
     measured: Hemisphere,
@@ -28,7 +30,7 @@ def mueller_hemisphere(
     *,
     side: str = "reflected",
     wavelength: Any = None,
-    known_to: float = 0.1,
+    known_to: float | None = None,
 ) -> Panel:
     """Draw the Mueller matrices of all directions: a map of M00, and of all others over M00.
 
@@ -45,7 +47,7 @@ def mueller_hemisphere(
     wavelength : float or str, optional
         One of those measured, where there are several.
     known_to : float, optional
-        Pixels with a larger standard error are hatched, as those without light are.
+        Pixels with a larger standard error are hatched, as those without light are; 0.1 by default.
 
     Returns
     -------
@@ -66,12 +68,13 @@ def mueller_hemisphere(
     """
     if faults := positive("known_to", known_to):
         raise SurfaceError(*faults)
+    limit = _KNOWN_TO if known_to is None else known_to
     seen = SeenSide.of(measured, side, wavelength, UNPOLARISED)
     panel = own_panel(axes, (4, 4), (9.6, 9.4))
     value, error = map(
         seen.pixels, measured.own.estimate(lambda n: _over_first(measured.matrices(n)))
     )
-    value = np.where(error <= known_to, value, np.nan)
+    value = np.where(error <= limit, value, np.nan)
     with np.errstate(invalid="ignore", divide="ignore"):
         light = seen.pixels(measured.mueller[0][..., 0, 0]) / measured.sensor.solid_angle
     toned, signed = ColourScale.light(largest_of(light)), ColourScale.signed(1.0)
@@ -85,7 +88,7 @@ def mueller_hemisphere(
             image = draw_disc(ax, seen, pixels, signed, labelled=False)
     toned.bar(first, list(panel[:2].flat), "M00 (1/sr)", shrink=0.8)
     signed.bar(image, list(panel[2:].flat), "over M00", shrink=0.8)
-    head_panel(panel, axes, seen, "Mueller matrices", f"no light, or not known to {known_to:g}")
+    head_panel(panel, axes, seen, "Mueller matrices", f"no light, or not known to {limit:g}")
     return panel
 
 

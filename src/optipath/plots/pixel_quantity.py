@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import SurfaceError, unknown
+from optipath.errors import SurfaceError, shown, unknown
 from optipath.plots.colour_scale import ColourScale
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     import numpy.typing as npt
 
@@ -77,7 +78,7 @@ class PixelQuantity(NamedTuple):
         """Whether its colours are those of all values that it can have."""
         return self.scale in (_share, _axis)
 
-    def faults_of(self, mask: Mapping[str, Any] | None) -> list[str]:
+    def faults_of(self, mask: Any) -> list[str]:
         """Return sentences for what is no mask of it.
 
         Examples
@@ -85,8 +86,10 @@ class PixelQuantity(NamedTuple):
         >>> quantity_named("S0").faults_of({"noise": None})
         ['mask is given, but S0 has none; leave it out']
         """
-        if mask and not self.masked:
+        if not self.masked and (not isinstance(mask, Mapping | None) or mask):
             return [f"mask is given, but {self.variable} has none; leave it out"]
+        if not isinstance(mask, Mapping | None):
+            return [f"mask is {shown(mask)}; give a mapping, such as {{'brighter_than': 0.5}}"]
         return [fault for key in mask or {} for fault in unknown("mask", key, self.masked)]
 
     @property

@@ -12,7 +12,7 @@ from optipath.plots.own_axes import own_axes
 from optipath.plots.plane_cut import PlaneCut
 from optipath.plots.plane_quantity import plane_quantity_named
 from optipath.plots.positive import positive
-from optipath.plots.seen_side import SeenSide
+from optipath.plots.seen_sides import labels, seen_sides, titled
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
 if TYPE_CHECKING:
@@ -67,7 +67,8 @@ def in_plane(
     side : {"reflected", "transmitted"}, optional
         Above the sample, or below it.
     wavelength : float or str, optional
-        One of those measured, in metres or with a unit, where there are several.
+        One of those measured, in metres or with a unit, where there are several; samples that were
+        measured at one have that, which the legend tells where it is another.
     known_to : float, optional
         Curves have gaps where the standard error is larger; by default than 0.1 of degrees of
         polarisation, 10 of angles in degrees, 5 of per cents.
@@ -93,15 +94,17 @@ def in_plane(
     several = measured if isinstance(measured, Mapping) else {"": measured}
     if not several:
         raise SurfaceError("measured is an empty mapping; give one Hemisphere at least")
-    if faults := positive("known_to", known_to):
-        raise SurfaceError(*faults)
     drawn = plane_quantity_named(quantity)
-    sides = {
-        str(name): SeenSide.of(each, side, wavelength, source) for name, each in several.items()
-    }
-    ax = own_axes(ax, (7.0, 4.4))
+    sides = seen_sides(
+        {str(name): each for name, each in several.items()},
+        side,
+        wavelength,
+        source,
+        beside=positive("known_to", known_to),
+    )
+    ax, called = own_axes(ax, (7.0, 4.4)), labels(sides)
     for name, seen in sides.items():
-        _draw_curve(ax, PlaneCut(seen), drawn, name, known_to)
+        _draw_curve(ax, PlaneCut(seen), drawn, called[name], known_to)
     ax.set(xlim=(-90.0, 90.0), xlabel="exit angle to the normal (°)", ylabel=drawn.label)
     ax.set_xticks(range(-90, 91, 30))
     ax.set_ylim(*drawn.limits)
@@ -109,7 +112,7 @@ def in_plane(
     if len(sides) == 1:
         ax.set_title(next(iter(sides.values())).titled(drawn.variable))
     else:
-        ax.set_title(f"{drawn.variable}, {side}, in the plane of incidence")
+        ax.set_title(titled(drawn.variable, sides.values()))
     if any(sides):
         ax.legend(frameon=False)
     return ax

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +10,8 @@ from matplotlib.figure import Figure
 
 from optipath.errors import OptipathError, shown
 from optipath.plots.positive import positive
+from optipath.surfaces.files.file_faults import told_of
+from optipath.values.given_files import given_file
 from optipath.values.picture_files import write_picture
 
 if TYPE_CHECKING:
@@ -35,9 +36,8 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
     Raises
     ------
     OptipathError
-        If nothing was drawn, or nothing can be drawn in the form that the ending says.
-    OSError
-        If the file cannot be written.
+        If nothing was drawn, nothing can be drawn in the form that the ending says, or the file
+        cannot be written.
     """
     first = np.array(drawn, object).ravel()[:1]
     if not (first.size and isinstance(first[0], Axes | Figure)):
@@ -45,4 +45,6 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
     if faults := positive("dots_per_inch", dots_per_inch):
         raise OptipathError(*faults)
     figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
-    write_picture(figure, Path(file), dots_per_inch)
+    place = given_file(file, OptipathError)
+    with told_of(place):
+        write_picture(figure, place, dots_per_inch)

@@ -125,18 +125,30 @@ class SeenSide:
         sin = beam.sin * beam.indices.outside / float(beam.indices.n.flat[0])
         return float(np.arcsin(sin)) if sin <= 1.0 else np.nan
 
+    @property
+    def colour(self) -> str:
+        """The wavelength, as titles have it; nothing where there is none, or they are several."""
+        if self.place is None or np.isnan(when := self.measured.wavelengths[self.place]):
+            return ""
+        return f"{when * 1e9:.5g} nm"
+
+    @property
+    def source_line(self) -> str:
+        """A last line of titles, which tells the light that comes in; nothing if unpolarised."""
+        if not any(self.source[1:]):
+            return ""
+        return "\nsource ({:g}, {:g}, {:g}, {:g})".format(*self.source)
+
     def titled(self, what: str) -> str:
         """Return the title of a picture of this side."""
         seen, when = self.measured.seen, self.measured.wavelengths
         parts = [what, self.side, f"incidence {degrees(np.arctan2(seen.beam.sin, seen.beam.cos))}"]
-        if self.place is not None and not np.isnan(when[self.place]):
-            parts.append(f"{when[self.place] * 1e9:.5g} nm")
+        if self.colour:
+            parts.append(self.colour)
         elif self.place is None and len(when) > 1:
             parts.append(f"{len(when)} wavelengths")
         parts += {None: [], 1: ["one event"]}.get(seen.events, [f"{seen.events} events"])
-        if any(self.source[1:]):
-            parts[-1] += "\nsource ({:g}, {:g}, {:g}, {:g})".format(*self.source)
-        return ", ".join(parts)
+        return ", ".join(parts) + self.source_line
 
 
 def degrees(angle: float) -> str:
@@ -161,7 +173,8 @@ def _place(wavelengths: Numbers, wanted: Any) -> int:
         raise SurfaceError(f"wavelength is {shown(wanted)}; give one of {there}")
     near = np.isclose(wavelengths, when.item(), rtol=1e-9, atol=0.0)
     if not near.any():
-        raise SurfaceError(
-            f"{displayed(when.item(), 'nm')} has not been measured; give a wavelength of {there}"
-        )
+        cure = f"give a wavelength of {there}"
+        if len(wavelengths) == 1:
+            cure += ", or leave it out"
+        raise SurfaceError(f"{displayed(when.item(), 'nm')} has not been measured; {cure}")
     return int(np.argmax(near))

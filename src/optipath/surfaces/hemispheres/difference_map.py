@@ -119,8 +119,8 @@ def _pixel_attributes(hemisphere: MeasuredPixels) -> _Told:
     sensor = hemisphere.sensor
     return {
         "pixels": f"{sensor.pixels} x {sensor.pixels}, {sensor.projection}",
-        "pixel_degrees": 180.0 / sensor.pixels,
-        "pixel_solid_angle": float(2.0 * np.pi / np.isfinite(sensor.theta).sum()),
+        "pixel_degrees_at_normal": float(np.degrees(sensor.width_at_normal)),
+        "largest_pixel_solid_angle": float(sensor.solid_angle.max()),
         "photons": hemisphere.photons,
         "symmetric": int(hemisphere.symmetric),
     }

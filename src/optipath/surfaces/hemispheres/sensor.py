@@ -108,6 +108,15 @@ class Sensor:
         """The solid angle of each pixel within the hemisphere, in sr; 2 pi in all."""
         return pixel_areas(self.pixels, PROJECTIONS[self.projection].cap)
 
+    @property
+    def width_at_normal(self) -> float:
+        """The angle that pixels next to the normal are wide, in radians.
+
+        Those of an equidistant sensor are as long everywhere, along theta.
+        """
+        (density,) = PROJECTIONS[self.projection].density(np.zeros(1))
+        return float(2.0 / self.pixels * np.sqrt(density))
+
     def place(self, directions: npt.ArrayLike) -> npt.NDArray[np.int64]:
         """Return the number of the pixel in which each direction is, rows one after the other.
 
