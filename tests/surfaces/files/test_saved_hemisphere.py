@@ -46,6 +46,7 @@ def test_what_is_loaded_is_what_was_measured_to_the_last_bit(form, glass, metal,
             assert all(np.array_equal(*pair, equal_nan=True) for pair in pairs)
 
 
+@pytest.mark.filterwarnings("ignore:direction:optipath.errors.PhotonWarning")
 def test_what_follows_from_it_is_the_same_with_its_errors(metal, tmp_path):
     metal.save(tmp_path / "a.nc")
     again = op.load_hemisphere(tmp_path / "a.nc")
