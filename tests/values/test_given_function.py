@@ -1,0 +1,11 @@
+from optipath.values.given_function import no_function
+
+
+def test_functions_and_none_are_let_through():
+    assert no_function("progress", print, "") == no_function("progress", None, "") == []
+
+
+def test_what_is_no_function_is_told_with_its_cure():
+    assert no_function("progress", True, "numbers") == [
+        "progress is True; give a function of numbers"
+    ]
