@@ -6,6 +6,4 @@ def test_functions_and_none_are_let_through():
 
 
 def test_what_is_no_function_is_told_with_its_cure():
-    assert no_function("progress", True, "numbers") == [
-        "progress is True; give a function of numbers"
-    ]
+    assert no_function("progress", 3, "numbers") == ["progress is 3; give a function of numbers"]
