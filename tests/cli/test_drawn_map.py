@@ -46,7 +46,7 @@ def test_a_map_is_of_the_light_and_the_wavelength_that_are_given(tmp_path):
     ("sample", "options", "sentence"),
     [
         ("flat", ["--map", "S0"], "--map draws into a file; name it, --out map.png"),
-        ("flat", ["--out", "map.png"], "--out and --side are of a map; say of what, --map S0"),
+        ("flat", ["--out", "map.png"], "--out is of a map; say of what, --map S0"),
         ("flat", ["--map", "S0", "--out", "a.jpg"], "cannot be drawn; use one of: .png, .svg"),
         ("flat", ["--map", "DoL", "--out", "a.png"], "'DoL' is unknown; did you mean 'DoLP'"),
         ("flat", ["--map", "S0", "--out", "a.png", "--json"], "--json is of tables"),

@@ -33,3 +33,16 @@ def test_json_has_one_object_for_each_angle(capsys):
 def test_a_polarised_source_is_refused(capsys):
     status, _, err = told(capsys, "glass-rough", "--incidence", "30", "--stokes", "1,1,0,0")
     assert (status, err) == (2, "optipath: --decide is of unpolarised light; leave --stokes out\n")
+
+
+def test_light_may_be_looked_at_below(capsys):
+    given = ["glass-rough", "--incidence", "30", "--photons", "2e3", "--tolerance", "0.5"]
+    status, out, _ = told(capsys, *given, "--side", "transmitted")
+    assert status == 0
+    assert "polarisation changes all transmitted light" in out
+
+
+def test_that_no_pixel_counts_is_one_sentence(capsys):
+    status, _, err = told(capsys, "glass-rough", "--incidence", "0", "--photons", "1")
+    assert status == 2
+    assert err.splitlines()[-1].startswith("optipath: no pixel counts: of 1 photon none is ref")

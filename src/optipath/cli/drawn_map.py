@@ -28,7 +28,7 @@ SIDE = click.Option(
     ["--side"],
     type=click.Choice(["reflected", "transmitted"]),
     default="reflected",
-    help="Of --map: above the sample, or below.",
+    help="Of --map and --decide: above the sample, or below.",
 )
 OUT = click.Option(
     ["--out"], type=NewFile(), help="Of --map: the file; its ending is .png, .svg or .pdf."

@@ -22,7 +22,13 @@ if TYPE_CHECKING:
 
 
 def print_choices(
-    sample: str, *, as_json: bool, tolerance: float | None, threads: int | None, **options: Any
+    sample: str,
+    side: str,
+    *,
+    as_json: bool,
+    tolerance: float | None,
+    threads: int | None,
+    **options: Any,
 ) -> None:
     """Decide for each angle of incidence, and print the decisions with their evidence.
 
@@ -30,6 +36,8 @@ def print_choices(
     ----------
     sample : str
         Its name, or its file.
+    side : {"reflected", "transmitted"}
+        Where light is looked at.
     as_json : bool
         Whether all is one JSON object.
     tolerance : float or None
@@ -52,7 +60,7 @@ def print_choices(
     found = []
     for walk in walks:
         with photon_bar(walk.direction) as progress:
-            found.append(_decided(walk, wanted, threads, progress))
+            found.append(_decided(walk, wanted, side=side, threads=threads, progress=progress))
         if not as_json:
             if len(found) == 1:
                 PlainConsole().print(title(sample, loaded.description))
@@ -66,6 +74,7 @@ def print_choices(
                 **asdict(each),
                 "difference": _plain(each.difference),
                 "multiple": _plain(each.multiple),
+                "beside_model": _plain(each.beside_model),
             }
             for walk, each in zip(walks, found, strict=True)
         ]
@@ -78,7 +87,7 @@ def _plain(pair: tuple[float, float] | None) -> Any:
     return None if pair is None else plain(np.asarray(pair))
 
 
-def _decided(walk: GivenWalk, tolerance: float, threads: int | None, progress: Any) -> ModelChoice:
+def _decided(walk: GivenWalk, tolerance: float, **options: Any) -> ModelChoice:
     beam = walk.run.beam
     return decide(
         beam.sample,
@@ -89,6 +98,5 @@ def _decided(walk: GivenWalk, tolerance: float, threads: int | None, progress: A
         azimuth=beam.azimuth,
         seed=beam.seed,
         most_events=beam.most_events,
-        threads=threads,
-        progress=progress,
+        **options,
     )

@@ -43,13 +43,14 @@ def _surface(
         if decide:
             raise click.UsageError("--decide and --map are two questions; ask one at a time")
         draw_map(sample, quantity, side, out, as_json=as_json, **options)
-    elif out is not None or side != "reflected":
-        raise click.UsageError("--out and --side are of a map; say of what, --map S0")
+    elif out is not None or (side != "reflected" and not decide):
+        told = "--out is" if out is not None else "--side is of --decide, and"
+        raise click.UsageError(f"{told} of a map; say of what, --map S0")
     elif decide:
         # Neither a list of samples nor an energy needs it.
         from optipath.cli.printed_choice import print_choices  # noqa: PLC0415
 
-        print_choices(sample, as_json=as_json, **options)
+        print_choices(sample, side, as_json=as_json, **options)
     else:
         _walk(sample, as_json=as_json, **options)
 

@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 
 import optipath as op
@@ -30,8 +31,59 @@ def test_a_wide_tolerance_lets_polarisation_be_left_out():
 
 
 def test_a_metal_that_is_hardly_rough_is_told_by_single_scattering():
-    found = decide(op.Sample([(0.2 + 3j, 0.1)]), "30 deg", 0.05, **FEW)
+    found = decide(op.Sample([(0.2 + 3j, 0.1)]), "30 deg", 0.15, photons=50_000, sensor=8)
     assert (found.model, found.undecided) == ("single-scattering", ())
+    assert found.beside_model[0] + 3.0 * found.beside_model[1] < 0.15
+
+
+def test_single_scattering_is_held_against_all_light_of_each_pixel():
+    sample, few = op.Sample([(0.14 + 3.7j, 0.1)]), {"photons": 20_000, "sensor": 12}
+    found = decide(sample, "75 deg", 0.05, **few)
+    assert (found.model, found.undecided) == ("scalar", ("single-scattering",))
+    seen = op.measure(sample, "75 deg", **few)
+    light, error = (each[0, ..., 0, 0, 0] for each in seen.mueller)
+    bright = light > 0.2 * light.sum() / np.isfinite(seen.sensor.theta).sum()
+    light, error = light[bright], error[bright]
+    model = seen.single_scattering().values[0, ..., 0, 0, 0][bright] / light
+    at = np.argmax(np.abs(model - 1.0))
+    expected = abs(model[at] - 1.0), model[at] * error[at] / light[at]
+    assert found.beside_model == pytest.approx(expected, rel=0.1)
+
+
+def test_a_model_that_is_off_by_more_than_the_noise_is_not_enough():
+    found = decide(op.Sample([(1j, 0.6)]), "75 deg", 0.05, photons=20_000, sensor=8)
+    assert (found.model, found.undecided) == ("scalar", ())
+
+
+@pytest.mark.parametrize(
+    ("index", "options", "sentence"),
+    [
+        (
+            1.0,
+            {"photons": 2000},
+            "of 2,000 photons none is reflected; walk more photons, or look at the other",
+        ),
+        (
+            1j,
+            {"photons": 2000, "sensor": 16, "brighter_than": 100},
+            "none has 100 times the mean light",
+        ),
+    ],
+)
+def test_that_no_pixel_counts_is_told(index, options, sentence):
+    with pytest.raises(op.SurfaceError, match=f"^no pixel counts: .*{sentence}"):
+        decide(op.Sample([(index, 0.3)]), "30 deg", **options)
+
+
+@pytest.mark.parametrize("limit", [0, 1])
+def test_the_limits_of_a_tolerance_are_left_out(limit):
+    with pytest.raises(op.SurfaceError, match="give one above 0 and below 1, such as"):
+        decide(op.Sample([(1.5, 0.1)]), "30 deg", limit)
+
+
+def test_progress_is_a_function():
+    with pytest.raises(op.SurfaceError, match="progress is 3; give a function of two numbers"):
+        decide(op.Sample([(1.5, 0.1)]), "30 deg", progress=3)
 
 
 def test_what_the_noise_does_not_tell_takes_the_next_better_model():

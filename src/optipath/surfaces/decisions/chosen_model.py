@@ -34,7 +34,7 @@ def chosen_model(
     -------
     ModelChoice
     """
-    single, multiple, evidence = _single_scattering(run, tolerance)
+    single, multiple, apart, evidence = _single_scattering(run, tolerance)
     difference = run.difference
     scalar = _serves(difference, tolerance)
     evidence.append(
@@ -49,30 +49,35 @@ def chosen_model(
         tolerance,
         undecided,
         smooth,
-        (difference.value, difference.error),
-        None if multiple is None else (multiple.value, multiple.error),
+        _known(difference),
+        _known(multiple),
+        _known(apart),
         (*told, run.told, *evidence),
     )
 
 
 def _single_scattering(
     run: PairedRun, tolerance: float
-) -> tuple[bool | None, LargestOf | None, list[str]]:
+) -> tuple[bool | None, LargestOf | None, LargestOf | None, list[str]]:
     """Return whether the analytic model serves, None if that is not known, and what says so."""
     if reason := _beyond_the_model(run):
-        return False, None, [f"single scattering: {reason}"]
+        return False, None, None, [f"single scattering: {reason}"]
     multiple, apart = run.multiple, run.beside_model
     told = [
         (
-            f"of a pixel's light at most {multiple} has met the surface more than once"
-            f"{_verdict(multiple, tolerance)}"
+            f"of a pixel's light at most {multiple} has met the surface more than once, noise "
+            "taken in"
         ),
         (
-            f"the analytic model tells the light that has met it once within {100.0 * apart:.2g} "
-            "%, all these pixels together"
+            f"the analytic model is off all light of a pixel at most by {apart}"
+            f"{_verdict(apart, tolerance)}"
         ),
     ]
-    return (_serves(multiple, tolerance) if apart <= tolerance else False), multiple, told
+    return _serves(apart, tolerance), multiple, apart, told
+
+
+def _known(found: LargestOf | None) -> tuple[float, float] | None:
+    return None if found is None else (found.value, found.error)
 
 
 def _serves(found: LargestOf, tolerance: float) -> bool | None:
@@ -84,10 +89,10 @@ def _serves(found: LargestOf, tolerance: float) -> bool | None:
 
 def _verdict(found: LargestOf, tolerance: float) -> str:
     if found.is_below(tolerance):
-        return ", three standard errors to either side: less than the tolerance"
+        return ", noise taken in: less than the tolerance"
     if found.is_above(tolerance):
-        return ", three standard errors to either side: more than the tolerance"
-    return ", three standard errors to either side: walk more photons to know if that is too much"
+        return ", noise taken in: more than the tolerance"
+    return ", noise taken in: walk more photons to know if that is too much"
 
 
 def _beyond_the_model(run: PairedRun) -> str:

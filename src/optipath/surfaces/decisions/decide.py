@@ -18,6 +18,7 @@ from optipath.surfaces.decisions.smooth_light import smooth_difference
 from optipath.surfaces.fields.height_field import HeightField
 from optipath.surfaces.hemispheres.pixel_mask import PixelMask
 from optipath.surfaces.walk.given_beam import given_beam
+from optipath.values.given_function import PHOTONS_TOLD, no_function
 from optipath.values.whole_numbers import whole_number
 
 if TYPE_CHECKING:
@@ -51,8 +52,9 @@ def decide(
 
     First the exact difference that polarisation makes were all interfaces smooth; of a flat sample
     that is all. Then some photons with and without polarisation, on the same ways, and on a single
-    interface how much of the light has met it more than once. It is unpolarised light that is
-    meant, and its intensity: who asks for states of polarisation needs the polarised model.
+    interface how far all their light is from that of the analytic model of one reflection. It is
+    unpolarised light that is meant, and its intensity: who asks for states of polarisation needs
+    the polarised model.
 
     Parameters
     ----------
@@ -73,18 +75,21 @@ def decide(
     Raises
     ------
     SurfaceError
-        With all faults at once.
+        With all faults at once; if no pixel has light that counts.
 
     Examples
     --------
     >>> from optipath.surfaces.samples.sample import Sample
-    >>> found = decide(Sample([(0.2 + 3j, 0.1)]), "30 deg", 0.05, photons=100_000, sensor=16)
+    >>> found = decide(Sample([(0.2 + 3j, 0.1)]), "30 deg", 0.1, photons=100_000, sensor=8)
     >>> found.model, found.undecided
     ('single-scattering', ())
     """
     faults = Faults(whole_number("photons", photons))
+    faults += no_function("progress", progress, PHOTONS_TOLD)
     if not _is_share(tolerance):
-        faults.append(f"tolerance is {shown(tolerance)}; give a share within 0 .. 1, such as 0.02")
+        faults.append(
+            f"tolerance is {shown(tolerance)}; give one above 0 and below 1, such as 0.02"
+        )
     if side not in _SIDES:
         faults.append(f"no side is called {shown(side)}; give {' or '.join(_SIDES)}")
     mask = faults.attempt("", PixelMask, brighter_than, None)
@@ -106,7 +111,7 @@ def decide(
     if _is_flat(sample):
         model = "scalar" if abs(smooth) <= tolerance else "polarized"
         told.append("the sample is flat, so that this is all")
-        return ModelChoice(model, float(tolerance), (), smooth, None, None, tuple(told))
+        return ModelChoice(model, float(tolerance), (), smooth, None, None, None, tuple(told))
     if len(sample.layers) > 1 and side == "reflected":
         told.append(_exit_evidence(sample, angle, wavelengths))
     walked = {"photons": photons, "wavelengths": wavelengths, "sensor": sensor, "seed": seed}

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 _SURE = 3.0
-"""How many standard errors a number must be away from the limit."""
+"""How many standard errors one number is taken to be away from what it is, at most."""
 
 
 class LargestOf(NamedTuple):
@@ -19,8 +19,9 @@ class LargestOf(NamedTuple):
     value, error : float
         Of the largest, as it was found; it is too large, as the largest of noisy numbers is.
     least, most : float
-        Within what the largest is: that of all numbers less three standard errors, and that of
-        all plus three; infinite where an error is not known.
+        Within what the largest is. Three standard errors above each number; below, where one that
+        chance has made large is enough to go wrong, as many as make that as rare among all the
+        numbers: sqrt(9 + 2 ln n) of n. Infinite where an error is not known.
     """
 
     value: float
@@ -49,19 +50,27 @@ class LargestOf(NamedTuple):
         0.05 True True
         """
         sizes, known = np.abs(np.ravel(values)), np.ravel(errors)
-        if not sizes.size:
+        told = ~np.isnan(sizes)
+        if not told.any():
             return cls(np.nan, np.nan, 0.0, np.inf)
-        far = np.where(np.isnan(known), np.inf, _SURE * known)
+        # A pixel that is dark at one of several wavelengths has no ratio there.
+        sizes, known = np.where(told, sizes, 0.0), np.where(told, known, np.nan)
+        known = np.where(np.isnan(known), np.inf, known)
         at = int(np.argmax(sizes))
-        least, most = float((sizes - far).max()), float((sizes + far).max())
-        return cls(float(sizes[at]), float(known[at]), max(least, 0.0), most)
+        # The tail of the normal distribution beyond k is below exp(-k^2 / 2).
+        several = max(int(np.isfinite(known).sum()), 1)
+        among = np.sqrt(_SURE * _SURE + 2.0 * np.log(several))
+        least = float((sizes - among * known).max())
+        most = float((sizes + _SURE * known).max())
+        error = float(known[at])
+        return cls(float(sizes[at]), error if error < np.inf else np.nan, max(least, 0.0), most)
 
     def is_below(self, limit: float) -> bool:
-        """Tell whether none is above a limit, as far as three standard errors tell."""
+        """Tell whether none is above a limit, noise taken in."""
         return self.most <= limit
 
     def is_above(self, limit: float) -> bool:
-        """Tell whether one is above a limit, as far as three standard errors tell."""
+        """Tell whether one is above a limit, noise taken in."""
         return self.least > limit
 
     def __str__(self) -> str:

@@ -26,6 +26,9 @@ class ModelChoice:
     multiple : tuple of float or None
         The largest share of a pixel's light that has met the surface more than once, and its
         standard error; None where it was not asked for.
+    beside_model : tuple of float or None
+        The largest abs(model - S0) / S0 of a pixel, of the analytic model of one reflection and
+        all light of the pixel, and its standard error; None where it was not asked for.
     evidence : tuple of str
         All of it in words, a line each.
     """
@@ -36,6 +39,7 @@ class ModelChoice:
     smooth: float
     difference: tuple[float, float] | None
     multiple: tuple[float, float] | None
+    beside_model: tuple[float, float] | None
     evidence: tuple[str, ...]
 
     def explain(self) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from optipath.errors import SurfaceError
 from optipath.surfaces.decisions.largest_of import LargestOf
 from optipath.surfaces.hemispheres.measure import measure
 
@@ -54,10 +55,14 @@ class PairedRun:
 
     @cached_property
     def counts(self) -> npt.NDArray[np.bool_]:
-        """The pixels that count, (rows, columns)."""
+        """The pixels that count, (rows, columns): at least one."""
         found = self.hemisphere
         light = found.scalar[0][found.side(self.side)].mean(axis=-1)
-        return self.mask.bright(np.where(np.isnan(found.sensor.theta), np.nan, light))
+        light = np.where(np.isnan(found.sensor.theta), np.nan, light)
+        counts = self.mask.bright(light)
+        if not counts.any():
+            raise SurfaceError(self._none_counts(light))
+        return counts
 
     @cached_property
     def difference(self) -> LargestOf:
@@ -80,13 +85,14 @@ class PairedRun:
         return LargestOf.of(value[at][counts], error[at][counts])
 
     @cached_property
-    def beside_model(self) -> float:
-        """The light that pixels that count reflect once by the analytic model, over that found."""
-        model = self.once.single_scattering().values[0][..., 0, 0]
-        found = self.once.scalar[0][0]
-        return float(
-            np.max(np.abs(model[self.counts].sum(axis=0) / found[self.counts].sum(axis=0) - 1.0))
+    def beside_model(self) -> LargestOf:
+        """How far the analytic model is off all light of a pixel, over that light, at most."""
+        found = self.hemisphere
+        model = found.single_scattering().values[..., 0, 0]
+        value, error = found.own.estimate(
+            lambda light: model / found.matrices(light)[:1, ..., 0, 0] - 1.0
         )
+        return LargestOf.of(value[0][self.counts], error[0][self.counts])
 
     @property
     def told(self) -> str:
@@ -95,4 +101,19 @@ class PairedRun:
         return (
             f"{self.hemisphere.photons:,} photons, {sensor.pixels} x {sensor.pixels} pixels, of "
             f"which {self.counts.sum()} count: {self.mask}"
+        )
+
+    def _none_counts(self, light: Numbers) -> str:
+        photons, most = self.hemisphere.photons, np.nanmax(light)
+        if not most:
+            other = ", or look at the other side" if len(self.hemisphere.seen.sides) > 1 else ""
+            return (
+                f"no pixel counts: of {photons:,} photon{'s' if photons > 1 else ''} none is "
+                f"{self.side}; walk more photons{other}"
+            )
+        brightest = most / np.nanmean(light)
+        return (
+            f"no pixel counts: none has {self.mask.brighter_than:g} times the mean light of the "
+            f"hemisphere's pixels, and the brightest {brightest:.3g} times; give a smaller "
+            f"brighter_than, such as 0.2"
         )

@@ -56,11 +56,14 @@ def direction_of(given: Any, azimuth: float, *, up: bool) -> Frame:
     try:
         if _is_angle(given):
             given = _in_plane(ANGLE.check("direction", given), azimuth, up=up)
-        return frame_along("direction", given, up=up)
+        frame = frame_along("direction", given, up=up)
     except SurfaceError:
         raise
     except OptipathError as fault:
         raise SurfaceError(*fault.faults) from None
+    if not frame.z.size:
+        raise SurfaceError(f"direction has the shape {frame.z.shape}; give one direction or more")
+    return frame
 
 
 def wavelength_place(known: npt.NDArray[np.float64], given: Any) -> int:

@@ -21,6 +21,7 @@ from optipath.surfaces.hemispheres.sensor import Sensor
 from optipath.surfaces.walk.given_beam import UNPOLARISED, given_beam
 from optipath.values.arrays.memory import refuse_too_large
 from optipath.values.domains.quantities import YES_OR_NO
+from optipath.values.given_function import PHOTONS_TOLD, no_function
 from optipath.values.wavelength import Wavelength
 from optipath.values.whole_numbers import is_whole, whole_number
 
@@ -129,6 +130,7 @@ def measure(
     (('side', 'y', 'x', 'wavelength', 'out', 'in'), {'side': 1, 'y': 16, 'x': 16, 'wavelength': 1})
     """
     faults = Faults(_faults(photons, events, polarized, threads))
+    faults += no_function("progress", progress, PHOTONS_TOLD)
     pixels = faults.attempt("", Sensor.of, sensor)
     place = faults.attempt("", given_store, store, scheduler)
     mirrors = None if symmetric is None else faults.attempt("", _yes, symmetric)

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
+from optipath.surfaces.hemispheres.given_estimate import following
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -70,7 +72,13 @@ class PartSums(NamedTuple):
         -------
         value, error : ndarray
             The error is NaN where there are less than two parts of the photons.
+
+        Raises
+        ------
+        SurfaceError
+            If that is no function, or does not return real numbers.
         """
+        found = following(found)
         total, photons = self.sums.sum(axis=0), self.photons.sum()
         if not photons:
             with np.errstate(invalid="ignore", divide="ignore"):

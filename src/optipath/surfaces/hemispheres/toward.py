@@ -11,6 +11,7 @@ import numpy.typing as npt
 from optipath.elements.mueller_element import MuellerElement
 from optipath.errors import PhotonWarning, SurfaceError, ValueFault, shown
 from optipath.light.frames import Frame
+from optipath.surfaces.hemispheres.given_estimate import following
 from optipath.surfaces.hemispheres.given_toward import direction_of, wavelength_place
 from optipath.surfaces.hemispheres.measured_pixels import MeasuredPixels
 from optipath.surfaces.samples.sample import Sample
@@ -128,7 +129,7 @@ class Toward(MeasuredPixels):
         Raises
         ------
         SurfaceError
-            As `toward` does.
+            As `toward` does; if ``found`` is no function, or does not return real numbers.
 
         Examples
         --------
@@ -138,8 +139,8 @@ class Toward(MeasuredPixels):
         >>> print(0.0 < error < 0.1 * share)
         True
         """
-        pixels = self._toward(direction, side, wavelength)
-        return pixels.estimate(lambda light: np.asarray(found(self.matrices(light))))
+        follows, pixels = following(found), self._toward(direction, side, wavelength)
+        return pixels.estimate(lambda light: follows(self.matrices(light)))
 
     def frames_toward(self, direction: Any, side: str = "reflected") -> dict[str, Frame]:
         """Return the frames in space of what `toward` returns, as `PathGraph.add` takes them.
