@@ -92,8 +92,8 @@ def measure(
         After how many events light is seen: 1 for what is scattered once; any number by default.
     symmetric : bool, optional
         Whether the two sides of the plane of incidence are taken to be mirror images, which
-        halves the variance; by default where the sample is isotropic. One with a direction may
-        be so from 0 and 180 deg, as where ``alpha`` is a pair.
+        halves the variance; by default where the sample is isotropic and rough. One with a
+        direction may be so from 0 and 180 deg, as where ``alpha`` is a pair.
     most_events : int, optional
         After how many events a photon is given up.
     threads : int, optional
@@ -144,7 +144,6 @@ def measure(
         beside=faults,
     )
     assert pixels is not None  # noqa: S101 - or a fault has been raised
-    mirrors = sample.isotropic if mirrors is None else mirrors
     if mirrors and not sample.isotropic and abs(np.sin(beam.azimuth)) > _IN_PLANE:
         raise SurfaceError(
             f"symmetric is True, and azimuth {np.degrees(beam.azimuth):.6g} deg; pixels are "
@@ -163,6 +162,8 @@ def measure(
     _check_extras("xarray", *(() if place is None else ("zarr", "dask", "distributed")))
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
     when = np.atleast_1d(np.ravel(when))
+    if mirrors is None:  # What a flat sample reflects is in one pixel, and has no noise.
+        mirrors = sample.isotropic and not is_flat(seen)
     if is_flat(seen):
         if place is not None:
             raise SurfaceError(_NOTHING_TO_KEEP)
