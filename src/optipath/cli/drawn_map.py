@@ -8,7 +8,7 @@ import click
 
 from optipath.cli.console import say
 from optipath.cli.photon_bar import photon_bar
-from optipath.cli.text_files import NewFile, check_place, told_of
+from optipath.cli.text_files import NewFile, check_place
 from optipath.errors import SurfaceError
 from optipath.surfaces.samples.sample_files import load_sample
 from optipath.values.picture_files import check_form
@@ -74,10 +74,13 @@ def draw_map(
     # Before photons are walked: these tell whether what draws is there.
     from optipath.cli.given_walk import given_walks  # noqa: PLC0415 - needs numbers
     from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
-    from optipath.plots.pixel_quantity import quantity_named  # noqa: PLC0415 - ditto
+    from optipath.plots.named_quantity import named_quantity  # noqa: PLC0415 - ditto
+    from optipath.plots.pixel_quantity import QUANTITIES  # noqa: PLC0415 - ditto
     from optipath.surfaces.hemispheres.measure import measure  # noqa: PLC0415 - needs numbers
 
-    walk = _only(given_walks(load_sample(sample), **options), quantity_named(quantity), side)
+    walk = _only(
+        given_walks(load_sample(sample), **options), named_quantity(quantity, QUANTITIES), side
+    )
     beam, source = walk.run.beam, walk.run.beam.states[0]
     with photon_bar(walk.direction) as progress:
         measured = measure(
@@ -92,8 +95,7 @@ def draw_map(
             progress=progress,
         )
     drawn = hemisphere(measured, quantity, source=source, side=side)
-    with told_of(out):
-        save(drawn, out)
+    save(drawn, out)
     say(f"wrote {out}")
 
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from optipath.errors import SurfaceError
 from optipath.paths.format.faults import Faults
 from optipath.plots.disc import draw_disc
+from optipath.plots.named_quantity import named_quantity
 from optipath.plots.own_axes import own_axes
-from optipath.plots.pixel_quantity import PixelQuantity, quantity_named
+from optipath.plots.pixel_quantity import QUANTITIES, PixelQuantity
 from optipath.plots.positive import positive
 from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
@@ -89,7 +90,7 @@ def hemisphere(
     >>> hemisphere(found, "DoLP").get_title()
     'DoLP, reflected, incidence 40°'
     """
-    drawn = quantity_named(quantity)
+    drawn = named_quantity(quantity, QUANTITIES)
     faults = [*positive("largest", largest), *positive("known_to", known_to)]
     if largest is not None and drawn.is_bounded:
         faults.append(f"largest is given, but colours of {drawn.variable} end at their own limits")

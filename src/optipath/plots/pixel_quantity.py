@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from optipath.errors import SurfaceError, shown, unknown
+from optipath.errors import shown, unknown
 from optipath.plots.colour_scale import ColourScale
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ class PixelQuantity(NamedTuple):
 
         Examples
         --------
-        >>> quantity_named("S0").faults_of({"noise": None})
+        >>> QUANTITIES[0].faults_of({"noise": None})
         ['mask is given, but S0 has none; leave it out']
         """
         if not self.masked and (not isinstance(mask, Mapping | None) or mask):
@@ -176,34 +176,6 @@ QUANTITIES = (
     PixelQuantity("ADM", "mean of |S0 - U| / U", "%", _adm, ColourScale.share, **_OVER_ALL),
     PixelQuantity("MDM", "largest |S0 - U| / U", "%", _mdm, ColourScale.share, **_OVER_ALL),
 )
-
-
-def quantity_named(name: Any) -> PixelQuantity:
-    """Return the quantity of a name.
-
-    Parameters
-    ----------
-    name : str
-        Such as ``"S0"`` or ``"DoLP"``.
-
-    Returns
-    -------
-    PixelQuantity
-
-    Raises
-    ------
-    SurfaceError
-        If none is called so.
-
-    Examples
-    --------
-    >>> quantity_named("AoP").label
-    'angle of polarisation (°)'
-    """
-    names = [each.variable for each in QUANTITIES]
-    if faults := unknown("quantity", name, names):
-        raise SurfaceError(*faults)
-    return QUANTITIES[names.index(name)]
 
 
 def largest_of(values: Numbers) -> float:

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import SurfaceError
+from optipath.plots.named_quantity import named_quantity
 from optipath.plots.own_axes import own_axes
 from optipath.plots.plane_cut import PlaneCut
-from optipath.plots.plane_quantity import plane_quantity_named
+from optipath.plots.plane_quantity import QUANTITIES
 from optipath.plots.positive import positive
 from optipath.plots.seen_sides import labels, seen_sides, titled
 from optipath.surfaces.walk.given_beam import UNPOLARISED
@@ -94,7 +95,7 @@ def in_plane(
     several = measured if isinstance(measured, Mapping) else {"": measured}
     if not several:
         raise SurfaceError("measured is an empty mapping; give one Hemisphere at least")
-    drawn = plane_quantity_named(quantity)
+    drawn = named_quantity(quantity, QUANTITIES)
     sides = seen_sides(
         {str(name): each for name, each in several.items()},
         side,

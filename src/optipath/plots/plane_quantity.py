@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optipath.errors import SurfaceError, unknown
+from optipath.errors import SurfaceError
 from optipath.sweeps.labels.light_quantities import QUANTITIES as OF_LIGHT
 
 if TYPE_CHECKING:
@@ -108,22 +108,3 @@ QUANTITIES = (
     ),
     PlaneQuantity("difference", "S0 / U - 1 (%)", _difference, known_to=5.0),
 )
-
-
-def plane_quantity_named(name: Any) -> PlaneQuantity:
-    """Return the quantity of a name.
-
-    Raises
-    ------
-    SurfaceError
-        If none is called so.
-
-    Examples
-    --------
-    >>> plane_quantity_named("difference").label
-    'S0 / U - 1 (%)'
-    """
-    names = [each.variable for each in QUANTITIES]
-    if faults := unknown("quantity", name, names):
-        raise SurfaceError(*faults)
-    return QUANTITIES[names.index(name)]

@@ -1,0 +1,53 @@
+"""What pictures show, by name."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from optipath.errors import SurfaceError, unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+class Named(Protocol):
+    """A quantity."""
+
+    @property
+    def variable(self) -> str:
+        """What it is called."""
+
+
+Quantity = TypeVar("Quantity", bound=Named)
+
+
+def named_quantity(name: Any, quantities: Sequence[Quantity]) -> Quantity:
+    """Return the quantity of a name.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"S0"`` or ``"DoLP"``.
+    quantities : sequence
+        Those that there are.
+
+    Returns
+    -------
+    PixelQuantity or PlaneQuantity
+        One of them.
+
+    Raises
+    ------
+    SurfaceError
+        If none is called so.
+
+    Examples
+    --------
+    >>> from optipath.plots.pixel_quantity import QUANTITIES
+    >>> named_quantity("AoP", QUANTITIES).label
+    'angle of polarisation (°)'
+    """
+    names = [each.variable for each in quantities]
+    if faults := unknown("quantity", name, names):
+        raise SurfaceError(*faults)
+    return quantities[names.index(name)]
