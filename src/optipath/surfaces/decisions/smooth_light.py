@@ -6,11 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.elements.layer_stack import LayerStack
-from optipath.elements.source import Source
-from optipath.elements.terminal import Detector
-from optipath.paths.path_graph import PathGraph
 from optipath.paths.polarization_matters import polarization
+from optipath.surfaces.samples.smooth_path import smooth_path
 
 if TYPE_CHECKING:
     from optipath.surfaces.samples.sample_indices import SampleIndices
@@ -40,12 +37,5 @@ def smooth_difference(indices: SampleIndices, incidence: Any, side: str) -> floa
     >>> print(round(100.0 * smooth_difference(indices, "60 deg", "reflected"), 3))
     -2.9
     """
-    media: list[Any] = [indices.outside, *indices.inner, indices.base]
-    path = PathGraph()
-    path.add("light", Source())
-    path.add("sample", LayerStack(media, incidence))
-    path.add("seen", Detector())
-    path.connect("light", "sample.in")
-    path.connect(f"sample.{side}", "seen.in")
-    found = np.ravel(polarization(path).difference)
+    found = np.ravel(polarization(smooth_path(indices, side), incidence=incidence).difference)
     return float(found[np.argmax(np.abs(found))])

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
-from optipath.elements.layer_stack import LayerStack
-from optipath.elements.source import Source
-from optipath.elements.terminal import Detector
-from optipath.paths.path_graph import PathGraph
 from optipath.paths.polarization_matters import polarization
 from optipath.surfaces.hemispheres.part_sums import PartSums
+from optipath.surfaces.hemispheres.sensed_beam import SIDES
+from optipath.surfaces.samples.smooth_path import smooth_path
 from optipath.values.angles import CosSin
-from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
     from optipath.surfaces.hemispheres.sensed_beam import SensedBeam
@@ -39,7 +36,7 @@ def is_flat(seen: SensedBeam) -> bool:
     """
     beam = seen.beam
     whole = seen.events is None and beam.most_events >= _MOST_EVENTS
-    return whole and all(layer.is_flat for layer in beam.sample.layers)
+    return whole and beam.sample.is_flat
 
 
 def flat_light(seen: SensedBeam) -> PartSums:
@@ -72,10 +69,9 @@ def flat_light(seen: SensedBeam) -> PartSums:
 def _direction(seen: SensedBeam, side: str) -> Numbers:
     """Return where light goes, by Snell's law; along the sample where none is let through."""
     beam = seen.beam
-    azimuth = 0.0 if beam.sample.isotropic else beam.azimuth
-    sin, cos = beam.sin, beam.cos
+    azimuth, sin, cos = beam.plane_azimuth, beam.sin, beam.cos
     if side == "transmitted":
-        sin = min(sin * beam.indices.outside / float(beam.indices.n.flat[0]), 1.0)
+        sin = min(beam.smooth_sine(SIDES[side]), 1.0)
         cos = -np.sqrt((1.0 - sin) * (1.0 + sin))
     return np.array([sin * np.cos(azimuth), sin * np.sin(azimuth), cos])
 
@@ -83,12 +79,7 @@ def _direction(seen: SensedBeam, side: str) -> Numbers:
 def _by_stack(seen: SensedBeam, side: str) -> tuple[Numbers, Numbers]:
     """Return the Mueller matrix at each wavelength, and the share without polarisation."""
     beam = seen.beam
-    indices, angle = beam.indices, {"incidence": CosSin(beam.cos, beam.sin)}
-    base = np.atleast_1d(np.ravel(indices.base))
-    media: list[Any] = [indices.outside, *indices.inner, base if indices.opaque else base.real]
-    path = PathGraph()
-    path.add("light", Source()) >> path.add("stack", LayerStack(media, Parameter("incidence")))
-    path.add("eye", Detector())
-    path.connect(f"stack.{side}", "eye.in")
+    path, angle = smooth_path(beam.indices, side), {"incidence": CosSin(beam.cos, beam.sin)}
     matrix, scalar = path.mueller(**angle).matrix, polarization(path, **angle).scalar
-    return np.broadcast_to(matrix, (len(base), 4, 4)), np.broadcast_to(scalar, (len(base),))
+    lights = beam.indices.n.size
+    return np.broadcast_to(matrix, (lights, 4, 4)), np.broadcast_to(scalar, (lights,))

@@ -108,6 +108,11 @@ class Sample(Replaying, Unchanging):
         """Whether no direction along the surface is any other."""
         return all(layer.isotropic for layer in self.layers)
 
+    @property
+    def is_flat(self) -> bool:
+        """Whether all interfaces are planes that go on for ever."""
+        return all(layer.is_flat for layer in self.layers)
+
     def fields(self, surface: int = 0) -> tuple[HeightField, ...]:
         """Return the heights of all interfaces, from the top.
 
