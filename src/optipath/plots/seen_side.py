@@ -11,6 +11,7 @@ from optipath.errors import OptipathError, SurfaceError, listed, shown
 from optipath.paths.format.faults import Faults
 from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 from optipath.surfaces.hemispheres.projections import PROJECTIONS
+from optipath.surfaces.hemispheres.sensed_beam import SIDES
 from optipath.surfaces.walk.given_beam import given_state
 from optipath.values.displayed import displayed
 from optipath.values.wavelength import Wavelength
@@ -121,8 +122,7 @@ class SeenSide:
         beam = self.measured.seen.beam
         if self.side == "reflected":
             return float(np.arctan2(beam.sin, beam.cos))
-        # A clear base has one index for all wavelengths that are measured together.
-        sin = beam.sin * beam.indices.outside / float(beam.indices.n.flat[0])
+        sin = beam.smooth_sine(SIDES[self.side])
         return float(np.arcsin(sin)) if sin <= 1.0 else np.nan
 
     @property

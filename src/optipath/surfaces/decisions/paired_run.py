@@ -57,8 +57,7 @@ class PairedRun:
     def counts(self) -> npt.NDArray[np.bool_]:
         """The pixels that count, (rows, columns): at least one."""
         found = self.hemisphere
-        light = found.scalar[0][found.side(self.side)].mean(axis=-1)
-        light = np.where(np.isnan(found.sensor.theta), np.nan, light)
+        light = found.scalar_light(found.side(self.side))
         counts = self.mask.bright(light)
         if not counts.any():
             raise SurfaceError(self._none_counts(light))

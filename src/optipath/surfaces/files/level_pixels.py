@@ -103,12 +103,8 @@ class LevelPixels:
             Of M00, as if all four were wrong on one side: no less than the standard error. NaN
             where that of one is not known.
         """
-        x, y, z = directions.T
-        sin = np.hypot(x, y)
-        radius = PROJECTIONS[self.sensor.projection].radius(sin, z)
-        scale = radius / np.where(sin > 0.0, sin, 1.0)
         pixels = self.sensor.pixels
-        across, up = (0.5 * pixels * (1.0 + scale * each) - 0.5 for each in (x, y))
+        across, up = (each - 0.5 for each in self.sensor.at(directions))
         found = np.zeros((len(directions), *self.matrices.shape[2:]))
         errors, total = np.zeros(found.shape[:2]), np.zeros(len(directions))
         for row in (np.floor(up), np.floor(up) + 1.0):

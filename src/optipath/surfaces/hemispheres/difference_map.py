@@ -80,7 +80,7 @@ def difference_map(
             f"the noise of {hemisphere.photons:,} photons is not known, and pixels are left out by "
             f"it; measure with more photons{cure(', or give noise=None', '')}"
         )
-    counts = mask.bright(_light(hemisphere, at))
+    counts = mask.bright(hemisphere.scalar_light(at))
     counts = counts.reshape(counts.shape + (1,) * (value.ndim - 2)) & mask.known(value, error)
     value, error = (np.where(counts, each, np.nan) for each in (value, error))
     dims = ("y", "x", "wavelength")[: value.ndim]
@@ -94,12 +94,6 @@ def difference_map(
 def _relative(hemisphere: MeasuredPixels, light: Numbers) -> Numbers:
     scalar = hemisphere.intensities(light)
     return (hemisphere.matrices(light)[..., 0, 0] - scalar) / scalar
-
-
-def _light(hemisphere: MeasuredPixels, side: int) -> Numbers:
-    """Return the light without polarisation, the mean over wavelengths; NaN beyond the horizon."""
-    light = hemisphere.intensities(hemisphere.own.sums.sum(axis=0))[side].mean(axis=-1)
-    return np.where(np.isnan(hemisphere.sensor.theta), np.nan, light)
 
 
 def _mask_attributes(mask: PixelMask, counts: npt.NDArray[np.bool_], error: Numbers) -> _Told:

@@ -96,7 +96,7 @@ def _summed(seen: SensedBeam, alpha: tuple[float, float], masking: str, points: 
     """Return Mueller matrices, (rows, columns, wavelengths, 4, 4)."""
     beam, indices = seen.beam, seen.beam.indices
     below: Any = np.array(indices.inner[:1]) if indices.inner else np.ravel(indices.base)
-    azimuth = 0.0 if beam.sample.isotropic else beam.azimuth
+    azimuth = beam.plane_azimuth
     across = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
     along = np.array([np.cos(azimuth), np.sin(azimuth), 0.0])
     down = beam.sin * along - [0.0, 0.0, beam.cos]

@@ -162,9 +162,10 @@ def measure(
     _check_extras("xarray", *(() if place is None else ("zarr", "dask", "distributed")))
     when = np.nan if wavelengths is None else Wavelength().resolve(wavelengths).value
     when = np.atleast_1d(np.ravel(when))
+    is_known = is_flat(seen)
     if mirrors is None:  # What a flat sample reflects is in one pixel, and has no noise.
-        mirrors = sample.isotropic and not is_flat(seen)
-    if is_flat(seen):
+        mirrors = sample.isotropic and not is_known
+    if is_known:
         if place is not None:
             raise SurfaceError(_NOTHING_TO_KEEP)
         sums = flat_light(seen)

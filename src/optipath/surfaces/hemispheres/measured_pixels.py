@@ -126,6 +126,22 @@ class MeasuredPixels:
             raise SurfaceError(_missing("light without polarisation", "scalar"))
         return light[..., -1]
 
+    def scalar_light(self, side: int) -> Numbers:
+        """Return the light without polarisation by which pixels count.
+
+        Parameters
+        ----------
+        side : int
+            The place of the side.
+
+        Returns
+        -------
+        ndarray, shape (rows, columns)
+            The sum over photons, the mean over wavelengths; NaN beyond the horizon.
+        """
+        light = self.intensities(self.own.sums.sum(axis=0))[side].mean(axis=-1)
+        return np.where(np.isnan(self.sensor.theta), np.nan, light)
+
     def side(self, name: Any) -> int:
         """Return the place of a hemisphere.
 

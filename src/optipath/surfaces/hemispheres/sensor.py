@@ -130,7 +130,7 @@ class Sensor:
         ndarray of int, shape (...)
         """
         last = self.pixels - 1
-        column, row = (np.clip(each.astype(np.int64), 0, last) for each in self._at(directions))
+        column, row = (np.clip(each.astype(np.int64), 0, last) for each in self.at(directions))
         return np.asarray(row * self.pixels + column)
 
     def around(self, direction: npt.ArrayLike) -> tuple[Places, Places]:
@@ -155,7 +155,7 @@ class Sensor:
         last = self.pixels - 1
         columns, rows = (
             np.unique(np.clip(np.floor([each - _BORDER, each + _BORDER]).astype(int), 0, last))
-            for each in self._at(direction)
+            for each in self.at(direction)
         )
         return np.repeat(rows, len(columns)), np.tile(columns, len(rows))
 
@@ -174,10 +174,19 @@ class Sensor:
         x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
         return PROJECTIONS[self.projection].radius(np.hypot(x, y), np.abs(z))
 
-    def _at(self, directions: npt.ArrayLike) -> tuple[Numbers, Numbers]:
-        """Return where directions are, in columns and in rows from the corner."""
-        x, y, z = np.moveaxis(np.asarray(directions, float), -1, 0)
+    def at(self, directions: npt.ArrayLike) -> tuple[Numbers, Numbers]:
+        """Return where directions are, in columns and in rows from the corner.
+
+        Parameters
+        ----------
+        directions : array_like, shape (..., 3)
+            Unit vectors, upwards or downwards.
+
+        Returns
+        -------
+        columns, rows : ndarray, shape (...)
+        """
+        x, y, _ = np.moveaxis(np.asarray(directions, float), -1, 0)
         sin = np.hypot(x, y)
-        radius = PROJECTIONS[self.projection].radius(sin, np.abs(z))
-        scale, half = radius / np.where(sin > 0.0, sin, 1.0), 0.5 * self.pixels
+        scale, half = self.radius(directions) / np.where(sin > 0.0, sin, 1.0), 0.5 * self.pixels
         return (scale * x + 1.0) * half, (scale * y + 1.0) * half

@@ -171,7 +171,7 @@ class Toward(MeasuredPixels):
         [0. 1. 0.] [ 0.707  0.    -0.707] [0.707 0.    0.707]
         """
         self.side(side)
-        beam, azimuth = self.seen.beam, self._azimuth
+        beam, azimuth = self.seen.beam, self.seen.beam.plane_azimuth
         c, s = np.cos(azimuth), np.sin(azimuth)
         z, x = np.array([beam.sin * c, beam.sin * s, -beam.cos]), np.array([-s, c, 0.0]) + 0.0
         return {
@@ -179,17 +179,11 @@ class Toward(MeasuredPixels):
             "out": direction_of(direction, azimuth, up=side == "reflected"),
         }
 
-    @property
-    def _azimuth(self) -> float:
-        """Towards which side the light goes that comes in."""
-        beam = self.seen.beam
-        return 0.0 if beam.sample.isotropic else beam.azimuth
-
     def _warn_next_to_normal(self, direction: Any, side: str) -> None:
-        z = direction_of(direction, self._azimuth, up=side == "reflected").z
+        z = direction_of(direction, self.seen.beam.plane_azimuth, up=side == "reflected").z
         radius = 0.5 * self.sensor.pixels * self.sensor.radius(z)
         sample = self.seen.beam.sample
-        is_flat = isinstance(sample, Sample) and all(layer.is_flat for layer in sample.layers)
+        is_flat = isinstance(sample, Sample) and sample.is_flat
         if not is_flat and np.any(near := radius < _FEW_PIXELS):
             warnings.warn(
                 f"direction{first_place(near)} ({shown(direction)}) is within {_FEW_PIXELS:.0f} "
@@ -214,7 +208,7 @@ class Toward(MeasuredPixels):
     def _toward(self, direction: Any, side: str, wavelength: Any) -> PartSums:
         """Return the sums over the pixels of each direction."""
         place = self.side(side)
-        frame = direction_of(direction, self._azimuth, up=side == "reflected")
+        frame = direction_of(direction, self.seen.beam.plane_azimuth, up=side == "reflected")
         light = wavelength_place(self.wavelengths, wavelength)
         sums = self.own.sums[:, place, :, :, light]
         pixels = [self.sensor.around(z) for z in frame.z.reshape(-1, 3)]

@@ -22,6 +22,7 @@ from optipath.surfaces.walk.walk_layout import (
     OUTCOMES,
     RECORD,
     SUMS,
+    UP,
 )
 from optipath.surfaces.walk.walked_block import WalkedBlock
 from optipath.values.arrays.read_only import same_fields
@@ -86,6 +87,28 @@ class PhotonBeam:
     def lights(self) -> int:
         """How many lights ride on a photon: for each index of the base, all states."""
         return self.indices.n.size * len(self.states)
+
+    @property
+    def plane_azimuth(self) -> float:
+        """That of the plane of incidence as directions are told; on an isotropic sample 0."""
+        return 0.0 if self.sample.isotropic else self.azimuth
+
+    def smooth_sine(self, outcome: int) -> float:
+        """Return the sine of the angle at which a smooth sample sends light up or down.
+
+        Parameters
+        ----------
+        outcome : int
+            `UP`, or `DOWN` into the base, which has one index for all lights that ride together.
+
+        Returns
+        -------
+        float
+            Above 1 where all light is totally reflected.
+        """
+        if outcome == UP:
+            return self.sin
+        return self.sin * self.indices.outside / float(self.indices.n.flat[0])
 
     @property
     def surfaces(self) -> int:
