@@ -13,7 +13,7 @@ import optipath as op
 
 SOURCE = Path(op.__file__).parent
 PROJECT = Path(__file__).parents[1] / "pyproject.toml"
-FOR_DEVELOPERS = {"test", "lint"}
+FOR_DEVELOPERS = {"test", "lint", "docs", "browser"}
 
 # Each room may import those that stand before it, and nothing that stands behind.
 ROOMS = [
@@ -32,6 +32,7 @@ ROOMS = [
     "surfaces",
     "lab",
     "plots",
+    "explorer",
     "cli",
 ]
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from optipath.cli.given_walk import GivenWalk
-    from optipath.plots.pixel_quantity import PixelQuantity
+    from optipath.plots.hemispheres.pixel_quantity import PixelQuantity
 
 MAP = click.Option(
     ["--map", "quantity"],
@@ -74,8 +74,8 @@ def draw_map(
     # Before photons are walked: these tell whether what draws is there.
     from optipath.cli.given_walk import given_walks  # noqa: PLC0415 - needs numbers
     from optipath.plots import hemisphere, save  # noqa: PLC0415 - an extra
+    from optipath.plots.hemispheres.pixel_quantity import QUANTITIES  # noqa: PLC0415 - ditto
     from optipath.plots.named_quantity import named_quantity  # noqa: PLC0415 - ditto
-    from optipath.plots.pixel_quantity import QUANTITIES  # noqa: PLC0415 - ditto
     from optipath.surfaces.hemispheres.measure import measure  # noqa: PLC0415 - needs numbers
 
     walk = _only(

@@ -7,11 +7,11 @@ from optipath.errors import MissingExtraError
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from optipath.plots.difference_discs import differences
-    from optipath.plots.facet_panel import beside_facets
-    from optipath.plots.hemisphere_map import hemisphere
-    from optipath.plots.mueller_map import mueller_hemisphere
-    from optipath.plots.plane_curves import in_plane
+    from optipath.plots.hemispheres.difference_discs import differences
+    from optipath.plots.hemispheres.facet_panel import beside_facets
+    from optipath.plots.hemispheres.hemisphere_map import hemisphere
+    from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
+    from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
 
 __all__ = [
@@ -24,11 +24,11 @@ __all__ = [
 ]
 
 _HOMES = {
-    "difference_discs": ["differences"],
-    "facet_panel": ["beside_facets"],
-    "hemisphere_map": ["hemisphere"],
-    "mueller_map": ["mueller_hemisphere"],
-    "plane_curves": ["in_plane"],
+    "hemispheres.difference_discs": ["differences"],
+    "hemispheres.facet_panel": ["beside_facets"],
+    "hemispheres.hemisphere_map": ["hemisphere"],
+    "hemispheres.mueller_map": ["mueller_hemisphere"],
+    "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""

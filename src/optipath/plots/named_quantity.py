@@ -43,7 +43,7 @@ def named_quantity(name: Any, quantities: Sequence[Quantity]) -> Quantity:
 
     Examples
     --------
-    >>> from optipath.plots.pixel_quantity import QUANTITIES
+    >>> from optipath.plots.hemispheres.pixel_quantity import QUANTITIES
     >>> named_quantity("AoP", QUANTITIES).label
     'angle of polarisation (°)'
     """

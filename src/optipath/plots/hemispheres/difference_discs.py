@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.plots.colour_scale import ColourScale
-from optipath.plots.disc import draw_disc
+from optipath.plots.hemispheres.disc import draw_disc
+from optipath.plots.hemispheres.pixel_quantity import largest_of
+from optipath.plots.hemispheres.seen_side import SeenSide
 from optipath.plots.own_axes import own_panel
-from optipath.plots.pixel_quantity import largest_of
-from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.plots.plane_cut import PlaneCut
+    from optipath.plots.hemispheres.plane_cut import PlaneCut
 
     Numbers = npt.NDArray[np.float64]
 

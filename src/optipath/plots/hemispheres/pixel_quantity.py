@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
-    from optipath.plots.seen_side import SeenSide
+    from optipath.plots.hemispheres.seen_side import SeenSide
 
     Numbers = npt.NDArray[np.float64]
 

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import SurfaceError
 from optipath.paths.format.faults import Faults
-from optipath.plots.disc import draw_disc
+from optipath.plots.hemispheres.disc import draw_disc
+from optipath.plots.hemispheres.pixel_quantity import QUANTITIES, PixelQuantity
+from optipath.plots.hemispheres.seen_side import SeenSide
 from optipath.plots.named_quantity import named_quantity
 from optipath.plots.own_axes import own_axes
-from optipath.plots.pixel_quantity import QUANTITIES, PixelQuantity
 from optipath.plots.positive import positive
-from optipath.plots.seen_side import SeenSide
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 
-from optipath.plots.seen_side import degrees
+from optipath.plots.hemispheres.seen_side import degrees
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.image import AxesImage
 
     from optipath.plots.colour_scale import ColourScale
-    from optipath.plots.seen_side import SeenSide
+    from optipath.plots.hemispheres.seen_side import SeenSide
 
 _INK, _LINE = "#222222", "#9a9a9a"
 _RINGS = 30.0, 60.0

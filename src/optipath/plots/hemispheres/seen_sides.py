@@ -8,7 +8,7 @@ import numpy as np
 
 from optipath.errors import SurfaceError
 from optipath.paths.format.faults import Faults, joined
-from optipath.plots.seen_side import SeenSide
+from optipath.plots.hemispheres.seen_side import SeenSide
 from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from optipath.surfaces.facets.directions import frame_along
 if TYPE_CHECKING:
     import numpy.typing as npt
 
-    from optipath.plots.seen_side import SeenSide
+    from optipath.plots.hemispheres.seen_side import SeenSide
 
     Numbers = npt.NDArray[np.float64]
 

@@ -8,19 +8,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import SurfaceError
+from optipath.plots.hemispheres.plane_cut import PlaneCut
+from optipath.plots.hemispheres.plane_quantity import QUANTITIES
+from optipath.plots.hemispheres.seen_sides import labels, seen_sides, titled
 from optipath.plots.named_quantity import named_quantity
 from optipath.plots.own_axes import own_axes
-from optipath.plots.plane_cut import PlaneCut
-from optipath.plots.plane_quantity import QUANTITIES
 from optipath.plots.positive import positive
-from optipath.plots.seen_sides import labels, seen_sides, titled
 from optipath.surfaces.walk.given_beam import UNPOLARISED
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    from optipath.plots.plane_quantity import PlaneQuantity
+    from optipath.plots.hemispheres.plane_quantity import PlaneQuantity
     from optipath.surfaces.hemispheres.hemisphere import Hemisphere
 
 BAND = 2.0

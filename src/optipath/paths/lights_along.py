@@ -1,0 +1,80 @@
+"""The light on every link of a path, in the order in which it travels."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.composer.wiring import Wiring, link_text
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
+
+
+class LightOnLink(NamedTuple):
+    """The light on a link, or of an out-port that nothing takes the light of.
+
+    Attributes
+    ----------
+    name : str
+        ``"lamp.out -> eye.in"``, or ``"glass.transmitted"`` where light leaves the path.
+    start, leaves : str
+        The node that it comes from, and the out-port.
+    end, enters : str
+        The node that it goes to, and the in-port; empty where it leaves the path.
+    light : Light
+        In the frame in which it leaves its element.
+    tap : bool
+        Whether the link reads light and takes nothing.
+    """
+
+    name: str
+    start: str
+    leaves: str
+    end: str
+    enters: str
+    light: Light
+    tap: bool = False
+
+
+def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
+    """Return the light on every link, and what leaves the path, in the order of travel.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    **parameters : float or array_like
+        As in `PathGraph.trace`.
+
+    Returns
+    -------
+    list of LightOnLink
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> path = op.load_preset("two-panes")
+    >>> for each in lights_along(path):
+    ...     print(each.name, each.light.intensity.round(3))
+    lamp.out -> pane1.in 1.0
+    pane1.reflected -> pane2.in 0.074
+    pane1.transmitted 0.926
+    pane2.reflected -> eye.in 0.0
+    pane2.transmitted 0.074
+    """
+    lights: Mapping[str, Light] = path.trace(keep="all", **parameters)
+    wiring = Wiring(path.graph, keep="all")
+    travelled = [port for stretch in wiring.stretches for port in stretch.ports]
+    order = {port: place for place, port in enumerate(travelled)}
+    found = [
+        LightOnLink(name, start, leaves, end, enters, lights[name], bool(tap))
+        for start, end, (leaves, enters), tap in path.graph.edges(keys=True, data="tap")
+        if (name := link_text((start, end, (leaves, enters)))) in lights
+    ]
+    for name in lights.keys() & {*wiring.outlets}:
+        start, _, leaves = name.rpartition(".")
+        found.append(LightOnLink(name, start, leaves, "", "", lights[name]))
+    return sorted(found, key=lambda each: (order[each.start, each.leaves], each.tap))

@@ -1,0 +1,1 @@
+"""Pictures of quantities against parameters, and of what a boundary reflects."""

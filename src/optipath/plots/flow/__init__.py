@@ -1,0 +1,1 @@
+"""Pictures of the power along a path: what each element takes."""

@@ -1,0 +1,1 @@
+"""Pictures of what rough samples send into all directions."""

@@ -1,0 +1,1 @@
+"""Pictures of light and of matrices: ellipses, the Poincare sphere, bars, maps of elements."""
