@@ -8,8 +8,7 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-_SIGNS = {"deg": "°", "um": "µm", "arcmin": "′", "arcsec": "″"}
-_BESIDE = ("", "°", "′", "″")
+_SIGNS = {"deg": "°", "um": "µm"}
 _LONGEST = 60
 
 
@@ -65,5 +64,4 @@ class AlongAxis(NamedTuple):
         if self.default is None:
             return ""
         sign = _SIGNS.get(self.unit, self.unit)
-        space = "" if sign in _BESIDE else " "
-        return f"{self.default:.4g}{space}{sign}"
+        return f"{self.default:.4g}{'' if sign == '°' else ' '}{sign}".rstrip()

@@ -97,7 +97,7 @@ def _draw(
     if quantity.period:
         along, values = open_at_jumps(along, values, quantity.period)
     dash = (place + place // len(LINES)) % len(DASHES)
-    style = {"color": LINES[place % len(LINES)], "linestyle": DASHES[dash]}
+    style: dict[str, Any] = {"color": LINES[place % len(LINES)], "linestyle": DASHES[dash]}
     return ax.plot(along, values, label=quantity.short, gid=quantity.name, **style)
 
 

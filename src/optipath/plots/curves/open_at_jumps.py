@@ -45,7 +45,7 @@ def open_at_jumps(along: Numbers, angles: Numbers, period: float) -> tuple[Numbe
     rest = step + 2 * end
     places: list[int] = []
     more: list[tuple[float, float]] = []
-    for at in np.flatnonzero(flips | jumps):
+    for at in np.flatnonzero(flips | jumps).tolist():
         places += [at + 1] * (1 if flips[at] else 3)
         if flips[at]:
             more.append((along[at], np.nan))

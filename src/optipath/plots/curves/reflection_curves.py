@@ -67,13 +67,13 @@ def reflection(
     curves = reflected(ratio, incidence)
     lines: list[Any] = []
     for place, (name, values) in enumerate(zip(_NAMES, curves, strict=True)):
-        style = {"color": LINES[place], "linestyle": DASHES[place]}
-        lines += ax.plot(np.degrees(incidence), values, label=name, **style)
+        colour, dash = LINES[place], DASHES[place]
+        lines += ax.plot(np.degrees(incidence), values, color=colour, linestyle=dash, label=name)
     for place, marked in enumerate(marked_angles(ratio)):
         degrees = float(np.degrees(marked.angle))
         label = f"{marked.name} {degrees:.2f}°"
-        style = {"color": (INK, FAINT)[place], "linestyle": (":", "-.")[place], "linewidth": 1.1}
-        lines.append(ax.axvline(degrees, label=label, zorder=1.0, **style))
+        colour, dash = ((INK, ":"), (FAINT, "-."))[place]
+        lines.append(ax.axvline(degrees, color=colour, linestyle=dash, zorder=1.0, label=label))
     ax.set(xlim=(0.0, 90.0), ylim=(-0.02, 1.02))
     ax.set_xticks(range(0, 91, 15))
     ax.set_yticks(np.arange(0.0, 1.1, 0.2))

@@ -27,6 +27,9 @@ _WIDE, _ROW, _AROUND = 6.4, 0.42, 0.5
 """The width of a figure, the height of a row, and that above and below, in inches."""
 
 _LIGHT, _TAKEN = LINES[4], LINES[1]
+_TAKEN_TEXT = "#A04700"
+"""The same, darker, as texts are read."""
+
 _POINTS = 10.0
 _LEAST_MIDDLE = 0.3
 """The share of the width that is left to ribbons at least."""
@@ -110,11 +113,11 @@ def _write(ax: Axes, places: EnergyPlaces, found: EnergyAlong) -> None:
     texts: list[tuple[Any, Any]] = []
     for row in rows:
         y = places.level[row.name]
-        style = {"va": "center", "color": INK}
+        style: dict[str, Any] = {"va": "center", "color": INK}
         name = ax.text(0.0, y, row.name, ha="right", **style)
         told = ax.text(0.0, y, _sentence(row, total), ha="left", **style)
         if row.told == "takes":
-            told.set_color(_darker(_TAKEN))
+            told.set_color(_TAKEN_TEXT)
         texts.append((name, told))
     notes = [
         ax.text(0.0, -float(len(rows) + at), note, ha="left", va="center", color=INK)
@@ -162,9 +165,3 @@ def _sentence(row: EnergyRow, total: float) -> str:
     if row.told == "gives" or not total:
         return written
     return f"{written} ({100.0 * row.power / total:.3g} %)"
-
-
-def _darker(colour: str) -> tuple[float, ...]:
-    from matplotlib.colors import to_rgb  # noqa: PLC0415
-
-    return tuple(0.75 * part for part in to_rgb(colour))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -38,7 +39,7 @@ def bent(stations: list[tuple[float, float]]) -> Numbers:
     """
     ease = _STEPS**2 * (3.0 - 2.0 * _STEPS)
     parts = []
-    for (x, y), (to_x, to_y) in zip(stations[:-1], stations[1:], strict=True):
+    for (x, y), (to_x, to_y) in pairwise(stations):
         parts.append(np.stack([x + (to_x - x) * ease, y + (to_y - y) * _STEPS], axis=-1))
     return np.concatenate(parts)
 
