@@ -6,7 +6,7 @@ import { dot, line, segment, show, text } from "./svg.js";
 import { sphereInWords } from "./words.js";
 
 const SIZE = 300;
-const RADIUS = 112;
+const RADIUS = 108;
 const MIDDLE = [SIZE / 2, SIZE / 2];
 
 export const SPHERE_VIEW = [32, 22];
@@ -57,11 +57,11 @@ function seen(points, side) {
 const AXES = { S1: [1, 0, 0], S2: [0, 1, 0], S3: [0, 0, 1] };
 
 function axes(at) {
-  return Object.values(AXES).map((axis) => segment(at(axis.map((each) => -each)), at(axis), "helper"));
+  return Object.values(AXES).map((axis) => segment(at(axis.map((each) => -each)), at(axis.map((each) => 1.16 * each)), "helper"));
 }
 
 function names(at, here, obstacles) {
-  const axes = Object.entries(AXES).map(([words, axis]) => ({ words, at: at(axis.map((each) => 1.02 * each)) }));
+  const axes = Object.entries(AXES).map(([words, axis]) => ({ words, at: at(axis.map((each) => 1.17 * each)) }));
   const labels = here === null ? axes : [{ words: here[0], at: here[1] }, ...axes];
   return placed(labels, [SIZE, SIZE], obstacles).map(({ x, y }, i) => {
     const { words } = labels[i];

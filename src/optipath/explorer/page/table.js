@@ -1,7 +1,7 @@
 /** Numbers, as the program prints them. */
 
 import { element } from "./dom.js";
-import { short, typeset } from "./units.js";
+import { powered, short, typeset } from "./units.js";
 
 const cell = (words, properties = {}) => element("td", properties, typeset(words));
 const row = (name, ...cells) => element("tr", {}, element("th", { scope: "row" }, name), ...cells);
@@ -23,7 +23,7 @@ export function fillStokes(table, name, light) {
 function difference(computed, published) {
   if (computed === null || published === null) return "";
   const apart = computed - published;
-  return apart === 0 ? "0" : short(apart, 2);
+  return apart === 0 ? "0" : powered(apart);
 }
 
 /** Fill the table of what else there is to say of the light, next to what the Stokes vector says. */

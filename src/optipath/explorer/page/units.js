@@ -53,6 +53,16 @@ export function taken(text) {
   return found === null ? null : { number: Number(found[1]), written: found[1], unit: found[2] };
 }
 
+const RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
+
+/** Two digits of a number, times a power of ten where it is very small or large. */
+export function powered(number) {
+  if (Math.abs(number) >= 1e-3 && Math.abs(number) < 1e4) return short(number, 2);
+  const [digits, power] = number.toExponential(1).split("e");
+  const raised = [...power.replace("+", "")].map((each) => RAISED[each] ?? "\u207b");
+  return `${digits}\u00b710${raised.join("")}`;
+}
+
 /** For the eye: a true minus sign and a degree sign. */
 export function typeset(text) {
   return text.replace(/(^|[\s(=])-(?=\d)/g, "$1\u2212").replace(/(\d) deg\b/g, "$1\u00b0");
