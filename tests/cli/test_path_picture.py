@@ -12,6 +12,19 @@ from optipath.cli.path_picture import path_picture
 from optipath.values.cases import Case
 
 
+def upright_lines(drawn):
+    """The straight pieces of a link that leads onwards."""
+    ways, x, y = [], 0.0, 0.0
+    for piece in re.findall(r"[MVC][^MVC]*", drawn):
+        numbers = [float(number) for number in piece[1:].split()]
+        if piece[0] == "V":
+            ways.append(Box(drawn, x - 1, y, x + 1, numbers[0]))
+            y = numbers[0]
+        else:
+            x, y = numbers[-2:]
+    return ways
+
+
 def texts_of(svg):
     return [text.told for text in page_of(svg)[1]]
 
