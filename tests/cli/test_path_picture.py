@@ -1,12 +1,13 @@
 """``optipath show --svg``: the drawing of a graph."""
 
+import re
 from itertools import pairwise
 from xml.etree import ElementTree as ET
 
 import pytest
 
 import optipath as op
-from drawn_paths import SPACE, faults_of, page_of
+from drawn_paths import SPACE, Box, faults_of, page_of
 from optipath.cli import main
 from optipath.cli.path_picture import path_picture
 from optipath.values.cases import Case
