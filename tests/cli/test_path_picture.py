@@ -16,11 +16,13 @@ from optipath.values.cases import Case
 def upright_lines(drawn):
     """The straight pieces of a link that leads onwards."""
     ways, x, y = [], 0.0, 0.0
-    for piece in re.findall(r"[MVC][^MVC]*", drawn):
+    for piece in re.findall(r"[MVCH][^MVCH]*", drawn):
         numbers = [float(number) for number in piece[1:].split()]
         if piece[0] == "V":
             ways.append(Box(drawn, x - 1, y, x + 1, numbers[0]))
             y = numbers[0]
+        elif piece[0] == "H":
+            x = numbers[0]
         else:
             x, y = numbers[-2:]
     return ways
