@@ -33,8 +33,8 @@ ax.legend(title="plates", loc="upper left")
 figure
 
 # %%
-# The degree goes on growing beyond Brewster's angle, but little light is left there: at that angle all of the light along p
-# goes through, which is half of the lamp's.
+# A few plates polarise more beyond Brewster's angle, where less light is left. At that angle all of the light along p goes
+# through, which is half of the lamp's, however many plates there are; that along s fades with each.
 
 for plates in (1, 4, 16):
     light = through(plates)

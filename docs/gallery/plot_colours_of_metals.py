@@ -29,15 +29,15 @@ ax = figure.subplots()
 for name, metal in metals.items():
     light = reflected(metal, 0.0)
     colour = light.to_srgb(white=white, out_of_gamut="clip").hex
-    ax.plot(1e9 * wavelength, light.intensity / white.intensity, color="#222222", linewidth=5)
-    ax.plot(1e9 * wavelength, light.intensity / white.intensity, color=colour, linewidth=3.5)
-    ax.annotate(name, (780, light.intensity[-1] / white.intensity[-1]), (5, 0),
-                textcoords="offset points", va="center")
+    share = light.intensity / white.intensity
+    ax.plot(1e9 * wavelength, share, color="#222222", linewidth=6)
+    ax.plot(1e9 * wavelength, share, color=colour, linewidth=4.5, label=name)
 ax.set(xlabel="wavelength (nm)", ylabel="reflected at normal incidence", ylim=(0, 1.03))
+ax.legend(loc="lower right", ncols=2)
 figure
 
 # %%
-# Each line has the colour of its metal. Here they are at every angle of incidence:
+# Each line has the colour of its metal. Here they are, polished, at every angle of incidence:
 
 degrees = np.arange(0, 90, 2)
 figure = Figure(figsize=(6.4, 3), layout="constrained")

@@ -37,19 +37,19 @@ def colours(incidence, axis=None):
         path = path >> op.Polarizer(axis)
     light = (path >> op.Detector()).trace(wavelength=wavelength)
     lamp = (op.Source(spectrum=daylight) >> op.Detector()).trace(wavelength=wavelength)
-    return light.to_srgb(white=0.12 * lamp, out_of_gamut="clip").values
+    return light.to_srgb(white=0.12 * lamp, out_of_gamut="scale").values
 
 
 # %%
 # The thinnest film is black: the waves from its faces have opposite signs. Towards grazing incidence the colours move to
 # thicker films, as :math:`\cos \theta_2` falls.
 
-degrees = np.arange(0, 76, 3)
+degrees = np.arange(0, 61, 3)
 image = np.array([colours(np.radians(each)) for each in degrees])
 
 figure = Figure(figsize=(7, 3.6), layout="constrained")
 ax = figure.subplots()
-ax.imshow(image, extent=(0, 1500, 76.5, -1.5), aspect="auto", interpolation="bicubic")
+ax.imshow(image, extent=(0, 1500, 61.5, -1.5), aspect="auto", interpolation="bicubic")
 ax.set(xlabel="thickness of the film (nm)", ylabel="angle of incidence (deg)")
 figure
 

@@ -2,8 +2,8 @@ r"""
 Fresnel's rhomb
 ===============
 
-Total reflection in glass delays light along p against light along s, by an angle :math:`\Delta`. Twice by 45 degrees is a
-quarter wave: in a rhomb, two reflections make circular light out of linear light, with no crystal at all (A. Fresnel, 1823).
+Total reflection in glass changes the phase between light along p and light along s. Twice by 45 degrees is a quarter wave:
+in a rhomb, two reflections make circular light out of linear light, with no crystal at all (A. Fresnel, 1823).
 """
 
 import numpy as np
@@ -19,9 +19,9 @@ for n in (1.45, 1.4966, 1.51, 1.6):
     face = op.Interface(1.0, np.radians(angles), outside=n)
     _, delta = face.mueller().ellipsometric_angles()
     total = n * np.sin(np.radians(angles)) > 1
-    ax.plot(angles[total], 180 - np.degrees(delta[total]), label=f"n = {n}")
+    ax.plot(angles[total], np.degrees(delta[total]), label=f"n = {n}")
 ax.axhline(45, color="#8a8a8a", linewidth=1)
-ax.set(xlabel="angle of incidence, in the glass (deg)", ylabel="what p is turned against s (deg)")
+ax.set(xlabel="angle of incidence, in the glass (deg)", ylabel="phase between p and s (deg)")
 ax.legend()
 figure
 
@@ -32,7 +32,7 @@ light = op.load_preset("fresnel-rhomb").trace()
 print(f"ellipticity {light.ellipticity:.4f}, handedness {light.handedness}")
 
 # %%
-# Around that angle the rhomb forgives much, more than a quarter-wave plate forgives another wavelength.
+# Between its two angles light is all but circular: a rhomb need not stand exactly.
 
 found = op.load_preset("fresnel-rhomb").trace(incidence=np.radians(angles))
 

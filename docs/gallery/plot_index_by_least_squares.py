@@ -44,11 +44,12 @@ for component, (points, line) in enumerate(zip(measured.T, lines.trace().stokes.
     (drawn,) = ax.plot(np.degrees(fine), line, label=f"S{component}")
     ax.plot(np.degrees(incidence), points, "o", color=drawn.get_color())
 ax.set(xlabel="angle of incidence (deg)", ylabel="Stokes vector")
-ax.legend(ncols=4, loc="lower left")
+ax.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1))
 figure
 
 # %%
-# How well the angles of a measurement tell n from k: around the minimum, the sum of squares is a long valley.
+# How well the angles of a measurement tell n from k: around the minimum, the sum of squares a valley
+# aslant: a larger n goes with a larger k.
 
 n, k = np.meshgrid(np.linspace(0.4, 0.8, 81), np.linspace(1.9, 2.35, 91))
 light = path.trace(n=n[..., np.newaxis], k=k[..., np.newaxis])

@@ -35,7 +35,7 @@ for plates, ax in enumerate(rows, start=1):
     ax.set(ylabel=f"{plates} plates" if plates > 1 else "1 plate", ylim=(0, 0.55))
     ax.axvline(656.28, color="#D55E00", linewidth=0.8)
 rows[-1].set(xlabel="wavelength (nm)", xlim=(620, 690))
-figure.supylabel("intensity, over that of the lamp")
+figure.supylabel("intensity, over that of the lamp", fontsize="medium")
 figure
 
 # %%

@@ -26,8 +26,8 @@ for ax, (title, name) in zip(panels.flat, materials.items(), strict=True):
     ax.set_title(f"{title}: n = {material.n:.3f}, k = {material.k:.3f}", fontsize="medium")
 panels[0, 0].legend(fontsize="small")
 panels[0, 0].set(xlim=(0, 90), ylim=(0, 1.02), xticks=range(0, 91, 15))
-figure.supxlabel("angle of incidence (deg)")
-figure.supylabel("reflected share of the power")
+figure.supxlabel("angle of incidence (deg)", fontsize="medium")
+figure.supylabel("reflected share of the power", fontsize="medium")
 figure
 
 # %%
