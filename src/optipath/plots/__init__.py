@@ -13,10 +13,12 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.space.geometry import geometry
 
 __all__ = [
     "beside_facets",
     "differences",
+    "geometry",
     "hemisphere",
     "in_plane",
     "mueller_hemisphere",
@@ -30,6 +32,7 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
+    "space.geometry": ["geometry"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
