@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.space.geometry import geometry
     from optipath.plots.states.ellipse_picture import ellipse
     from optipath.plots.states.mueller_picture import mueller
     from optipath.plots.states.sphere_picture import poincare
@@ -29,6 +30,7 @@ __all__ = [
     "differences",
     "ellipse",
     "energy",
+    "geometry",
     "hemisphere",
     "in_plane",
     "mueller",
@@ -52,6 +54,7 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
+    "space.geometry": ["geometry"],
     "states.ellipse_picture": ["ellipse"],
     "states.mueller_picture": ["mueller"],
     "states.sphere_picture": ["poincare"],
