@@ -7,6 +7,7 @@ from optipath.errors import MissingExtraError
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from optipath.plots.charts.drawn_chart import chart
     from optipath.plots.hemispheres.difference_discs import differences
     from optipath.plots.hemispheres.facet_panel import beside_facets
     from optipath.plots.hemispheres.hemisphere_map import hemisphere
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "beside_facets",
+    "chart",
     "differences",
     "hemisphere",
     "in_plane",
@@ -24,6 +26,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "charts.drawn_chart": ["chart"],
     "hemispheres.difference_discs": ["differences"],
     "hemispheres.facet_panel": ["beside_facets"],
     "hemispheres.hemisphere_map": ["hemisphere"],
