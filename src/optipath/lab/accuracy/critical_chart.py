@@ -31,7 +31,7 @@ DTYPE = "float64"
 DISTANCES = tuple(float(10.0**power) for power in np.arange(-12, -0.75, 0.5))
 """In radians, from 1e-12 to 1e-1: nearer than that float64 has no angles of its own."""
 
-SAMPLES = 6
+SAMPLES = 8
 
 
 def critical_chart(

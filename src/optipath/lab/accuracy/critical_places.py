@@ -54,7 +54,8 @@ class CriticalPlace:
         >>> samples.cos
         array([0.001, 0.001])
         """
-        return Region(f"{self.name}, {distance:.3g}", lambda dice: self.draw(dice, distance))
+        # Of one name, and so with the same media at every distance.
+        return Region(self.name, lambda dice: self.draw(dice, distance))
 
 
 def _brewster(dice: Dice, distance: float) -> tuple[Floats, ...]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import OptipathError, shown
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 _CURE = "give a file that 'benchmarks/peers/race.py --json' wrote"
 _SHARED = {"optipath, numba": "numba", "optipath, numpy": "numpy"}
@@ -112,7 +114,9 @@ def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:
         raise OptipathError(*faults)
     times = {entry["contender"]: float(entry["least"]) for entry in results[0]}
     for shared, engine in _SHARED.items():
-        charted = [entry["ns"]["least"] for entry in chart["contenders"] if _is_shared(entry, engine)]
+        charted = [
+            entry["ns"]["least"] for entry in chart["contenders"] if _is_shared(entry, engine)
+        ]
         if charted and times.get(shared, 0.0) > 0.0:
             ratio = charted[0] / times[shared]
             return PeerTimes(tuple(_racer(entry, ratio) for entry in results[0]), shared, ratio)

@@ -25,7 +25,7 @@ EDGE = 0.25
 """Between words and the edge of a picture, in inches."""
 
 _HANDLE = 0.6
-_WAYS = {"stokes": "large: Stokes vectors", "jones": "small: Jones columns"}
+_WAYS = {"stokes": "large: Stokes", "jones": "small: Jones"}
 _FACES = {"numba": "filled: ", "numpy": "open: "}
 
 
@@ -105,7 +105,7 @@ def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
         ],
         [
             Patch(facecolor=FAILING, label=fails),
-            Line2D([], [], color=FAINT, lw=1.8, label="best that fails nowhere"),
+            Line2D([], [], color=FAINT, lw=1.8, label="frontier: best that fails nowhere"),
             Line2D([], [], color=FAINT, ls="--", label="rounding, eps"),
             Line2D([], [], color=FAINT, lw=1.6, ls=":", label="machine's limit"),
         ],

@@ -111,7 +111,8 @@ def _colour(method: str, methods: list[str]) -> str:
 
 def _legend(methods: list[str]) -> list[list[Artist]]:
     def line(label: str, **looks: Any) -> Line2D:
-        return Line2D([], [], label=label, **({"color": INK, "lw": 2.2} | looks))
+        keywords: dict[str, Any] = {"color": INK, "lw": 2.2, **looks}
+        return Line2D([], [], label=label, **keywords)
 
     return [
         [

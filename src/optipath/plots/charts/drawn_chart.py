@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +13,7 @@ from optipath.plots.charts.speed_and_accuracy import draw_speed_and_accuracy
 from optipath.values.given_files import given_file
 
 if TYPE_CHECKING:
+    import os
     from pathlib import Path
 
     from optipath.plots.own_axes import Panel
