@@ -7,6 +7,7 @@ from optipath.errors import MissingExtraError
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from optipath.plots.charts.drawn_chart import chart
     from optipath.plots.curves.parameter_curve import curve
     from optipath.plots.curves.quantity_map import quantity_map
     from optipath.plots.curves.reflection_curves import reflection
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "beside_facets",
+    "chart",
     "curve",
     "differences",
     "ellipse",
@@ -44,6 +46,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "charts.drawn_chart": ["chart"],
     "curves.parameter_curve": ["curve"],
     "curves.quantity_map": ["quantity_map"],
     "curves.reflection_curves": ["reflection"],

@@ -106,7 +106,7 @@ def _counted(marks: list[Mark], method: str) -> str:
     counts = sorted({len(mark.fails) for mark in marks if mark.method == method})
     if counts == [0]:
         return "nowhere"
-    return f"{counts[0]}–{counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
+    return f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
 
 
 def _frontier(axes: Axes, points: list[tuple[float, float]], base: float) -> None:
