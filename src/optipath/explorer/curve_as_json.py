@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, shown, unknown
-from optipath.explorer.light_as_json import unit_shown
 from optipath.explorer.read_values import FieldFault, FieldFaults, single_text
 from optipath.sweeps.axes.sweep_axis import sweep_axis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
@@ -127,7 +126,7 @@ def _at(state: ReadState, axis: SweepAxis) -> float | None:
 
 def _line(name: str, light: Light, count: int) -> dict[str, Any]:
     quantity = _NAMES[name]
-    unit = unit_shown(quantity)
+    unit = quantity.shown_unit
     numbers = np.broadcast_to(np.asarray(quantity.of(light), float), (count,))
     found = np.degrees(numbers) if unit == "deg" else numbers
     return {"name": name, "label": quantity.name, "unit": unit, "values": plain(found)}
