@@ -33,6 +33,7 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
     -------
     dict of str to Any
     """
+    explored.warm_up()
     path = explored.path
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]
     if explored.offers_wavelength:
