@@ -39,7 +39,7 @@ export class CurveChoice {
     const parameter = this.able.find((each) => each.name === name);
     if (name === undefined || y.length === 0) return null;
     const [low, high] = parameter?.slider ?? [0, 1];
-    return { x: name, from: from || String(low), to: to || String(high), count: 181, y };
+    return { x: name, from: from || String(low), to: to || String(high), count: 361, y };
   }
 
   /** @param {object} state */
