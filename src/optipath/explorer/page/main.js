@@ -6,7 +6,7 @@ import { CurveChoice } from "./curve_choice.js";
 import { by, debounced, option, say } from "./dom.js";
 import { Texts, addSaving, copy } from "./export.js";
 import { Pictures } from "./pictures.js";
-import { History, fromHash, newState, toHash, withEntry } from "./state.js";
+import { History, WAVELENGTH, asksWavelength, fromHash, newState, toHash, withEntry } from "./state.js";
 import { chooseTheme } from "./theme.js";
 import { typeset } from "./units.js";
 
@@ -72,6 +72,7 @@ function show(state, answer) {
   forced = false;
   const found = open.about.cases.find((each) => each.name === state.case);
   say(by("note"), found?.note ? typeset(found.note) : "");
+  say(by("told"), typeset((answer.notes ?? []).join(" ")));
   pictures.show(state, answer, open.about);
   refreshTexts();
 }
@@ -93,7 +94,10 @@ function shown() {
 }
 
 function set(name, text, key) {
-  go(withEntry(open.history.now, "values", name, text), key);
+  const state = withEntry(open.history.now, "values", name, text);
+  const own = open.about.parameters.some((each) => each.name === WAVELENGTH.name);
+  const idle = !own && !asksWavelength(state, open.about);
+  go(idle ? withEntry(state, "values", WAVELENGTH.name, null) : state, key);
 }
 
 function place(name, word) {

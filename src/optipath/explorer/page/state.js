@@ -30,6 +30,27 @@ export function withEntry(state, part, name, entry) {
   return { ...state, [part]: entries };
 }
 
+/** The light at which materials are looked up, where a path has no wavelength of its own. */
+export const WAVELENGTH = {
+  name: "wavelength",
+  help: "wavelength in vacuum, at which the materials are looked up",
+  unit: "nm",
+  units: ["nm", "um", "mm", "m", "angstrom"],
+  slider: [380, 780, 1],
+  default: "",
+  words: [],
+  materials: false,
+  bound: false,
+  array: false,
+};
+
+/** Whether materials are given by name to a path without a wavelength. */
+export function asksWavelength(state, about) {
+  const given = about.parameters.filter((each) => each.materials && each.name in state.values);
+  const named = given.some((each) => !/^[\s(]*[-+]?\.?\d/.test(state.values[each.name]));
+  return named && !about.parameters.some((each) => each.name === WAVELENGTH.name);
+}
+
 /** @param {State} state @returns {string} the part of an address behind its "#" */
 export function toHash(state) {
   const words = new URLSearchParams({ preset: state.preset });
