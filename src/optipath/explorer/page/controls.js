@@ -2,15 +2,13 @@
 
 import { by, element, option, say } from "./dom.js";
 import { ParameterRow } from "./parameter.js";
-import { WAVELENGTH, asksWavelength } from "./state.js";
+import { takesPart } from "./state.js";
 
 export class Controls {
   /** @param {HTMLElement} root @param {object} about of the preset @param {object} actions */
   constructor(root, about, actions) {
     this.about = about;
-    const own = about.parameters.some((each) => each.name === WAVELENGTH.name);
-    const shown = own ? about.parameters : [...about.parameters, WAVELENGTH];
-    this.rows = new Map(shown.map((each) => [each.name, new ParameterRow(each, actions)]));
+    this.rows = new Map(about.parameters.map((each) => [each.name, new ParameterRow(each, actions)]));
     this.places = new Map(about.choices.map((each) => [each.name, placeOf(each, actions)]));
     root.replaceChildren(
       element("h2", {}, "Parameters"),
@@ -32,27 +30,21 @@ export class Controls {
   choose(state) {
     for (const [name, { select, preset }] of this.places) select.value = state.places[name] ?? preset;
     by("case").value = state.case ?? "";
-    const lit = asksWavelength(state, this.about) || this.about.parameters.some((each) => each.name === WAVELENGTH.name);
-    this.rows.get(WAVELENGTH.name).root.hidden = !lit && !(WAVELENGTH.name in state.values);
+    for (const row of this.rows.values()) row.root.hidden = !takesPart(row.about, state, this.about);
     for (const [name, text] of Object.entries(state.values)) this.rows.get(name)?.keep(text);
   }
 
   /** Put sentences at their fields; returns those that belong to none. */
   complain(faults) {
-    const of = (name) => faults.filter((each) => fieldOf(each) === name).map((each) => each.sentence);
+    const of = (name) => faults.filter((each) => each.field === name).map((each) => each.sentence);
     for (const [name, row] of this.rows) row.complain(of(name).join(" "));
     for (const [name, { fault, select }] of this.places) {
       const sentence = of(name).join(" ");
       say(fault, sentence);
       select.setAttribute("aria-invalid", String(sentence !== ""));
     }
-    return faults.filter((each) => !this.rows.has(fieldOf(each)) && !this.places.has(fieldOf(each)));
+    return faults.filter((each) => !this.rows.has(each.field) && !this.places.has(each.field));
   }
-}
-
-/** Materials that lack a wavelength are a fault of the field of the wavelength. */
-function fieldOf({ field, sentence }) {
-  return field ?? (sentence.includes("parameter 'wavelength' has no value") ? WAVELENGTH.name : null);
 }
 
 function placeOf(choice, actions) {
