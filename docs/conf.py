@@ -1,9 +1,11 @@
-"""The site of documentation: pip install ".[docs]" && sphinx-build -W --keep-going -b html docs site."""
+"""The site of documentation; README.md has the command that builds it."""
 
 import os
 import sys
 from importlib.metadata import version as installed_version
 from pathlib import Path
+
+from optipath import Element
 
 DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "_ext"))
@@ -36,6 +38,7 @@ default_role = "py:obj"
 
 autosummary_generate = True
 autosummary_imported_members = True
+autosummary_context = {"of_every_element": ", ".join(dir(Element))}
 autodoc_typehints = "none"
 autodoc_member_order = "groupwise"
 autodoc_default_options = {"members": True}
@@ -58,6 +61,9 @@ sphinx_gallery_conf = {
     "image_scrapers": ("shown_figure.scraper",),
     "reset_modules": (),
     "capture_repr": (),
+    "subsection_order": [
+        f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")
+    ],
     "within_subsection_order": "ExampleTitleSortKey",
     "remove_config_comments": True,
     "abort_on_example_error": True,
