@@ -1,6 +1,7 @@
 """The site of documentation; README.md has the command that builds it."""
 
 import os
+import shutil
 import sys
 from importlib.metadata import version as installed_version
 from pathlib import Path
@@ -11,6 +12,13 @@ DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "_ext"))
 # Examples compile code, which is kept beside the site and not in the user's folder.
 os.environ.setdefault("OPTIPATH_CACHE", str(DOCS / "gallery-pages" / "cache"))
+
+# What an earlier build has made of a name or an example that is gone would be a page without a place.
+shutil.rmtree(DOCS / "api" / "generated", ignore_errors=True)
+for page in DOCS.glob("gallery-pages/**/plot_*.rst"):
+    script = DOCS / "gallery" / page.relative_to(DOCS / "gallery-pages").with_suffix(".py")
+    if not script.exists():
+        page.unlink()
 
 project = "optipath"
 author = "the authors of optipath"
