@@ -13,7 +13,7 @@ sys.path.insert(0, str(DOCS / "_ext"))
 # Examples compile code, which is kept beside the site and not in the user's folder.
 os.environ.setdefault("OPTIPATH_CACHE", str(DOCS / "gallery-pages" / "cache"))
 
-# What an earlier build has made of a name or an example that is gone would be a page without a place.
+# A name or an example that is gone would leave the page that an earlier build made of it.
 shutil.rmtree(DOCS / "api" / "generated", ignore_errors=True)
 for page in DOCS.glob("gallery-pages/**/plot_*.rst"):
     script = DOCS / "gallery" / page.relative_to(DOCS / "gallery-pages").with_suffix(".py")
