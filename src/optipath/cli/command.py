@@ -38,6 +38,7 @@ _COMMANDS = (
     "chart",
     "explain",
     "materials",
+    "plot",
     "polarization",
     "presets",
     "run",
