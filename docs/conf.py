@@ -1,0 +1,69 @@
+"""The site of documentation: pip install ".[docs]" && sphinx-build -W --keep-going -b html docs site."""
+
+import os
+import sys
+from importlib.metadata import version as installed_version
+from pathlib import Path
+
+DOCS = Path(__file__).parent
+sys.path.insert(0, str(DOCS / "_ext"))
+# Examples compile code, which is kept beside the site and not in the user's folder.
+os.environ.setdefault("OPTIPATH_CACHE", str(DOCS / "gallery-pages" / "cache"))
+
+project = "optipath"
+author = "the authors of optipath"
+project_copyright = author
+version = release = installed_version("optipath")
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+    "sphinx.ext.napoleon",
+    "myst_parser",
+    "sphinx_gallery.gen_gallery",
+    "mathml",
+    "plain_types",
+]
+exclude_patterns = ["_*", "api/generated/README*", "gallery", "**/cache"]
+templates_path = ["_templates"]
+language = "en_GB"
+
+nitpicky = True
+# The words of numpydoc for types ("array_like", "shape (..., 4)") and other libraries' names are
+# no targets here; a role that names optipath is.
+nitpick_ignore_regex = [("py:.*", r"(?!optipath\b).*")]
+default_role = "py:obj"
+
+autosummary_generate = True
+autosummary_imported_members = True
+autodoc_typehints = "none"
+autodoc_member_order = "groupwise"
+autodoc_default_options = {"members": True}
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_use_rtype = False
+
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 4
+
+html_theme = "furo"
+html_title = f"optipath {version}"
+html_math_renderer = "mathml"
+html_show_sphinx = False
+html_copy_source = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "gallery-pages",
+    "image_scrapers": ("shown_figure.scraper",),
+    "reset_modules": (),
+    "capture_repr": (),
+    "within_subsection_order": "ExampleTitleSortKey",
+    "remove_config_comments": True,
+    "abort_on_example_error": True,
+    "show_signature": False,
+    "write_computation_times": False,
+    "min_reported_time": 10,
+    "doc_module": ("optipath",),
+    "backreferences_dir": "gallery-pages/backreferences",
+}
