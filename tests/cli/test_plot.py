@@ -8,7 +8,6 @@ import warnings
 
 import pytest
 from click.testing import CliRunner
-from pictures import faults_of, texts_of
 
 import optipath as op
 from optipath.cli import main
@@ -16,6 +15,7 @@ from optipath.cli.chosen import Chosen
 from optipath.cli.command import cli
 from optipath.cli.plot_kinds import KINDS, drawn
 from optipath.cli.plot_request import request_of
+from pictures import faults_of, texts_of
 
 pytest.importorskip("matplotlib")
 
@@ -47,7 +47,7 @@ def open_parameter(path):
     return next(iter(path.compose().inputs.open))
 
 
-def pictures_of(preset, case):
+def pictures_of(preset):
     """Each kind with what it needs."""
     x = open_parameter(op.load_preset(preset))
     yield from ((kind, {}) for kind in KINDS if KINDS[kind].least_axes == 0)
@@ -60,7 +60,7 @@ EVERY += [(preset, case) for preset, _ in EVERY for case in op.load_preset(prese
 
 @pytest.mark.parametrize(("preset", "case"), EVERY)
 def test_every_picture_of_a_preset_is_whole_and_readable(preset, case):
-    for kind, given in pictures_of(preset, case):
+    for kind, given in pictures_of(preset):
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             try:
@@ -105,7 +105,7 @@ def test_the_title_says_preset_case_and_what_was_changed():
 
 def test_a_long_title_goes_on_in_the_next_line():
     path = op.load_preset("npgr026")
-    many = {name: 0.5 for name in ("delta", "rho", "phi", "n1", "k1", "n2", "k2")}
+    many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)
     figure = picture("npgr026", "stokes", "8", **many)
     assert "\n" in figure.get_suptitle()
     assert faults_of(figure) == []
@@ -187,6 +187,7 @@ def test_all_that_is_wrong_is_told_at_once(capsys):
 
 
 def test_without_the_extra_it_says_which(monkeypatch, capsys):
+    monkeypatch.delattr("optipath.plots.save", raising=False)
     monkeypatch.setattr("optipath.plots.find_spec", lambda _: None)
     assert main(["plot", "npgr026", "--kind", "ellipse", "--out", "a.png"]) == 2
     assert "pip install 'optipath[plot]'" in capsys.readouterr().err

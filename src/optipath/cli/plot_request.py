@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from optipath.cli.given_axes import refuse_arrays
-from optipath.cli.given_light import WAVELENGTH, materials_among
 from optipath.errors import ParameterError, listed, unknown
 from optipath.paths.presets.loader import preset_of_case
 from optipath.values.displayed import displayed
+from optipath.values.named_materials import WAVELENGTH, materials_among
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
