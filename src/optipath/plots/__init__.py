@@ -13,14 +13,24 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.states.ellipse_picture import ellipse
+    from optipath.plots.states.mueller_picture import mueller
+    from optipath.plots.states.sphere_picture import poincare
+    from optipath.plots.states.sphere_trail import poincare_path
+    from optipath.plots.states.stokes_bars import stokes
 
 __all__ = [
     "beside_facets",
     "differences",
+    "ellipse",
     "hemisphere",
     "in_plane",
+    "mueller",
     "mueller_hemisphere",
+    "poincare",
+    "poincare_path",
     "save",
+    "stokes",
 ]
 
 _HOMES = {
@@ -30,6 +40,11 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
+    "states.ellipse_picture": ["ellipse"],
+    "states.mueller_picture": ["mueller"],
+    "states.sphere_picture": ["poincare"],
+    "states.sphere_trail": ["poincare_path"],
+    "states.stokes_bars": ["stokes"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
