@@ -74,10 +74,11 @@ def _ellipse(asked: PlotRequest) -> Any:
 
 def _poincare(asked: PlotRequest) -> Any:
     from optipath.plots import poincare, poincare_path  # noqa: PLC0415 - an extra
-    from optipath.plots.curves.light_at_detector import axis_of, varied  # noqa: PLC0415 - ditto
 
     if not asked.axes:
         return poincare_path(asked.path)
+    from optipath.plots.curves.light_at_detector import axis_of, varied  # noqa: PLC0415 - ditto
+
     ((name, values),) = asked.axes.items()
     (parameter,) = varied(asked.path, [name], {})
     along, given = axis_of(asked.path, parameter, values, _TRAIL)
