@@ -138,7 +138,7 @@ def _energy(asked: PlotRequest) -> Any:
     return energy(asked.path)
 
 
-_TRAIL = 181
+_TRAIL = 721
 """How many points a trail has over the usual range of a parameter."""
 
 KINDS = {
