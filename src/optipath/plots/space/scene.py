@@ -1,0 +1,225 @@
+"""A path laid out in space: what stands where, which way light goes, and what angles there are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.light.light import Light
+
+    Vector = npt.NDArray[np.float64]
+
+
+class SceneNode(NamedTuple):
+    """An element where it stands.
+
+    Attributes
+    ----------
+    name, kind : str
+        Those of the node and of its element.
+    at : ndarray of shape (3,)
+        The place.
+    normal, across : ndarray of shape (3,), or None
+        The normal of its surface on the side that light comes from, and x of the surface.
+    role : str
+        ``"source"``, ``"detector"``, ``"dump"``, ``"surface"``, ``"plate"``, ``"mirror"`` or
+        ``"other"``.
+    axis : ndarray of shape (3,), or None
+        The axis of a plate that has one and is there.
+    """
+
+    name: str
+    kind: str
+    at: Vector
+    normal: Vector | None
+    across: Vector | None
+    role: str
+    axis: Vector | None = None
+
+
+class SceneRay(NamedTuple):
+    """The light of a link, or what leaves the path.
+
+    Attributes
+    ----------
+    name, start, end : str
+        As `LightOnLink` has them.
+    tail, head : ndarray of shape (3,)
+        Where it begins and where it ends.
+    axes : ndarray of shape (3, 3)
+        x, y and z of the frame of the light, a row each; z is the way that light goes.
+    ellipse : ndarray of shape (points, 3), or None
+        Offsets from the middle of the ray; None where nothing is polarised.
+    light : Light
+        In this frame.
+    leaves, tap : bool
+        Whether it leaves the path, and whether it is only read.
+    """
+
+    name: str
+    start: str
+    end: str
+    tail: Vector
+    head: Vector
+    axes: Vector
+    ellipse: Vector | None
+    light: Light
+    leaves: bool
+    tap: bool
+
+
+class ScenePlane(NamedTuple):
+    """A plane of incidence, as a rectangle.
+
+    Attributes
+    ----------
+    node : str
+        The surface.
+    corners : ndarray of shape (4, 3)
+        In turn.
+    """
+
+    node: str
+    corners: Vector
+
+
+class SceneFrame(NamedTuple):
+    """The frame of a port.
+
+    Attributes
+    ----------
+    port : str
+        As ``"node.port"``.
+    at : ndarray of shape (3,)
+        Where it is drawn: beside the node, on the ray.
+    axes : ndarray of shape (3, 3)
+        x, y and z, a row each.
+    """
+
+    port: str
+    at: Vector
+    axes: Vector
+
+
+class SceneAngle(NamedTuple):
+    """An angle that has a name.
+
+    Attributes
+    ----------
+    name, text : str
+        The name, and the name with the value.
+    arc : ndarray of shape (points, 3)
+        From one side to the other; of no points where the element is left out.
+    at : ndarray of shape (3,)
+        Where the text belongs.
+    centre : ndarray of shape (3,)
+        What the arc is about.
+    about : str
+        ``"incidence"``, ``"azimuth"`` or ``"axis"``.
+    """
+
+    name: str
+    text: str
+    arc: Vector
+    at: Vector
+    centre: Vector
+    about: str
+
+
+class Scene(NamedTuple):
+    """A path laid out in space.
+
+    Attributes
+    ----------
+    notes : tuple of str
+        What the drawing chose by itself.
+    schematic : bool
+        Whether a direction was chosen that no value tells.
+    unit : float
+        How long a link is, about.
+    nodes : tuple of SceneNode
+    rays : tuple of SceneRay
+        In the order of travel.
+    planes : tuple of ScenePlane
+    frames : tuple of SceneFrame
+    angles : tuple of SceneAngle
+    """
+
+    notes: tuple[str, ...]
+    schematic: bool
+    unit: float
+    nodes: tuple[SceneNode, ...]
+    rays: tuple[SceneRay, ...]
+    planes: tuple[ScenePlane, ...]
+    frames: tuple[SceneFrame, ...]
+    angles: tuple[SceneAngle, ...]
+
+    @property
+    def bounds(self) -> Vector:
+        """The least and the largest coordinates of nodes and rays, shape (2, 3)."""
+        ends = [point for ray in self.rays for point in (ray.tail, ray.head)]
+        points = np.array([*(node.at for node in self.nodes), *ends])
+        return np.array([points.min(axis=0), points.max(axis=0)])
+
+    def as_json(self) -> dict[str, Any]:
+        """Return lists and dictionaries of plain numbers, for `json.dumps`; no NaN among them.
+
+        Examples
+        --------
+        >>> import json
+        >>> import optipath as op
+        >>> from optipath.plots.space.scene_of import scene_of
+        >>> told = scene_of(op.load_preset("malus")).as_json()
+        >>> told["nodes"][0]["name"], json.loads(json.dumps(told)) == told
+        ('lamp', True)
+        """
+        return {
+            "notes": [*self.notes],
+            "schematic": self.schematic,
+            "nodes": [_plain(node, "axis") for node in self.nodes],
+            "rays": [_ray(ray) for ray in self.rays],
+            "planes": [_plain(plane) for plane in self.planes],
+            "frames": [
+                {"port": each.port, "at": _list(each.at), **_axes(each.axes)}
+                for each in self.frames
+            ],
+            "angles": [_plain(angle, "centre", "about") for angle in self.angles],
+            "bounds": _list(self.bounds),
+        }
+
+
+def _ray(ray: SceneRay) -> dict[str, Any]:
+    return {
+        "name": ray.name,
+        "start": ray.start,
+        "end": ray.end,
+        "from": _list(ray.tail),
+        "to": _list(ray.head),
+        "frame": _axes(ray.axes),
+        "ellipse": None if ray.ellipse is None else _list(ray.ellipse),
+        "intensity": _number(ray.light.intensity),
+        "dop": _number(ray.light.dop),
+        "leaves": ray.leaves,
+    }
+
+
+def _plain(told: Any, *kept: str) -> dict[str, Any]:
+    """Return what is told but for what is kept."""
+    pairs = [(name, value) for name, value in told._asdict().items() if name not in kept]
+    return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in pairs}
+
+
+def _axes(axes: Vector) -> dict[str, Any]:
+    return dict(zip("xyz", _list(axes), strict=True))
+
+
+def _list(numbers: Vector) -> Any:
+    return (np.asarray(numbers, float) + 0.0).tolist()
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if np.isfinite(value) else None

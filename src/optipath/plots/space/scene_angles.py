@@ -1,0 +1,141 @@
+"""The angles of a path that have names, as arcs in space."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.composer.placement import azimuth_of
+from optipath.elements.boundary_frames import BoundaryElement
+from optipath.elements.chain_vertex import ChainVertex
+from optipath.elements.vertices.by_angles import VerticesByAngles
+from optipath.plots.space.fixed_places import incidence_at
+from optipath.plots.space.posture import angles_at
+from optipath.plots.space.scene import SceneAngle
+from optipath.plots.space.told_values import ToldAngle, number, told_angle
+from optipath.values.parameters import Parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    import numpy.typing as npt
+
+    from optipath.composer.wiring import Link
+    from optipath.plots.space.placing import Placing
+    from optipath.plots.space.told_values import ToldPath
+
+    Array = npt.NDArray[np.float64]
+
+_AT_SURFACE, _ABOUT_RAY, _ON_PLATE = 0.32, 0.3, 0.3
+"""How large arcs are, of the length of a link."""
+
+_OF_AXES = "angle", "dichroic_angle"
+"""The fields of elements that say how an axis stands to x, or by how much light is turned."""
+
+
+def scene_angles(told: ToldPath, placing: Placing) -> tuple[SceneAngle, ...]:
+    """Return the angles of a path that have names, node by node as light travels.
+
+    Parameters
+    ----------
+    told : ToldPath
+        The path.
+    placing : Placing
+        Where it is drawn.
+
+    Returns
+    -------
+    tuple of SceneAngle
+    """
+    found: list[SceneAngle] = []
+    names = dict.fromkeys(name for name, _ in told.order)
+    for name in names:
+        for link in placing.links:
+            if link[1] == name:
+                found += _azimuths(placing, link)
+        element = placing.wiring.elements[name]
+        if isinstance(element, BoundaryElement | ChainVertex):
+            found += _incidences(placing, name, element)
+        elif placing.postures[name].role == "plate":
+            found += _axes(placing, name, element)
+    return tuple(found)
+
+
+def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
+    """Yield the angle between the light that arrives and the normal, or that is given behind."""
+    posture, at = placing.postures[name], placing.at[name]
+    normal: Any = posture.normal
+    front, told = incidence_at(element, posture), ToldAngle("", 0.0)
+    if not isinstance(element, ChainVertex):
+        told = told_angle(element.incidence)
+        value = number(element.incidence)
+        _, behind = angles_at(element)
+        if abs(value - front) > 1e-9 and abs(value - behind) < 1e-9 and told.name:
+            out = posture.axes["transmitted"][:, 2]
+            yield _arc(told, at, -normal, out, behind, _AT_SURFACE * placing.unit)
+        if abs(value - front) > 1e-9:
+            told = ToldAngle("", 0.0)
+    elif isinstance(element.vertices, VerticesByAngles):
+        chain = element.vertices
+        order = chain.incidences[::-1] if chain.backwards else chain.incidences
+        told = told_angle(order[int(element.place) - 1])
+    if not told.name:
+        told = ToldAngle("incidence", front)
+    arriving = -posture.axes["in"][:, 2]
+    yield _arc(told, at, normal, arriving, front, _AT_SURFACE * placing.unit)
+
+
+def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
+    """Yield the turn of the frame that light enters in against that in which it left."""
+    wiring, value = placing.wiring, azimuth_of(placing.wiring, link)
+    if link[0] in wiring.self_placed and link[1] in wiring.self_placed:
+        element: Any = wiring.elements[link[1]]
+        chain = element.vertices
+        if not isinstance(chain, VerticesByAngles):
+            return
+        turns = chain.turns[::-1] if chain.backwards else chain.turns
+        value = turns[int(element.place) - 2]
+    if not isinstance(value, Parameter):
+        return
+    told, drawn = told_angle(value, signed=False), placing.links[link]
+    is_surface = placing.postures[link[1]].role == "surface"
+    first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
+    centre = drawn.tail + 0.72 * (drawn.head - drawn.tail)
+    size = _ABOUT_RAY * placing.unit
+    yield _turn(told, centre, (first, second), number(value), size, "azimuth")
+
+
+def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
+    """Yield the angles of the axes of a plate against x of its frame."""
+    x, y, _ = placing.postures[name].axes["in"].T
+    size = _ON_PLATE * placing.unit
+    for field in _OF_AXES:
+        value = getattr(element, field, None)
+        if isinstance(value, Parameter):
+            told = told_angle(value)
+            angle = number(value) if told.there else 0.0
+            found = _turn(told, placing.at[name], (x, y), angle, size, "axis")
+            yield found if told.there else found._replace(arc=found.arc[:0])
+            size *= 1.25
+
+
+def _arc(
+    told: ToldAngle, at: Array, first: Array, second: Array, angle: float, size: float
+) -> SceneAngle:
+    """Return the arc from one direction to another, which are an angle apart."""
+    across = second - (second @ first) * first
+    length = np.linalg.norm(across)
+    towards = across / length if length > 1e-12 else np.zeros(3)
+    return _turn(told, at, (first, towards), angle, size, "incidence")
+
+
+def _turn(
+    told: ToldAngle, at: Array, sides: tuple[Array, Array], angle: float, size: float, about: str
+) -> SceneAngle:
+    """Return the arc of a turn from one direction towards another at a right angle to it."""
+    first, second = sides
+    steps = np.linspace(0.0, angle, 2 + int(abs(angle) / 0.08))[:, np.newaxis]
+    arc = at + size * (np.cos(steps) * first + np.sin(steps) * second)
+    middle = at + 1.3 * size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
+    return SceneAngle(told.name, told.text, arc, middle, at, about)
