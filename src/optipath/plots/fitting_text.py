@@ -10,9 +10,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.text import Text
 
-_SPARE = 1.08
-"""How far a text may reach beyond what it stands beside."""
-
 
 def fitting_text(text: Text, texts: Sequence[str], room: float) -> None:
     """Give a text the first of several wordings that is no longer than there is room.
@@ -43,6 +40,9 @@ def label_axes(ax: Axes, along: Sequence[str], up: Sequence[str]) -> None:
     along, up : sequence of str
         What x and y are, the longest first.
     """
-    box: Any = ax.get_window_extent()
-    fitting_text(ax.xaxis.label, along, _SPARE * box.width)
-    fitting_text(ax.yaxis.label, up, _SPARE * box.height)
+    ax.set(xlabel=along[-1], ylabel=up[-1])
+    figure: Any = ax.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    box = ax.get_window_extent()
+    fitting_text(ax.xaxis.label, along, box.width)
+    fitting_text(ax.yaxis.label, up, box.height)

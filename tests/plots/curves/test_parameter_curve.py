@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from pictures import faults_of, texts_of
 
 import optipath as op
 from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve
+from pictures import faults_of, texts_of
 
 WAVEPLATE = (
     op.Source(stokes=[1, 1, 0, 0]) >> op.Retarder(np.pi, op.Parameter("turn")) >> op.Detector()
@@ -73,7 +73,9 @@ def test_quantities_of_three_units_are_refused():
 def test_lines_differ_by_colour_and_by_dash():
     names = ("S0", "S1", "S2", "S3", "DoP", "DoLP", "ellipticity")
     ax = curve(op.load_preset("glass-slab"), "theta", names)
-    drawn = [line for side in ax.figure.axes for line in side.get_lines() if line.get_gid() in names]
+    drawn = [
+        line for side in ax.figure.axes for line in side.get_lines() if line.get_gid() in names
+    ]
     assert len({(line.get_color(), str(line._dash_pattern)) for line in drawn}) == 7
 
 

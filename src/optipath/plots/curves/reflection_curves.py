@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _SIZE = 6.4, 4.4
 _COUNT = 901
-_NAMES = "$R_s$", "$R_p$", "$R$ unpolarised", "DoLP reflected"
+_NAMES = "$R_s$", "$R_p$", "$R$ unpolarised", "DoLP"
 
 
 def reflection(
