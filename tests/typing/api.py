@@ -167,7 +167,7 @@ def of_light(light: op.Light) -> list[str]:
     drawn = op.plots.ellipse(light, beside, labels=["a", "b"])
     sphere = op.plots.poincare(light, by=[0.0, 1.0], label="delta (deg)")
     op.plots.poincare_path(path, sphere, theta="45 deg")
-    op.plots.mueller(op.Mueller(np.eye(4))).figure.savefig("a.png")
+    op.plots.save(op.plots.mueller(op.Mueller(np.eye(4))), "a.png")
     return [drawn.get_title(), light.plot("stokes", published=[1, 0, 0, 0]).get_title()]
 
 
