@@ -67,10 +67,10 @@ _HOMES = {
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
 
-def _check_matplotlib() -> None:
+def check_matplotlib() -> None:
     if find_spec("matplotlib") is None:
         raise MissingExtraError("pictures", "matplotlib", "plot")
 
 
 if not TYPE_CHECKING:  # Else any name would do for who checks types.
-    __getattr__, __dir__ = lazy_names(__name__, _HOMES, needs=_check_matplotlib)
+    __getattr__, __dir__ = lazy_names(__name__, _HOMES, needs=check_matplotlib)
