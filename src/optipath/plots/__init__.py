@@ -13,9 +13,11 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.space.bench import bench
     from optipath.plots.space.geometry import geometry
 
 __all__ = [
+    "bench",
     "beside_facets",
     "differences",
     "geometry",
@@ -32,6 +34,7 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
+    "space.bench": ["bench"],
     "space.geometry": ["geometry"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
