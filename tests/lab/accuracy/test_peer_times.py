@@ -97,7 +97,7 @@ def test_other_values_and_other_contenders_are_refused():
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"contests": 3}'])
 def test_what_is_no_race_is_refused(text):
-    with pytest.raises(op.OptipathError, match="race.py --json"):
+    with pytest.raises(op.OptipathError, match=r"race\.py --json"):
         peer_times(text, "race.json", CHART)
 
 
