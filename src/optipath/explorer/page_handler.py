@@ -25,8 +25,6 @@ from optipath.explorer.strict_json import read_json
 if TYPE_CHECKING:
     import socket
 
-    from optipath.explorer.page_server import PageServer
-
 _FIRST, _NEXT, _SENDING = 10.0, 60.0, 20.0
 """Seconds for a first request, for another of somebody who knows the token, and for an answer."""
 
@@ -71,7 +69,7 @@ class _PatientReader(RawIOBase):
 class PageHandler(BaseHTTPRequestHandler):
     """One connection; see `BaseHTTPRequestHandler`, which calls its methods."""
 
-    server: PageServer
+    server: Any  # A `PageServer`, which makes these.
     protocol_version = "HTTP/1.1"
     default_request_version = "HTTP/1.0"
 
