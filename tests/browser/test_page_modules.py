@@ -82,7 +82,7 @@ def test_steps_of_a_slider_have_no_dust(it):
 
 
 def test_small_differences_are_powers_of_ten(it):
-    assert it("units.js", "it.powered(-8.15e-6)") == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
+    assert it("units.js", "it.powered(-8.21e-6)") == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
     assert it("units.js", "it.powered(0.25)") == "0.25"
 
 
