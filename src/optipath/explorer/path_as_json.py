@@ -33,6 +33,7 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
     -------
     dict of str to Any
     """
+    explored.warm_up()
     path = explored.path
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]
     if explored.offers_wavelength:
@@ -107,6 +108,6 @@ def _case(explored: ExploredPath, name: str, case: Case) -> dict[str, Any]:
 def _links(explored: ExploredPath) -> list[str]:
     """Return the links in the order of travel; none where a value must be given first."""
     try:
-        return [each.name for each in lights_along(explored.path)]
+        return [each.name for each in lights_along(explored.path) if each.end]
     except OptipathError:
         return []
