@@ -8,10 +8,10 @@ const sum = (list) => list.reduce((total, each) => total + Math.max(0, each.powe
  * @param {object} energy an answer's
  * @returns {{nodes: Map<string, {layer: number, power: number}>, bands: object[], layers: string[][]}}
  *   `power`, by which a node is wide, is what goes in from above and back out there, or what goes
- *   out below and comes back in there; bands that lead back up are marked
+ *   out below and comes back in there; bands that lead back up are marked. A tap takes nothing.
  */
 export function flowOf(energy) {
-  const bands = energy.links.map((each) => ({ ...each, from: nodeOf(each.start), to: nodeOf(each.end) }));
+  const bands = energy.links.map((each) => ({ ...each, power: each.tap ? 0 : each.power, from: nodeOf(each.start), to: nodeOf(each.end) }));
   const names = [...new Set(bands.flatMap(({ from, to }) => [from, to]))];
   const closing = leadingBack(names, bands);
   for (const each of bands) each.back = closing.has(each);
@@ -76,7 +76,7 @@ function across(name, bands, energy) {
 /** What does not go on from an element: taken by it, or leaving without a link. */
 export function lossesOf(name, energy) {
   const leaves = energy.leaves.filter((each) => nodeOf(each.name) === name);
-  const taken = energy.taken.filter((each) => each.node === name);
+  const taken = energy.taken.filter((each) => each.node === name && each.power > 0);
   return [
     ...leaves.map((each) => ({ ...each, kind: "leaves" })),
     ...taken.map((each) => ({ ...each, kind: "taken", name: `taken by ${name}` })),
