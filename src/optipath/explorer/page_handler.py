@@ -74,6 +74,7 @@ class PageHandler(BaseHTTPRequestHandler):
     default_request_version = "HTTP/1.0"
 
     def setup(self) -> None:
+        """Begin a connection, of which nobody is known yet."""
         super().setup()
         self.rfile.close()
         self._patient = _PatientReader(self.connection)
@@ -81,18 +82,21 @@ class PageHandler(BaseHTTPRequestHandler):
         self._known = False
 
     def handle_one_request(self) -> None:
+        """Answer one request, which must be there whole before its time is up."""
         self._patient.until = time.monotonic() + (_NEXT if self._known else _FIRST)
         self.close_connection = True
         super().handle_one_request()
 
     def version_string(self) -> str:
+        """Return what the server calls itself, without the version of anything."""
         return "optipath"
 
     def log_message(self, *_: Any) -> None:
         """Write no log: an address in it would hold the token."""
 
     def handle_expect_100(self) -> bool:
-        return True  # Whether it is read is told by the answer.
+        """Promise nothing: whether what follows is read is told by the answer."""
+        return True
 
     def do_GET(self) -> None:
         """Answer with a file of the page, or with what there is."""
