@@ -75,21 +75,27 @@ function show(state, answer) {
   by("stale").hidden = !(stale && open.answer !== null);
   open.curve?.update(state);
   if (stale) {
-    open.controls?.choose(state);
+    if (isNow(state)) open.controls?.choose(state);
     return;
   }
   take(state, answer);
-  forced = false;
+  if (isNow(state)) forced = false;
   const found = open.about.cases.find((each) => each.name === state.case);
   say(by("note"), found?.note ? typeset(found.note) : "");
   say(by("told"), typeset((answer.notes ?? []).join(" ")));
   refreshTexts();
 }
 
+/** Whether nothing has been set since. */
+function isNow(state) {
+  return ["preset", "case", "places", "values"].every((part) => state[part] === open.history.now[part]);
+}
+
 /** Show what an answer without faults says. */
 function take(state, answer) {
   open.answer = answer;
-  open.controls.update(state, answer.values, forced);
+  // An answer that has been overtaken is drawn, but leaves the sliders where they are by now.
+  if (isNow(state)) open.controls.update(state, answer.values, forced);
   pictures.show(state, answer, open.about);
 }
 
