@@ -125,3 +125,15 @@ def test_names_of_files_are_plain(tmp_path):
     answers = PageAnswers(ExploredPresets(str(file)))
     found = answers.export({"preset": file.name, "form": "toml"})
     assert found["name"] == "my-path-.toml"
+
+
+def test_lines_of_python_open_the_file_as_the_command_did(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.toml").write_text(op.load_preset("malus").to_toml(), "utf-8")
+    answers = PageAnswers(ExploredPresets("./mine.toml"))
+    state = {"preset": "mine.toml", "values": {"angle": "20"}}
+    assert (
+        "op.load_preset('./mine.toml', angle='20 deg')"
+        in (answers.export({**state, "form": "python"})["text"])
+    )
+    assert python(answers, state, capsys) == printed(answers, state)

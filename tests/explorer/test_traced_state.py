@@ -252,3 +252,9 @@ def test_a_file_with_several_values_is_told_to_give_one(tmp_path):
     file.unlink()  # It has been read once, and is not read again.
     found = trace(answers, "mine.toml", values={"a": "30"})
     assert found["detectors"]["E"]["texts"][0] == "0.5"
+
+
+def test_sentences_command_no_terminal(answers):
+    for name in ("\u202e", "\x1b[31m", "a\nb", "\x00"):
+        (fault,) = trace(answers, values={name: "1"})["faults"]
+        assert fault["sentence"].isprintable()

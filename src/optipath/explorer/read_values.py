@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import OptipathError, unknown
+from optipath.errors import OptipathError, printable, unknown
 from optipath.paths.bound_materials import given_by_materials
 from optipath.paths.presets.loader import beside
 from optipath.values.materials import Material
@@ -55,7 +55,9 @@ class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call 
     """
 
     def __init__(self, faults: Iterable[FieldFault]) -> None:
-        self.faults = [*dict.fromkeys(faults)]
+        # One line each, whatever stands in the names that they quote.
+        told = [(field, printable(" ".join(text.split()))) for field, text in faults]
+        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(told)]
         super().__init__(*[fault.sentence for fault in self.faults])
 
 
