@@ -1,6 +1,7 @@
 """The page in a real browser, served by this process; skipped where there is no browser."""
 
 import shutil
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from threading import Thread
 
@@ -13,10 +14,10 @@ from optipath.explorer.page_server import PageServer
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
-@pytest.fixture(scope="session")
-def address():
-    """Where the page is served, until the tests end."""
-    with PageServer(PageAnswers(ExploredPresets("npgr026"))) as server:
+@contextmanager
+def serving(opened):
+    """Serve the page in a thread; its address."""
+    with PageServer(PageAnswers(ExploredPresets(opened))) as server:
         thread = Thread(target=server.serve_forever, kwargs={"poll_interval": 0.05})
         thread.start()
         yield server.address
@@ -35,6 +36,13 @@ def browser():
         browser = started.chromium.launch(executable_path=found, args=["--no-sandbox"])
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="session")
+def address():
+    """Where the page is served, until the tests end."""
+    with serving("npgr026") as found:
+        yield found
 
 
 class Visit:
@@ -102,17 +110,19 @@ def stayed(browser, address):
 
 @pytest.fixture
 def visited_with(browser, address):
-    """A maker of visits with options of the browser, such as ``viewport``."""
-    open_ones = []
+    """A maker of visits: to a file of one's own, or with options such as ``viewport``."""
+    open_ones, served = [], ExitStack()
 
-    def make(**options):
-        generator = visit(browser, address, **options)
+    def make(opened=None, **options):
+        place = address if opened is None else served.enter_context(serving(opened))
+        generator = visit(browser, place, **options)
         open_ones.append(generator)
         return next(generator)
 
     yield make
-    for generator in open_ones:
-        next(generator, None)
+    with served:
+        for generator in open_ones:
+            next(generator, None)
 
 
 @pytest.fixture

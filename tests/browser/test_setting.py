@@ -155,6 +155,21 @@ def test_wrong_ends_of_a_curve_are_told_beside_it(visited):
     expect(page.locator("#curve-fault")).to_contain_text("'a lot'")
 
 
+def test_a_file_with_two_detectors_lets_one_choose(visited_with, tmp_path):
+    glass = op.Interface(1.5, op.Parameter("theta", default="50 deg")).named("glass")
+    path = op.Source(1.0) >> glass >> op.Detector().named("above")
+    path["glass.transmitted"] >> op.Detector().named("below")
+    file = tmp_path / "pane.toml"
+    file.write_text(path.to_toml())
+    visited = visited_with(opened=file)
+    page = visited.open()
+    lights = path.trace_all()
+    visited.shows(printed(lights["above"]))
+    page.locator("#detector").select_option("below")
+    visited.shows(printed(lights["below"]))
+    assert "below" in page.locator("[data-picture=ellipse] svg").get_attribute("aria-label")
+
+
 def curve(page):
     return page.locator("#curve-canvas svg").get_attribute("aria-label")
 

@@ -7,6 +7,7 @@ import { by, debounced, option, say } from "./dom.js";
 import { Texts, addSaving, copy } from "./export.js";
 import { Pictures } from "./pictures.js";
 import { History, fromHash, newState, toHash, withEntry, withoutIdle } from "./state.js";
+import { onStepKeys } from "./step_keys.js";
 import { chooseTheme } from "./theme.js";
 import { typeset } from "./units.js";
 
@@ -61,6 +62,7 @@ function adopt(about, key) {
   say(by("description"), about.description);
 }
 
+/** Whether the next answer is written into a field that has the focus, too. */
 let forced = false;
 
 function show(state, answer) {
@@ -131,22 +133,15 @@ function turned(name, view) {
   writeAddress();
 }
 
-/** Show the state that undo or redo has come to. */
-function step() {
+/** @param {"undo"|"redo"} way */
+function step(way) {
   forced = true;
-  pictures.view(open.history.now);
+  pictures.view(open.history[way]());
   shown();
 }
 
-function undo() {
-  open.history.undo();
-  step();
-}
-
-function redo() {
-  open.history.redo();
-  step();
-}
+const undo = () => open.history.canUndo && step("undo");
+const redo = () => open.history.canRedo && step("redo");
 
 function listen() {
   by("preset").addEventListener("change", () => go(newState(by("preset").value), null));
@@ -165,14 +160,7 @@ function listen() {
     history.replaceState(null, "", `#${toHash(open.history.now)}`);
     copy(location.href, by("share-said"));
   });
-  document.addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-    const key = event.key.toLowerCase();
-    if (key === "z" && !event.shiftKey && open.history.canUndo) undo();
-    else if ((key === "y" || (key === "z" && event.shiftKey)) && open.history.canRedo) redo();
-    else return;
-    event.preventDefault();
-  });
+  onStepKeys(undo, redo);
   window.addEventListener("hashchange", () => {
     const state = fromHash(location.hash);
     if (state === null) return;
