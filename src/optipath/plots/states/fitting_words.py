@@ -21,10 +21,16 @@ _LEAST = 10
 _NARROW = 3.0
 """In inches."""
 
+_WHOLE: dict[str, Any] = {"break_long_words": False, "break_on_hyphens": False}
+
 _EQUAL = "\u00a0=\u00a0"
 
 _TICKS, _LINE = 20.0, 14.0
 """How much room ticks with their numbers and a line of a label need, in points."""
+
+
+_SPHERE_LEAVES = 0.08
+"""Which share of the height of its axes a sphere leaves free below it."""
 
 
 def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
@@ -57,7 +63,7 @@ def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
     kept = max(_LEAST, int(letters))
     # What is equal stays on one line.
     lines = text.replace(" = ", _EQUAL).split("\n")
-    broken = "\n".join(fill(line, kept, break_long_words=False) for line in lines)
+    broken = "\n".join(fill(line, kept, **_WHOLE) for line in lines)
     return broken.replace(_EQUAL, " = ")
 
 
@@ -84,7 +90,7 @@ def inches_wide(ax: Axes) -> float:
     >>> round(inches_wide(Figure(figsize=(4.0, 3.0)).add_subplot()), 3)
     3.1
     """
-    return float(ax.get_position().width * ax.figure.figure.get_figwidth())  # type: ignore[union-attr]
+    return float(ax.get_position().width * ax.figure.figure.get_figwidth())
 
 
 def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
@@ -102,9 +108,11 @@ def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
     if not handles:
         return
     down = _TICKS + _LINE * (1 + ax.get_xlabel().count("\n")) if ax.axison else 0.0
-    scale = ax.figure.figure.dpi_scale_trans  # type: ignore[union-attr]
+    bottom = 0.0 if ax.axison else _SPHERE_LEAVES
+    scale = ax.figure.figure.dpi_scale_trans
     place = ax.transAxes + ScaledTranslation(0.0, -down / 72.0, scale)
-    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": place}
+    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, bottom)}
+    at["bbox_transform"] = place
     legend = ax.legend(handles=handles, fontsize=size, frameon=False, borderaxespad=0.0, **at)
     legend.set_zorder(10)
 
