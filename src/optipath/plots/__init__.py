@@ -7,6 +7,10 @@ from optipath.errors import MissingExtraError
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from optipath.plots.curves.parameter_curve import curve
+    from optipath.plots.curves.quantity_map import quantity_map
+    from optipath.plots.curves.reflection_curves import reflection
+    from optipath.plots.flow.energy_picture import energy
     from optipath.plots.hemispheres.difference_discs import differences
     from optipath.plots.hemispheres.facet_panel import beside_facets
     from optipath.plots.hemispheres.hemisphere_map import hemisphere
@@ -21,19 +25,27 @@ if TYPE_CHECKING:
 
 __all__ = [
     "beside_facets",
+    "curve",
     "differences",
     "ellipse",
+    "energy",
     "hemisphere",
     "in_plane",
     "mueller",
     "mueller_hemisphere",
     "poincare",
     "poincare_path",
+    "quantity_map",
+    "reflection",
     "save",
     "stokes",
 ]
 
 _HOMES = {
+    "curves.parameter_curve": ["curve"],
+    "curves.quantity_map": ["quantity_map"],
+    "curves.reflection_curves": ["reflection"],
+    "flow.energy_picture": ["energy"],
     "hemispheres.difference_discs": ["differences"],
     "hemispheres.facet_panel": ["beside_facets"],
     "hemispheres.hemisphere_map": ["hemisphere"],
