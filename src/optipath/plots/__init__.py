@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from optipath.plots.states.sphere_picture import poincare
     from optipath.plots.states.sphere_trail import poincare_path
     from optipath.plots.states.stokes_bars import stokes
+    from optipath.plots.space.geometry import geometry
 
 __all__ = [
     "beside_facets",
@@ -29,6 +30,7 @@ __all__ = [
     "differences",
     "ellipse",
     "energy",
+    "geometry",
     "hemisphere",
     "in_plane",
     "mueller",
@@ -57,6 +59,7 @@ _HOMES = {
     "states.sphere_picture": ["poincare"],
     "states.sphere_trail": ["poincare_path"],
     "states.stokes_bars": ["stokes"],
+    "space.geometry": ["geometry"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
