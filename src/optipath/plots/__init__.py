@@ -17,12 +17,12 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.space.geometry import geometry
     from optipath.plots.states.ellipse_picture import ellipse
     from optipath.plots.states.mueller_picture import mueller
     from optipath.plots.states.sphere_picture import poincare
     from optipath.plots.states.sphere_trail import poincare_path
     from optipath.plots.states.stokes_bars import stokes
-    from optipath.plots.space.geometry import geometry
 
 __all__ = [
     "beside_facets",
