@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from optipath.cli.plot_request import PlotRequest
     from optipath.values.axis_texts import AxisValues
 
-_LETTERS = 11.0
-"""How many letters of a title stand on an inch."""
+_LETTERS, _LINE = 11.0, 0.26
+"""How many letters of a title stand on an inch, and how many inches a line of it takes."""
 
 
 class PlotKind(NamedTuple):
@@ -56,6 +56,8 @@ def drawn(asked: PlotRequest) -> Any:
     first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
     figure = first.figure
     lines = wrap(asked.title, int(figure.get_figwidth() * _LETTERS))
+    # What is drawn keeps the room that it was given.
+    figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
     figure.suptitle("\n".join(lines), fontsize="large", parse_math=False)
     return figure
 
