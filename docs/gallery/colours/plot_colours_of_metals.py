@@ -8,6 +8,7 @@ colour. Towards grazing incidence all metals become white.
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.patheffects import Normal, Stroke
 
 import optipath as op
 
@@ -29,9 +30,9 @@ ax = figure.subplots()
 for name, metal in metals.items():
     light = reflected(metal, 0.0)
     colour = light.to_srgb(white=white, out_of_gamut="clip").hex
-    share = light.intensity / white.intensity
-    ax.plot(1e9 * wavelength, share, color="#222222", linewidth=6)
-    ax.plot(1e9 * wavelength, share, color=colour, linewidth=4.5, label=name)
+    (line,) = ax.plot(1e9 * wavelength, light.intensity / white.intensity, label=name)
+    line.set(color=colour, linewidth=4.5)
+    line.set_path_effects([Stroke(linewidth=6, foreground="#222222"), Normal()])
 ax.set(xlabel="wavelength (nm)", ylabel="reflected at normal incidence", ylim=(0, 1.03))
 ax.legend(loc="lower right", ncols=2)
 figure

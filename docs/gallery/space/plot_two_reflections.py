@@ -13,6 +13,8 @@ from matplotlib.figure import Figure
 import optipath as op
 
 path = op.load_preset("npgr026", case="8")
+ax = op.plots.geometry(path)
+ax.figure
 
 # %%
 # A published case, a filter and two metals: what was computed, beside what was published.

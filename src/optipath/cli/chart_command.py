@@ -59,9 +59,12 @@ def _chart(
         from optipath.lab.accuracy.chart_effort import FULL, expected  # noqa: PLC0415
         from optipath.lab.accuracy.chart_effort import QUICK as LITTLE  # noqa: PLC0415
         from optipath.lab.accuracy.critical_chart import critical_chart  # noqa: PLC0415
+        from optipath.lab.accuracy.peer_times import check_race  # noqa: PLC0415
 
         if near:
             return critical_chart(path, chosen.title, places_near(near), progress=tell, keep=keep)
+        if peers is not None:
+            check_race(read_text(peers), str(peers))
         effort = LITTLE if quick else FULL
         effort = effort._replace(engines=engines) if engines else effort
         click.echo(expected(effort), err=True)

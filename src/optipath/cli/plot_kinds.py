@@ -9,9 +9,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.cli.plot_request import PlotRequest
+    from optipath.values.axis_texts import AxisValues
 
-_LETTERS = 11.0
-"""How many letters of a title stand on an inch."""
+_LETTERS, _LINE = 11.0, 0.26
+"""How many letters of a title stand on an inch, and how many inches a line of it takes."""
 
 
 class PlotKind(NamedTuple):
@@ -55,6 +56,8 @@ def drawn(asked: PlotRequest) -> Any:
     first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
     figure = first.figure
     lines = wrap(asked.title, int(figure.get_figwidth() * _LETTERS))
+    # What is drawn keeps the room that it was given.
+    figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
     figure.suptitle("\n".join(lines), fontsize="large", parse_math=False)
     return figure
 
@@ -81,7 +84,7 @@ def _poincare(asked: PlotRequest) -> Any:
 
     ((name, values),) = asked.axes.items()
     (parameter,) = varied(asked.path, [name], {})
-    along, given = axis_of(asked.path, parameter, values, _TRAIL)
+    along, given = axis_of(asked.path, parameter, _texts(values), _TRAIL)
     light = asked.path.trace_all(**{name: given})[asked.end]
     return poincare(light, by=along.numbers, label=along.labels[-1])
 
@@ -114,10 +117,18 @@ def _curve(asked: PlotRequest) -> Any:
 
     (x, values), *other = asked.axes.items()
     if not other:
-        return curve(asked.path, x, asked.quantities, values=values, detector=asked.end)
+        return curve(asked.path, x, asked.quantities, values=_texts(values), detector=asked.end)
     ((y, y_values),) = other
-    given: Any = {"x_values": values, "y_values": y_values, "detector": asked.end}
-    return quantity_map(asked.path, x, y, *asked.quantities, **given)
+    (quantity,) = asked.quantities
+    given: Any = {"x_values": _texts(values), "y_values": _texts(y_values)}
+    return quantity_map(asked.path, x, y, quantity, detector=asked.end, **given)
+
+
+def _texts(values: AxisValues | None) -> Any:
+    """Return the values of an axis as they were given, with their unit."""
+    if values is None or not values.unit:
+        return None if values is None else values.given
+    return [f"{number} {values.unit}" for number in values.shown.tolist()]
 
 
 def _geometry(asked: PlotRequest) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from optipath.cli.given_axes import refuse_arrays
 from optipath.errors import ParameterError, listed, unknown
@@ -113,7 +113,8 @@ def request_of(
     refuse_arrays(path, axes)
     plan = path.compose()
     ends, faults = _ends(plan, detector)
-    faults += _axis_faults(kind, limits, names, axes, [*plan.inputs.open])
+    faults += _name_faults(chosen, names, [*plan.inputs.open])
+    faults += _count_faults(kind, limits, axes, [*plan.inputs.open])
     if len(axes) > 1 and len(quantities) > 1:
         faults.append(f"a map is of one quantity, and --y names {len(quantities)}; give one")
     if detector is not None and kind == "poincare" and not axes:
@@ -125,7 +126,7 @@ def request_of(
         raise ParameterError(*faults)
     changed = bool(chosen.values or chosen.axes or reads)
     published = {} if changed or chosen.case is None else path.cases[chosen.case].published
-    title = ", ".join([chosen.title, *_told(chosen), *([f"reads {reads}"] if reads else [])])
+    title = ", ".join([chosen.title, *_told(chosen, reads=reads, at=detector)])
     return PlotRequest(kind, title, path, axes, quantities, ends, published)
 
 
@@ -144,21 +145,34 @@ def _ends(plan: Plan, detector: str | None) -> tuple[tuple[str, ...], list[str]]
     return (detector,), unknown("detector", detector, [*detectors, *dumps])
 
 
-def _axis_faults(
-    kind: str,
-    limits: PlotKind,
-    names: Sequence[str],
-    axes: Mapping[str, Any],
-    known: Collection[str],
+def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
+    """Return what is wrong with the names of what varies, a sentence each."""
+    faults = []
+    for name in dict.fromkeys(names):
+        flag = f"--{name.replace('_', '-')}"
+        if names.count(name) > 1:
+            faults.append(f"--x {name} is given {names.count(name)} times; give it once")
+        if name in chosen.opened.choices:
+            faults.append(f"--x {name} is a place, of which no axis has several; give {flag} WORD")
+        elif name in chosen.values:
+            faults.append(f"--x {name} varies what {flag} gives one value; leave one of them out")
+        else:
+            faults += unknown("--x", name, known)
+    for name in chosen.axes:
+        if name not in known:
+            flag = f"--{name.replace('_', '-')}"
+            faults.append(
+                f"{flag} is given several values, and nothing depends on it; leave it out"
+            )
+    return faults
+
+
+def _count_faults(
+    kind: str, limits: PlotKind, axes: Collection[str], known: Sequence[str]
 ) -> list[str]:
+    """Return what is wrong with how many parameters vary, a sentence each."""
+    faults = []
     flags = [f"--{name.replace('_', '-')}" for name in axes]
-    faults = [
-        f"--x {name} is given {names.count(name)} times; give it once"
-        for name in dict.fromkeys(names)
-        if names.count(name) > 1
-    ]
-    for name in names:
-        faults += unknown("--x", name, known)
     if len(axes) > limits.most_axes:
         if not limits.most_axes:
             faults.append(
@@ -180,7 +194,7 @@ def _axis_faults(
     return faults
 
 
-def _told(chosen: Chosen) -> list[str]:
+def _told(chosen: Chosen, **others: str | None) -> list[str]:
     """Return what is given besides the case, each value with its name."""
     labels = {name: label for name, label, _ in materials_among(chosen.values)}
     told = []
@@ -193,4 +207,4 @@ def _told(chosen: Chosen) -> list[str]:
         else:
             text = parameter.text(value)
         told.append(f"{name} {text}")
-    return told
+    return told + [f"{name} {text}" for name, text in others.items() if text]

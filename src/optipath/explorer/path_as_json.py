@@ -108,6 +108,6 @@ def _case(explored: ExploredPath, name: str, case: Case) -> dict[str, Any]:
 def _links(explored: ExploredPath) -> list[str]:
     """Return the links in the order of travel; none where a value must be given first."""
     try:
-        return [each.name for each in lights_along(explored.path)]
+        return [each.name for each in lights_along(explored.path) if each.end]
     except OptipathError:
         return []

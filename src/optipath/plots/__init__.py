@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.space.bench import bench
     from optipath.plots.space.geometry import geometry
     from optipath.plots.states.ellipse_picture import ellipse
     from optipath.plots.states.mueller_picture import mueller
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from optipath.plots.states.stokes_bars import stokes
 
 __all__ = [
+    "bench",
     "beside_facets",
     "chart",
     "curve",
@@ -57,6 +59,7 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
+    "space.bench": ["bench"],
     "space.geometry": ["geometry"],
     "states.ellipse_picture": ["ellipse"],
     "states.mueller_picture": ["mueller"],

@@ -28,7 +28,7 @@ export function drawEnergy(svg, energy) {
     bars.push(shape("rect", { x: node.x, y: node.y, width: long, height: BAR, class: "bar-of" }));
     bars.push(text([node.x - 7, node.y + 7], name, "strong halo", "end"));
   }
-  parts.push(...bars, ...lossNames(labels, height), ...bandNames(bands), ...endNames(energy, nodes));
+  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, height), ...endNames(energy, nodes));
   show(svg, width, height, energyInWords(energy), ...parts);
 }
 
@@ -93,9 +93,10 @@ function lossNames(labels, height) {
   ]);
 }
 
+const namesOf = (labels) => labels.map(({ x, y, words }) => [x + 6, y - 9, x + 12 + wide(words), y + 9]);
+
 /** The power of a band, written where there is room for it. */
-function bandNames(bands) {
-  const boxes = [];
+function bandNames(bands, boxes) {
   return bands.flatMap((each) => {
     const words = typeset(each.text);
     const half = wide(words) / 2;

@@ -7,6 +7,7 @@ import { by, debounced, option, say } from "./dom.js";
 import { Texts, addSaving, copy } from "./export.js";
 import { Pictures } from "./pictures.js";
 import { History, fromHash, newState, toHash, withEntry, withoutIdle } from "./state.js";
+import { onStepKeys } from "./step_keys.js";
 import { chooseTheme } from "./theme.js";
 import { typeset } from "./units.js";
 
@@ -61,6 +62,7 @@ function adopt(about, key) {
   say(by("description"), about.description);
 }
 
+/** Whether the next answer is written into a field that has the focus, too. */
 let forced = false;
 
 function show(state, answer) {
@@ -75,21 +77,27 @@ function show(state, answer) {
   by("stale").hidden = !(stale && open.answer !== null);
   open.curve?.update(state);
   if (stale) {
-    open.controls?.choose(state);
+    if (isNow(state)) open.controls?.choose(state);
     return;
   }
   take(state, answer);
-  forced = false;
+  if (isNow(state)) forced = false;
   const found = open.about.cases.find((each) => each.name === state.case);
   say(by("note"), found?.note ? typeset(found.note) : "");
   say(by("told"), typeset((answer.notes ?? []).join(" ")));
   refreshTexts();
 }
 
+/** Whether nothing has been set since. */
+function isNow(state) {
+  return ["preset", "case", "places", "values"].every((part) => state[part] === open.history.now[part]);
+}
+
 /** Show what an answer without faults says. */
 function take(state, answer) {
   open.answer = answer;
-  open.controls.update(state, answer.values, forced);
+  // An answer that has been overtaken is drawn, but leaves the sliders where they are by now.
+  if (isNow(state)) open.controls.update(state, answer.values, forced);
   pictures.show(state, answer, open.about);
 }
 
@@ -125,22 +133,15 @@ function turned(name, view) {
   writeAddress();
 }
 
-/** Show the state that undo or redo has come to. */
-function step() {
+/** @param {"undo"|"redo"} way */
+function step(way) {
   forced = true;
-  pictures.view(open.history.now);
+  pictures.view(open.history[way]());
   shown();
 }
 
-function undo() {
-  open.history.undo();
-  step();
-}
-
-function redo() {
-  open.history.redo();
-  step();
-}
+const undo = () => open.history.canUndo && step("undo");
+const redo = () => open.history.canRedo && step("redo");
 
 function listen() {
   by("preset").addEventListener("change", () => go(newState(by("preset").value), null));
@@ -159,14 +160,7 @@ function listen() {
     history.replaceState(null, "", `#${toHash(open.history.now)}`);
     copy(location.href, by("share-said"));
   });
-  document.addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-    const key = event.key.toLowerCase();
-    if (key === "z" && !event.shiftKey && open.history.canUndo) undo();
-    else if ((key === "y" || (key === "z" && event.shiftKey)) && open.history.canRedo) redo();
-    else return;
-    event.preventDefault();
-  });
+  onStepKeys(undo, redo);
   window.addEventListener("hashchange", () => {
     const state = fromHash(location.hash);
     if (state === null) return;

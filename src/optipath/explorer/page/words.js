@@ -8,10 +8,13 @@ export function lightInWords(name, light) {
   return typeset(`Light at ${name}: ${stokes}; ${stateInWords(light)}.`);
 }
 
+/** Whether nothing is left but rounding, which is printed as 0. @param {object} light */
+export const isDark = (light) => light.texts[0] === "0";
+
 /** @param {object} light @returns {string} */
 export function stateInWords(light) {
   const { dop, aop, handedness } = light.ellipse;
-  if (light.stokes[0] === 0) return "dark";
+  if (isDark(light)) return "dark";
   if (light.ellipse.points === null) return "unpolarised";
   const share = dop > 0.9995 ? "fully polarised" : `polarised by ${short(100 * dop, 3)} %`;
   const axis = aop === null ? "" : `, axis at ${short(aop, 4)} deg from x`;

@@ -7,6 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import OptipathError, shown
+from optipath.lab.accuracy.machine import processor
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -57,6 +58,27 @@ class PeerTimes(NamedTuple):
     ratio: float
 
 
+def check_race(text: str, name: str) -> None:
+    """Refuse what is no race, before a chart is measured for it.
+
+    Parameters
+    ----------
+    text, name : str
+        As `peer_times` takes them.
+
+    Raises
+    ------
+    OptipathError
+        If it is no such file, or of another processor than this one.
+    """
+    race = _read(text, name)
+    if race["processor"] != (here := processor()):
+        raise OptipathError(
+            f"the processor of '{name}' is {_told(race['processor'])}, and this one is "
+            f"{_told(here)}; run the race and the chart on one machine, one after the other"
+        )
+
+
 def peer_times(text: str, name: str, chart: Mapping[str, Any]) -> PeerTimes:
     """Return the times of a race that can be compared with a chart.
 
@@ -78,13 +100,37 @@ def peer_times(text: str, name: str, chart: Mapping[str, Any]) -> PeerTimes:
     OptipathError
         If it is no such file, or of another machine, other versions or another path.
     """
+    return _compared(_read(text, name), name, chart)
+
+
+def _read(text: str, name: str) -> Any:
+    """Return a race in which everything is there that is compared."""
     try:
         race = json.loads(text)
-        return _compared(race, name, chart)
     except (ValueError, RecursionError):
         raise OptipathError(f"'{name}' is no JSON; {_CURE}") from None
+    if not _is_whole(race):
+        raise OptipathError(f"'{name}' is no whole race of this version; {_CURE}")
+    return race
+
+
+def _is_whole(race: Any) -> bool:
+    try:
+        words = [race["processor"], race["path"]["preset"], *race["software"].values()]
+        sizes, errors = [], []
+        for contest in race["contests"].values():
+            words += contest["path"]
+            words += [entry["contender"] for entry in contest["results"]]
+            sizes += [entry["least"] for entry in contest["results"]]
+            errors += [entry["error"] for entry in contest["results"]]
+        return bool(
+            all(isinstance(word, str) for word in words)
+            and sizes
+            and all(1e-30 < size < 1e30 for size in sizes)
+            and all(isinstance(error, float | int) for error in errors)
+        )
     except (KeyError, TypeError, AttributeError):
-        raise OptipathError(f"'{name}' is no whole race of this version; {_CURE}") from None
+        return False
 
 
 def _compared(race: Any, name: str, chart: Mapping[str, Any]) -> PeerTimes:

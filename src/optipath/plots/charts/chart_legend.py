@@ -106,7 +106,7 @@ def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
         [
             Patch(facecolor=FAILING, label=fails),
             Line2D([], [], color=FAINT, lw=1.8, label="frontier: best that fails nowhere"),
-            Line2D([], [], color=FAINT, ls="--", label="rounding, eps"),
+            Line2D([], [], color=FAINT, ls="--", label="eps"),
             Line2D([], [], color=FAINT, lw=1.6, ls=":", label="machine's limit"),
         ],
     ]
