@@ -70,6 +70,7 @@ def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
     colours = dict(zip((q.name for q, _ in curves), range(len(curves)), strict=True))
     sides = [ax, *(ax.twinx() for _ in groups[1:])]
     lines: list[Any] = []
+    ax.set_xlim(numbers[0], numbers[-1])
     for side, group in zip(sides, groups, strict=True):
         members = [(q, values[order]) for q, values in curves if q in group]
         for quantity, values in members:
@@ -79,7 +80,6 @@ def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
         if len(group) == 1:
             texts.insert(0, group[0].label)
         label_axes(side, along.labels, texts)
-    ax.set_xlim(numbers[0], numbers[-1])
     ax.grid(visible=True, alpha=0.3)
     mark_default(ax, along)
     tell_missing(ax, [(q.name, values) for q, values in curves])
