@@ -112,10 +112,12 @@ def test_a_default_beyond_the_values_or_a_word_is_not_marked():
 
 
 def test_the_curve_is_open_where_the_path_refuses_values_that_nobody_gave():
-    path = op.load_preset("malus")
-    path = op.Source() >> op.Interface(1.5, op.Parameter("a", 0.5), 2.0) >> op.Detector()
-    x, y = lines(curve(path, "a"))["S0"].T
-    assert np.isfinite(y[x < 48.0]).all()  # The critical angle, asin(1.5 / 2), is 48.59 deg.
+    # No dye is stronger than the mean absorption, which is 0.1 / um.
+    path = op.load_preset("dichroic-sheet")
+    x, y = lines(curve(path, "dichroism"))["S0"].T
+    np.testing.assert_array_equal(np.isfinite(y), np.abs(x) <= 0.1)
+    with pytest.raises(OptipathError, match="dichroi"):
+        curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
 @pytest.mark.parametrize("size", [(6.4, 4.2), (3.2, 2.1)])

@@ -64,7 +64,8 @@ def test_a_cross_marks_the_values_by_default():
     assert ax.get_title() == "+ by default: angle 30°, intensity 1"
 
 
-def test_what_the_path_refuses_is_grey_where_nobody_gave_it():
+def test_what_the_path_refuses_is_grey_where_nobody_gave_it(monkeypatch):
+    monkeypatch.setattr("optipath.plots.curves.quantity_map._COUNT", 13)
     # No dye is stronger than the mean absorption.
     path = op.load_preset("dichroic-sheet")
     numbers = image(quantity_map(path, "absorption", "dichroism")).get_array()

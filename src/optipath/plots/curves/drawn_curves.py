@@ -120,7 +120,15 @@ def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
 
 
 def mark_default(ax: Axes, along: AlongAxis) -> None:
-    """Mark the value by default by a thin vertical line, with its text above."""
+    """Mark the value by default by a thin vertical line, with its text above.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where.
+    along : AlongAxis
+        What goes along x, with its default or without one.
+    """
     if along.default is None:
         return
     ax.axvline(along.default, color=FAINT, linewidth=0.8, zorder=0.5, gid="default")
@@ -130,7 +138,15 @@ def mark_default(ax: Axes, along: AlongAxis) -> None:
 
 
 def tell_missing(ax: Axes, curves: Sequence[tuple[str, npt.NDArray[np.float64]]]) -> None:
-    """Say which quantities have no value anywhere, where curves are missing."""
+    """Say which quantities have no value anywhere, where curves are missing.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where.
+    curves : sequence of (str, ndarray)
+        The names of quantities, and their numbers.
+    """
     missing = [name for name, values in curves if not np.isfinite(values).any()]
     if not missing:
         return
