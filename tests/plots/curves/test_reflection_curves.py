@@ -101,6 +101,7 @@ def test_no_text_is_over_another_or_cut_at_either_size(given, size):
         ({"index": -1.0}, "index"),
         ({"index": None}, "index"),
         ({"index": "gold", "wavelength": 516.0}, "wavelength"),
+        ({"index": "gold", "wavelength": ["500 nm", "600 nm"]}, "a picture is of one"),
     ],
 )
 def test_what_is_wrong_is_told(given, told):
