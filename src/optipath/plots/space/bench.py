@@ -103,6 +103,9 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     else:
         _fit_plane(ax, flat, room)
     _draw(ax, scene, flat)
+    drawn: list[Any] = [*ax.lines, *ax.patches]
+    for line in drawn:
+        line.set_linewidth(min(size / _POINTS, 1.0) * line.get_linewidth())
     if flat.straight:
         _write_below(ax, flat, texts, size)
     else:

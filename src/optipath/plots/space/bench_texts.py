@@ -49,7 +49,7 @@ def values_below(element: Element) -> list[str]:
     --------
     >>> import optipath as op
     >>> values_below(op.Retarder(retardance="90 deg", angle=op.Parameter("a", 0.0, bound=True)))
-    ['a = 0 rad', 'retardance 90 deg']
+    ['a = 0 deg', 'retardance 90 deg']
     """
     domains, found = element.domains(), []
     for name in _FIELDS:

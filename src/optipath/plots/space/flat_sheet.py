@@ -19,6 +19,10 @@ _IN_PLANE = 1e-7
 """The sine of an angle out of the plane that is rounding."""
 
 
+_FROM_EDGE = 0.2
+"""How far from the edge polarisation is drawn, in lengths of a link."""
+
+
 class FlatRay(NamedTuple):
     """A ray on a sheet.
 
@@ -153,7 +157,7 @@ def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]
             continue
         # What goes on in the next row goes as far as the middle between two nodes.
         pieces = np.array([tail, tail + half]), np.array([head - half, head])
-        rays.append(FlatRay(pieces, head - half))
+        rays.append(FlatRay(pieces, head - half + [min(_FROM_EDGE, 0.5 * half[0]), 0.0]))
     return flat._replace(at=at, rays=tuple(rays))
 
 
