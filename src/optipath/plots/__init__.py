@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
-    from optipath.plots.space.bench import bench
-    from optipath.plots.space.geometry import geometry
+    from optipath.plots.space.optical_bench import bench
+    from optipath.plots.space.picture_in_space import geometry
 
 __all__ = [
     "bench",
@@ -34,8 +34,8 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
-    "space.bench": ["bench"],
-    "space.geometry": ["geometry"],
+    "space.optical_bench": ["bench"],
+    "space.picture_in_space": ["geometry"],
 }
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
