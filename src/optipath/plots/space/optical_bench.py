@@ -191,9 +191,10 @@ def _face(scene: Scene, flat: FlatSheet, node: SceneNode) -> Array | None:
 
 
 def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
-    colour, width = (FAINT, 0.8) if ray.leaves else (INK, 1.2)
+    dark = not ray.leaves and not ray.light.intensity > 0.0
+    colour, width = (FAINT, 0.8) if ray.leaves or dark else (INK, 1.2)
+    style: Any = (0, (1, 2)) if dark else (0, (4, 2)) if ray.tap else "-"
     for tail, head in drawn.pieces:
-        style = (0, (4, 2)) if ray.tap else "-"
         ax.plot(*np.array([tail, head]).T, color=colour, lw=width, ls=style, zorder=3)
         along = (head - tail) / np.linalg.norm(head - tail)
         tip = head if ray.leaves or len(drawn.pieces) > 1 else tail + 0.3 * (head - tail)
