@@ -9,7 +9,7 @@ import pytest
 
 import optipath as op
 from optipath.cli import main, sweep_command
-from optipath.cli.sweep_files import regions
+from optipath.sweeps.labels.table_texts import regions
 
 
 @pytest.fixture(autouse=True)
@@ -175,7 +175,7 @@ def test_a_table_is_whole_or_not_there(capsys, monkeypatch, tmp_path):
     def broken(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("optipath.cli.sweep_files._texts", broken)
+    monkeypatch.setattr("optipath.cli.sweep_files.table_columns", broken)
     assert sweep(capsys, "malus", "--angle", "0:90:3", "--out", "a.csv")[0] == 130
     assert not [*tmp_path.iterdir()]
 

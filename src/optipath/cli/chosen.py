@@ -6,21 +6,20 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.cli.given_axes import axis_faults, axis_given
-from optipath.cli.given_light import (
-    WAVELENGTH,
-    extinction_beside,
-    is_material,
-    material_named,
-    take_extinctions,
-    take_wavelength,
-)
+from optipath.cli.given_light import take_wavelength
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError, ParameterError, listed, shown, there_are
 from optipath.paths.presets.loader import bound_preset
 from optipath.values.axis_texts import AxisValues
 from optipath.values.cases import ALL
-from optipath.values.domains.axis import axes_for
-from optipath.values.other_part import other_part
+from optipath.values.named_materials import (
+    WAVELENGTH,
+    extinction_beside,
+    is_material,
+    material_named,
+    take_extinctions,
+)
+from optipath.values.single_texts import single_value
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
@@ -286,20 +285,12 @@ def _value(
             return None if faults else material_named(f"--{_flag(name)}", text, option, k)
         if several := axis_given(parameter, text, uses):
             return several
-        value = axes_for(name, text, uses)
-        if isinstance(value, str):
-            # A bare number may be nanometres, micrometres or electronvolts.
-            unit = "" if isinstance(parameter, Wavelength) else parameter.unit
-            value = parameter.parse(value, unit)
+        # A bare number may be nanometres, micrometres or electronvolts.
+        unit = "" if isinstance(parameter, Wavelength) else parameter.unit
+        return single_value(parameter, text, uses, unit, lambda word: f"--{_flag(word)}")
     except OptipathError as error:
         faults += error.faults
         return None
-    if isinstance(value, complex) and (
-        other := other_part(uses, name, lambda word: f"--{_flag(word)}")
-    ):
-        faults.append(f"'{text}' is complex, but --{_flag(name)} takes a real number; {other}")
-        return None
-    return value
 
 
 def _flag(name: str) -> str:

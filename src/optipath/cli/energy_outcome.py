@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.cli.plain_json import plain
 from optipath.surfaces.energies.energy import walk_wanted
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from collections.abc import Callable

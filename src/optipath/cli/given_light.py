@@ -1,4 +1,4 @@
-"""Materials and wavelengths that are given by options: ``--n1 gold --wavelength "516 nm"``."""
+"""A wavelength that is given by an option to a path in which nothing depends on it."""
 
 from __future__ import annotations
 
@@ -6,117 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from optipath.cli.plain_json import plain
-from optipath.errors import OptipathError, ParameterError, printable, shown
+from optipath.errors import OptipathError, printable
 from optipath.values.axis_texts import AxisValues, IdleValues
-from optipath.values.cures import of_options
-from optipath.values.curves.curve_value import CurveValue
-from optipath.values.database.named_pages import VACUUM
 from optipath.values.materials import Material
-from optipath.values.other_part import extinctions_beside, places_of
-from optipath.values.parameters import Parameter
-from optipath.values.wavelength import Wavelength
+from optipath.values.named_materials import WAVELENGTH
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
     from optipath.paths.path_graph import PathGraph
-    from optipath.values.use import Use
-
-WAVELENGTH = Wavelength(help="wavelength in vacuum, by which materials that have a name are taken")
-"""What is offered where a preset has no parameter of this name."""
-
-
-def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
-    """Tell whether a text is the name of a material, for the index of refraction that stands there.
-
-    Parameters
-    ----------
-    parameter : Parameter
-        What it is given for.
-    text : str
-        What stands behind the option.
-    uses : sequence of Use
-        The numbers of the path.
-
-    Returns
-    -------
-    bool
-    """
-    is_range = ":" in text  # Of which an end may be no number.
-    if not text[:1].isalpha() or is_range or text in (*parameter.all_words, "inf", "nan"):
-        return False
-    places = places_of(uses, parameter.name)
-    return bool(places) and all(use.domain.takes_materials for use in places)
-
-
-def extinction_beside(uses: Sequence[Use], name: str) -> str:
-    """Return the parameter that is the k of an index of which another is n; nothing without one.
-
-    Parameters
-    ----------
-    uses : sequence of Use
-        The numbers of the path.
-    name : str
-        The parameter that is n.
-
-    Returns
-    -------
-    str
-    """
-    found = {k.name for k in extinctions_beside(uses, name).values() if isinstance(k, Parameter)}
-    return found.pop() if len(found) == 1 else ""
-
-
-def material_named(option: str, text: str, beside: str = "", k: Any = None) -> Material:
-    """Return the material of a name.
-
-    Parameters
-    ----------
-    option : str
-        Behind which it stands.
-    text : str
-        A name, or a book and a page, ``"Au/Johnson"``.
-    beside : str, optional
-        The option that gives k.
-    k : float, optional
-        What that gives, in place of the material's own.
-
-    Returns
-    -------
-    Material
-
-    Raises
-    ------
-    ParameterError
-        Naming the option: if there is no such material, or no database.
-    """
-    if "," in text:
-        raise ParameterError(
-            f"{option} takes one material, and {shown(text)} names several; give one, and write a "
-            f"command for each"
-        )
-    options = {"page": f"{option} '{text}/PAGE'"} | ({"k": beside} if beside else {})
-    try:
-        with of_options(options):
-            return Material.named(text, k=k)
-    except OptipathError as error:
-        raise ParameterError(*(f"{option}: {fault}" for fault in error.faults)) from None
-
-
-def take_extinctions(uses: Sequence[Use], values: dict[str, Any]) -> None:
-    """Take each k out of some values that a material beside it has in place of its own.
-
-    Parameters
-    ----------
-    uses : sequence of Use
-        The numbers of the path.
-    values : dict of str to Any
-        What is given, by name.
-    """
-    for name, value in list(values.items()):
-        if isinstance(value, Material):
-            values.pop(extinction_beside(uses, name), None)
 
 
 def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> None:
@@ -157,34 +53,3 @@ def take_wavelength(preset: str, path: PathGraph, values: dict[str, Any]) -> Non
         told = "all is the same along it" if several else f"--{name} is not used"
         told = f"optipath: nothing in '{preset}' depends on the wavelength; {told}"
         click.echo(printable(told), err=True)
-
-
-def materials_among(values: Mapping[str, Any]) -> Iterator[tuple[str, str, Material]]:
-    """Yield what is a material among some values: its parameter, what it is called, and itself."""
-    for name, value in values.items():
-        if isinstance(value, Material):
-            curves = [v.curve for v in (value.n, value.k) if isinstance(v, CurveValue)]
-            yield name, curves[0].label if curves else VACUUM, value
-
-
-def material_as_json(label: str, material: Material, wavelength: Any) -> dict[str, Any]:
-    """Return what a material is called and comes to, as JSON can hold it.
-
-    Parameters
-    ----------
-    label : str
-        What it is called.
-    material : Material
-        With its n and k.
-    wavelength : float or ndarray
-        Where it is taken, in metres.
-
-    Returns
-    -------
-    dict of str to Any
-    """
-    parts = {part: getattr(material, part) for part in ("n", "k")}
-    return {"name": label} | {
-        part: plain(value.at(wavelength) if isinstance(value, CurveValue) else value)
-        for part, value in parts.items()
-    }

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.cli.console import PlainConsole, cell, headed, say_wrapped, title
-from optipath.cli.plain_json import plain
 from optipath.elements.effective_index import effective_index
 from optipath.elements.fresnel import fresnel_reflection
 from optipath.errors import MaterialError, OptipathError
@@ -17,6 +16,7 @@ from optipath.values.curves.curve_value import CurveValue
 from optipath.values.curves.wavelength_range import WavelengthRange, span_text
 from optipath.values.domains.quantities import INCIDENCE
 from optipath.values.materials import Material
+from optipath.values.plain_json import plain
 from optipath.values.units import format_quantity, in_unit, parse_quantity
 from optipath.values.wavelength import Wavelength
 

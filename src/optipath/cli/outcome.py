@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.cli.given_light import WAVELENGTH, material_as_json, materials_among
-from optipath.cli.plain_json import plain
 from optipath.paths.format.writer import complex_parts_of
 from optipath.sweeps.axes.sweep_grid import SweepGrid
 from optipath.sweeps.whole.free_memory import refuse_more_than_free
 from optipath.values.cases import Case
 from optipath.values.domains.quantities import AMPLITUDE
+from optipath.values.named_materials import WAVELENGTH, material_as_json, materials_among
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from optipath.cli.chosen import Chosen

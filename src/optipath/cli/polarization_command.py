@@ -8,10 +8,10 @@ import numpy as np
 
 from optipath.cli.chosen import of_each
 from optipath.cli.console import DIGITS, JSON, PlainConsole, cell, headed, say_json, title
-from optipath.cli.plain_json import plain
 from optipath.cli.preset_command import PresetGroup
 from optipath.errors import listed
 from optipath.paths.polarization_matters import polarization as found_for
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -9,7 +9,6 @@ import click
 from optipath.cli.chosen import asks_for_several, cases_of, chosen_by, one_case
 from optipath.cli.console import JSON
 from optipath.cli.given_axes import RANGES, refuse_axes
-from optipath.cli.given_light import WAVELENGTH
 from optipath.cli.misplaced import StrictCommand
 from optipath.cli.unknown_options import refuse_outer_options
 from optipath.cli.whole_help import WholeHelp
@@ -19,6 +18,7 @@ from optipath.kernels.catalogue import METHODS
 from optipath.paths.presets.loader import load_preset, preset_names
 from optipath.values.cases import ALL
 from optipath.values.domains.quantities import READINGS
+from optipath.values.named_materials import WAVELENGTH
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:

@@ -10,11 +10,11 @@ import numpy as np
 from optipath.cli.console import PlainConsole, say, say_json, title
 from optipath.cli.given_walk import given_walks
 from optipath.cli.photon_bar import photon_bar
-from optipath.cli.plain_json import plain
 from optipath.errors import SurfaceError
 from optipath.surfaces.decisions.decide import decide
 from optipath.surfaces.samples.sample_files import load_sample
 from optipath.surfaces.walk.given_beam import UNPOLARISED
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from optipath.cli.given_walk import GivenWalk

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.cli.console import cell, headed
+from optipath.sweeps.labels.table_texts import heading
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from rich.table import Table
 
-    from optipath.cli.printed_numbers import Numbers
     from optipath.light.light import Light
+    from optipath.light.printed_numbers import Numbers
     from optipath.sweeps.axes.sweep_axis import SweepAxis
     from optipath.sweeps.axes.sweep_grid import SweepGrid
 
@@ -67,26 +68,6 @@ def span_text(axis: SweepAxis, digits: int) -> str:
         return f"{', '.join(texts)} {axis.unit}".rstrip()
     ends = [value_text(axis.shown[place].item(), digits) for place in (0, -1)]
     return f"{' .. '.join(ends)} {axis.unit}".rstrip() + f", {len(axis):,} values"
-
-
-def heading(name: str, unit: str) -> str:
-    """Return the heading of a column, with the unit of its numbers.
-
-    Parameters
-    ----------
-    name, unit : str
-        Of the quantity; ``""`` for no unit.
-
-    Returns
-    -------
-    str
-
-    Examples
-    --------
-    >>> heading("delta", "deg"), heading("n1", "")
-    ('delta (deg)', 'n1')
-    """
-    return f"{name} ({unit})" if unit else name
 
 
 def point_texts(grid: SweepGrid, index: Sequence[int], digits: int) -> Iterator[str]:

@@ -9,13 +9,13 @@ import numpy as np
 from rich.table import Table
 
 from optipath.cli.console import PlainConsole, cell, headed, title
-from optipath.cli.given_light import materials_among
 from optipath.cli.outcome import TOLD
-from optipath.cli.plain_json import plain
 from optipath.cli.printed_grid import point_table, point_texts, span_text
-from optipath.cli.printed_numbers import Numbers
 from optipath.errors import listed
+from optipath.light.printed_numbers import Numbers
 from optipath.sweeps.axes.sweep_grid import SweepGrid
+from optipath.values.named_materials import materials_among
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.cli.console import PlainConsole, cell, headed, title
-from optipath.cli.plain_json import plain
 from optipath.cli.printed_energy import measured
 from optipath.lab.published.measured_quantities import MEASURES
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence

@@ -11,7 +11,7 @@ from optipath.cli.console import PlainConsole, cell, headed
 from optipath.cli.outcome import TOLD
 from optipath.cli.printed_grid import MOST_ROWS, plane_table, point_table
 from optipath.cli.printed_light import print_given, ran
-from optipath.cli.printed_numbers import Numbers
+from optipath.light.printed_numbers import Numbers
 
 if TYPE_CHECKING:
     from rich.table import Table

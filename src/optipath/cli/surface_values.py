@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.cli.given_axes import axis_given
-from optipath.cli.given_light import WAVELENGTH
 from optipath.errors import SurfaceError, listed, shown
 from optipath.values.axis_texts import AxisValues, read_entries
+from optipath.values.named_materials import WAVELENGTH
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:

@@ -1,0 +1,192 @@
+"""What the page asks for, checked for its shape; what the values stand for is looked at later."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from optipath.errors import ParameterError, listed, shown, unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+WANTED = ("scene", "energy", "explanation")
+"""What is answered only where it is asked for."""
+
+FORMS = ("csv", "toml", "python")
+"""What the state may be exported as."""
+
+MOST_POINTS = 2001
+"""How many values a curve has at most."""
+
+_LONGEST = 2000
+_MOST = 500
+
+
+@dataclass(frozen=True)
+class AskedCurve:
+    """A curve of some quantities over a parameter.
+
+    Attributes
+    ----------
+    x : str
+        The parameter.
+    first, last : str
+        The ends, as texts.
+    count : int
+        How many values there are.
+    y : tuple of str
+        The quantities.
+    """
+
+    x: str
+    first: str
+    last: str
+    count: int
+    y: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class AskedState:
+    """What the page shows, or wants to.
+
+    Attributes
+    ----------
+    preset : str
+        The name of a preset, or that of the file.
+    case : str or None
+        A named set of its values.
+    places, values : mapping of str to str
+        What differs from the case and the defaults, as texts.
+    detector : str or None
+        Whose light the curve is of.
+    curve : AskedCurve or None
+        The curve.
+    want : tuple of str
+        What is answered besides.
+    form : str
+        What it is to be exported as; ``""`` where it is traced.
+    """
+
+    preset: str
+    case: str | None = None
+    places: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, str] = field(default_factory=dict)
+    detector: str | None = None
+    curve: AskedCurve | None = None
+    want: tuple[str, ...] = ()
+    form: str = ""
+
+
+def asked_state(given: Any, allowed: Sequence[str], needed: Sequence[str] = ()) -> AskedState:
+    """Return what a request asks for.
+
+    Parameters
+    ----------
+    given : Any
+        What its JSON says.
+    allowed : sequence of str
+        The names that it may have besides ``preset``.
+    needed : sequence of str, optional
+        Those of them that it must have.
+
+    Returns
+    -------
+    AskedState
+
+    Raises
+    ------
+    ParameterError
+        With all that is wrong with its shape.
+
+    Examples
+    --------
+    >>> asked_state({"preset": "malus", "values": {"angle": "30 deg"}}, ["values"]).values
+    {'angle': '30 deg'}
+    """
+    names = ("preset", *allowed)
+    if not isinstance(given, dict):
+        raise ParameterError(f"a request is an object with {listed([*names])}, not {shown(given)}")
+    faults = [sentence for name in given for sentence in unknown("name", name, names)]
+    faults += [f"{name} is missing; give it" for name in ("preset", *needed) if name not in given]
+    read: dict[str, Any] = {}
+    for name in names:
+        if name in given and (name in needed or name == "preset" or given[name] is not None):
+            try:
+                read[name] = _READERS[name](name, given[name])
+            except ParameterError as fault:
+                faults += fault.faults
+    if faults:
+        raise ParameterError(*faults)
+    return AskedState(**read)
+
+
+def _text(name: str, given: Any) -> str:
+    if not isinstance(given, str):
+        raise ParameterError(f"{name} must be a text, not {shown(given)}")
+    if len(given) > _LONGEST:
+        raise ParameterError(f"{name} has {len(given)} characters; {_LONGEST} are the most")
+    return given
+
+
+def _texts(name: str, given: Any) -> dict[str, str]:
+    if not isinstance(given, dict) or len(given) > _MOST:
+        what = f"an object of {len(given)}" if isinstance(given, dict) else shown(given)
+        raise ParameterError(f"{name} must be an object of at most {_MOST} texts, not {what}")
+    return {key: _text(f"{name}.{shown(key)[1:-1]}", value) for key, value in given.items()}
+
+
+def _words(known: Sequence[str] | None) -> Any:
+    def read(name: str, given: Any) -> tuple[str, ...]:
+        if not isinstance(given, list) or len(given) > _MOST:
+            raise ParameterError(f"{name} must be a list of texts, not {shown(given)}")
+        words = tuple(dict.fromkeys(_text(f"{name}[{at}]", each) for at, each in enumerate(given)))
+        if known is not None and (faults := [s for w in words for s in unknown(name, w, known)]):
+            raise ParameterError(*faults)
+        return words
+
+    return read
+
+
+def _form(name: str, given: Any) -> str:
+    if faults := unknown(name, _text(name, given), FORMS):
+        raise ParameterError(*faults)
+    return str(given)
+
+
+def _count(name: str, given: Any) -> int:
+    if type(given) is not int or not 2 <= given <= MOST_POINTS:
+        what = f"a whole number from 2 to {MOST_POINTS}"
+        raise ParameterError(f"{name} must be {what}, not {shown(given)}")
+    return given
+
+
+def _curve(name: str, given: Any) -> AskedCurve:
+    readers = {"x": _text, "from": _text, "to": _text, "count": _count, "y": _words(None)}
+    if not isinstance(given, dict):
+        raise ParameterError(
+            f"{name} must be an object with {listed([*readers])}, not {shown(given)}"
+        )
+    faults = [s for key in given for s in unknown(f"name in {name}", key, [*readers])]
+    faults += [f"{name}.{key} is missing; give it" for key in readers if key not in given]
+    read: list[Any] = []
+    for key, reader in readers.items():
+        try:
+            read.append(reader(f"{name}.{key}", given[key]) if key in given else None)
+        except ParameterError as fault:
+            faults += fault.faults
+    if faults:
+        raise ParameterError(*faults)
+    return AskedCurve(*read)
+
+
+_READERS: dict[str, Any] = {
+    "preset": _text,
+    "case": _text,
+    "places": _texts,
+    "values": _texts,
+    "detector": _text,
+    "curve": _curve,
+    "want": _words(WANTED),
+    "form": _form,
+}

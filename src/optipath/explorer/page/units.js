@@ -1,0 +1,69 @@
+/** Numbers written in one unit or another; what they mean is the library's. */
+
+const SIZES = {
+  rad: 1,
+  mrad: 1e-3,
+  deg: Math.PI / 180,
+  arcmin: Math.PI / 10800,
+  arcsec: Math.PI / 648000,
+  angstrom: 1e-10,
+  nm: 1e-9,
+  um: 1e-6,
+  mm: 1e-3,
+  cm: 1e-2,
+  dm: 1e-1,
+  m: 1,
+  T: 1,
+  mT: 1e-3,
+  G: 1e-4,
+  kG: 1e-1,
+};
+
+/** How large a unit such as "deg", "1/cm" or "deg/(T cm)" is in base units; NaN where unknown. */
+export function sizeOf(unit) {
+  const [above, below = ""] = unit.split("/");
+  const product = (words) =>
+    words
+      .replace(/[()]/g, "")
+      .split(" ")
+      .filter((word) => word !== "" && word !== "1")
+      .reduce((size, word) => size * (SIZES[word] ?? NaN), 1);
+  return product(above) / product(below);
+}
+
+/** @param {number} number @param {string} from @param {string} to */
+export function converted(number, from, to) {
+  return from === to ? number : (number * sizeOf(from)) / sizeOf(to);
+}
+
+/** A number as short as ten digits allow. @param {number} number */
+export function short(number, digits = 10) {
+  return String(Number(number.toPrecision(digits)));
+}
+
+/** A number as the steps of a slider allow, without the dust of sums. */
+export function stepped(number, low, step) {
+  const places = Math.max(0, 2 - Math.floor(Math.log10(step)));
+  return String(Number((low + Math.round((number - low) / step) * step).toFixed(Math.min(places, 20))));
+}
+
+/** What stands in a field, cut into the number and the unit, where it is a number at all. */
+export function taken(text) {
+  const found = /^\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)\s*(.*?)\s*$/i.exec(text);
+  return found === null ? null : { number: Number(found[1]), written: found[1], unit: found[2] };
+}
+
+const RAISED = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079";
+
+/** Two digits of a number, times a power of ten where it is very small or large. */
+export function powered(number) {
+  if (Math.abs(number) >= 1e-3 && Math.abs(number) < 1e4) return short(number, 2);
+  const [digits, power] = number.toExponential(1).split("e");
+  const raised = [...power.replace("+", "")].map((each) => RAISED[each] ?? "\u207b");
+  return `${digits}\u00b710${raised.join("")}`;
+}
+
+/** For the eye: a true minus sign and a degree sign. */
+export function typeset(text) {
+  return text.replace(/(^|[\s(=])-(?=\d)/g, "$1\u2212").replace(/(\de)-(?=\d)/g, "$1\u2212").replace(/(\d) deg\b/g, "$1\u00b0");
+}

@@ -1,0 +1,289 @@
+"""What the texts of the page stand for, all of them at once, with what is wrong at each field."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.errors import OptipathError, printable, unknown
+from optipath.paths.bound_materials import given_by_materials
+from optipath.paths.presets.loader import beside
+from optipath.values.materials import Material
+from optipath.values.named_materials import (
+    WAVELENGTH,
+    extinction_beside,
+    is_material,
+    material_named,
+)
+from optipath.values.single_texts import single_value
+from optipath.values.unknown_parameter import unknown_parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterable, Mapping
+
+    from optipath.explorer.asked_state import AskedState
+    from optipath.explorer.explored_path import ExploredPath
+    from optipath.explorer.explored_presets import ExploredPresets
+    from optipath.values.parameters import Parameter
+
+_NAMED = re.compile(r"^(\w+)|'([^']+)'")
+
+
+class FieldFault(NamedTuple):
+    """What is wrong, and where.
+
+    Attributes
+    ----------
+    field : str or None
+        The parameter, choice, ``"case"``, ``"detector"`` or ``"curve"``; None where none is named.
+    sentence : str
+        What is wrong with it.
+    """
+
+    field: str | None
+    sentence: str
+
+
+class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call it
+    """All that is wrong with the values that the page has.
+
+    Parameters
+    ----------
+    faults : iterable of FieldFault
+        One at least.
+    """
+
+    def __init__(self, faults: Iterable[FieldFault]) -> None:
+        # One line each, whatever stands in the names that they quote.
+        told = [(field, printable(" ".join(text.split()))) for field, text in faults]
+        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(told)]
+        super().__init__(*[fault.sentence for fault in self.faults])
+
+
+@dataclass(frozen=True)
+class ReadState:
+    """What the page shows, read.
+
+    Attributes
+    ----------
+    asked : AskedState
+        As texts.
+    base : ExploredPath
+        The path with its places chosen.
+    explored : ExploredPath
+        The same with materials in the place of its indices, where any are given.
+    places : mapping of str to str
+        The word of each choice of places that is given, or that the case has.
+    values : mapping of str to Any
+        What `PathGraph.trace` is given: of the case, and what differs from it.
+    given : mapping of str to Any
+        What differs from the case and the defaults, materials among it.
+    notes : tuple of str
+        What is not used.
+    """
+
+    asked: AskedState
+    base: ExploredPath
+    explored: ExploredPath
+    places: Mapping[str, str] = field(default_factory=dict)
+    values: Mapping[str, Any] = field(default_factory=dict)
+    given: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def materials(self) -> dict[str, Material]:
+        """The materials that are given, by parameter."""
+        return {name: m for name, m in self.given.items() if isinstance(m, Material)}
+
+    @property
+    def published(self) -> Mapping[str, tuple[float, ...]]:
+        """What was published for these very values."""
+        if self.asked.case is None or self.given or self.asked.places:
+            return {}
+        return self.explored.path.cases[self.asked.case].published
+
+    def faults(self, error: OptipathError) -> list[FieldFault]:
+        """Return what is wrong with the fields that sentences name."""
+        known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
+        return [FieldFault(_field(sentence, known), sentence) for sentence in error.faults]
+
+
+def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
+    """Return what the texts of the page stand for.
+
+    Parameters
+    ----------
+    presets : ExploredPresets
+        What may be opened.
+    asked : AskedState
+        What is asked for.
+
+    Returns
+    -------
+    ReadState
+
+    Raises
+    ------
+    FieldFaults
+        With all that is wrong at once.
+    """
+    faults: list[FieldFault] = []
+    explored, places = _opened(presets, asked, faults)
+    cases = explored.path.cases
+    known = cases[asked.case].values if asked.case in cases else {}
+    given = {
+        name: value
+        for name, text in asked.values.items()
+        if (value := _value(explored, name, asked.values, faults)) is not None
+    }
+    state = ReadState(asked, explored, explored, places, {}, given)
+    known = {name: value for name, value in known.items() if name not in places}
+    try:
+        state = _placed(presets, state, known)
+    except OptipathError as error:
+        faults += state.faults(error)
+    if faults:
+        raise FieldFaults(faults)
+    return state
+
+
+def read_path(presets: ExploredPresets, asked: AskedState) -> ExploredPath:
+    """Return the path that is asked for, its places chosen, and no values looked at.
+
+    Parameters
+    ----------
+    presets : ExploredPresets
+        What may be opened.
+    asked : AskedState
+        What is asked for.
+
+    Returns
+    -------
+    ExploredPath
+
+    Raises
+    ------
+    FieldFaults
+        With all that is wrong with the name and the places.
+    """
+    faults: list[FieldFault] = []
+    explored, _ = _opened(presets, asked, faults)
+    if faults:
+        raise FieldFaults(faults)
+    return explored
+
+
+def _opened(
+    presets: ExploredPresets, asked: AskedState, faults: list[FieldFault]
+) -> tuple[ExploredPath, dict[str, str]]:
+    """Return the path with its places, those of the case among them, as far as there are any."""
+    try:
+        base = presets.base(asked.preset)
+    except OptipathError as error:
+        raise FieldFaults(FieldFault("preset", each) for each in error.faults) from None
+    case = base.cases.get(asked.case or "")
+    if case is None and asked.case is not None:
+        wrong = unknown(f"case of '{asked.preset}'", asked.case, base.cases)
+        faults += [FieldFault("case", sentence) for sentence in wrong]
+    known = {} if case is None else case.values
+    places = {name: str(word) for name, word in known.items() if name in base.choices}
+    places |= _places(base.choices, asked.places, faults)
+    return presets.explored(asked.preset, places), places
+
+
+def _places(
+    choices: Mapping[str, Any], given: Mapping[str, str], faults: list[FieldFault]
+) -> dict[str, str]:
+    found = {}
+    for name, word in given.items():
+        if wrong := unknown("choice", name, choices) or unknown(name, word, choices[name].behind):
+            faults += [FieldFault(name if name in choices else None, each) for each in wrong]
+        else:
+            found[name] = word
+    return found
+
+
+def _value(
+    explored: ExploredPath, name: str, given: Mapping[str, str], faults: list[FieldFault]
+) -> Any:
+    """Return what the text of a field stands for; None where it is faulty."""
+    known, text = explored.parameters, given[name].strip()
+    if name in explored.path.choices:
+        faults.append(FieldFault(name, f"'{name}' is a choice of places; give it among places"))
+        return None
+    if name not in known and name != WAVELENGTH.name:
+        faults.append(FieldFault(None, unknown_parameter(name, known)))
+        return None
+    parameter = known.get(name, WAVELENGTH)
+    try:
+        if parameter.bound:
+            faults.append(FieldFault(name, explored.plan.inputs.unknown(name)))
+            return None
+        if is_material(parameter, text, explored.uses):
+            return _material(explored, name, text, given)
+        return single_text(explored, parameter, text)
+    except OptipathError as error:
+        faults += [FieldFault(name, sentence) for sentence in error.faults]
+        return None
+
+
+def single_text(explored: ExploredPath, parameter: Parameter, text: str) -> Any:
+    """Return what a text stands for, a bare number being in the unit of the parameter.
+
+    Parameters
+    ----------
+    explored : ExploredPath
+        The path.
+    parameter : Parameter
+        One of its parameters.
+    text : str
+        What is given.
+
+    Returns
+    -------
+    float, complex, str or ndarray
+
+    Raises
+    ------
+    ParameterError, UnitError
+        If it stands for nothing that the parameter may be.
+    """
+    value = single_value(parameter, text, explored.uses, parameter.unit)
+    if not isinstance(value, complex):
+        parameter.resolve(value)
+    return value
+
+
+def _material(explored: ExploredPath, name: str, text: str, given: Mapping[str, str]) -> Material:
+    k = extinction_beside(explored.uses, name)
+    own = single_text(explored, explored.parameters[k], given[k]) if k in given else None
+    return material_named(name, text, k, own)
+
+
+def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]) -> ReadState:
+    """Return the state with materials in their places, and looked at as a whole."""
+    given, explored, notes = dict(state.given), state.explored, []
+    values = beside(explored.path, known, given)
+    if media := {name: m for name, m in values.items() if isinstance(m, Material)}:
+        within = given_by_materials(explored.path.graph, media)
+        kept = {*media, *within}
+        for name in within:
+            values.pop(name, None)
+            given.pop(name, None)
+        told = tuple(f"{name}={text}" for name, text in state.asked.values.items())
+        told = (state.asked.case or "", *(each for each in told if each.partition("=")[0] in kept))
+        explored = presets.explored(state.asked.preset, state.places, media, told)
+        values = {name: value for name, value in values.items() if name not in media}
+    name = WAVELENGTH.name
+    if name in values and name not in explored.parameters:
+        notes.append("nothing depends on the wavelength here; it is not used")
+        del values[name], given[name]
+    explored.plan.inputs.resolve(values)
+    return replace(state, explored=explored, values=values, given=given, notes=tuple(notes))
+
+
+def _field(sentence: str, known: Collection[str]) -> str | None:
+    """Return the first parameter that a sentence names; None where it names none."""
+    words = [bare or quoted for bare, quoted in _NAMED.findall(sentence)]
+    return next((word for word in words if word in known), None)

@@ -1,0 +1,179 @@
+"""Where the power of the light of a path goes: along links, into elements, out of it, to ends."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import networkx as nx
+import numpy as np
+
+from optipath.composer.wiring import Wiring
+from optipath.paths.lights_along import lights_along
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    import numpy.typing as npt
+
+    from optipath.paths.path_graph import PathGraph
+
+_ROUNDING = 1e-12
+"""The share of the power that comes in below which a difference is rounding."""
+
+
+class PowerOnLink(NamedTuple):
+    """The power on a link, or at an out-port where light leaves the path.
+
+    Attributes
+    ----------
+    name : str
+        ``"lamp.out -> eye.in"``, or ``"glass.transmitted"`` where light leaves the path.
+    start, leaves : str
+        The node that it comes from, and the out-port.
+    end, enters : str
+        The node that it goes to, and the in-port; empty where it leaves the path.
+    power : ndarray, shape (...)
+        The intensity S0, all rounds together.
+    tap : bool
+        Whether the link reads light and takes nothing.
+    in_loop : bool
+        Whether light passes it again and again.
+    """
+
+    name: str
+    start: str
+    leaves: str
+    end: str
+    enters: str
+    power: npt.NDArray[np.float64]
+    tap: bool
+    in_loop: bool
+
+
+class EnergyAlong(NamedTuple):
+    """Where the power of the light of a path comes from and goes.
+
+    What the sources give is what elements take, what leaves, and what ends: light is neither made
+    nor lost. An element that amplifies takes a negative power, and `notes` tells of it.
+
+    Attributes
+    ----------
+    links : tuple of PowerOnLink
+        In the order of travel; taps and outlets included.
+    given : mapping of str to ndarray, shape (...)
+        What each source gives.
+    taken : mapping of str to ndarray, shape (...)
+        What each element between takes: absorbs, blocks, or lets go by a way that the path does
+        not have.
+    left : mapping of str to ndarray, shape (...)
+        What leaves the path at each outlet, by its port.
+    ended : mapping of str to ndarray, shape (...)
+        What ends in each detector and dump; what a tap brings there is only read.
+    notes : tuple of str
+        What there is to know: light that goes round, elements that amplify.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> found = energy_along(op.load_preset("malus"), angle="60 deg")
+    >>> {name: float(power.round(3)) for name, power in found.taken.items()}
+    {'polarizer': 0.5, 'analyzer': 0.375}
+    >>> {name: float(power.round(3)) for name, power in found.ended.items()}
+    {'eye': 0.125}
+    """
+
+    links: tuple[PowerOnLink, ...]
+    given: Mapping[str, npt.NDArray[np.float64]]
+    taken: Mapping[str, npt.NDArray[np.float64]]
+    left: Mapping[str, npt.NDArray[np.float64]]
+    ended: Mapping[str, npt.NDArray[np.float64]]
+    notes: tuple[str, ...]
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the same as texts, numbers, lists and dicts, as JSON has them."""
+        plain = {field: _plain(getattr(self, field)) for field in ("given", "taken", "left")}
+        links = [link._asdict() | {"power": link.power.tolist()} for link in self.links]
+        ended = _plain(self.ended)
+        return {"links": links, **plain, "ended": ended, "notes": [*self.notes]}
+
+
+def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
+    """Return where the power of the light of a path comes from and goes.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    **parameters : float or array_like
+        As in `PathGraph.trace`; powers have the shape of the batch.
+
+    Returns
+    -------
+    EnergyAlong
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> found = energy_along(op.load_preset("two-panes"))
+    >>> {name: float(power.round(3)) for name, power in found.left.items()}
+    {'pane1.transmitted': 0.926, 'pane2.transmitted': 0.074}
+    """
+    wiring = Wiring(path.graph, keep="all")
+    lit = [*lights_along(path, **parameters)]
+    powers = np.broadcast_arrays(*[np.asarray(each.light.intensity, float) for each in lit])
+    round_and_round = _going_round(wiring)
+    links = tuple(
+        PowerOnLink(*each[:5], power, each.tap, _passes(each, round_and_round))
+        for each, power in zip(lit, powers, strict=True)
+    )
+    flows = [link for link in links if not link.tap]
+    inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
+    begin = {node for node, e in wiring.elements.items() if not e.inputs}
+    given = _sums((link.start, link.power) for link in flows if link.start in begin)
+    taken = {node: _taken(node, flows) for node in _in_order(flows) if node in inner}
+    left = {link.name: link.power for link in flows if not link.end}
+    ended = _sums((link.end, link.power) for link in flows if link.end and link.end not in inner)
+    return EnergyAlong(links, given, taken, left, ended, (*_notes(links, taken),))
+
+
+def _passes(link: Any, ports: set[Any]) -> bool:
+    return {(link.start, link.leaves), (link.end, link.enters)} <= ports and not link.tap
+
+
+def _going_round(wiring: Wiring) -> set[Any]:
+    """Return the ports that light passes again and again."""
+    ways = nx.DiGraph(wiring.untapped)
+    return set().union(
+        *(ports for ports in nx.strongly_connected_components(ways) if len(ports) > 1)
+    )
+
+
+def _in_order(flows: Iterable[PowerOnLink]) -> list[str]:
+    return list(dict.fromkeys(link.end for link in flows if link.end))
+
+
+def _sums(powers: Iterable[tuple[str, Any]]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, power in powers:
+        found[name] = found[name] + power if name in found else power
+    return found
+
+
+def _taken(node: str, flows: list[PowerOnLink]) -> npt.NDArray[np.float64]:
+    """Return what comes in and does not go out; 0 where that is rounding."""
+    arrives = sum(link.power for link in flows if link.end == node)
+    goes = sum(link.power for link in flows if link.start == node)
+    rest = np.asarray(arrives - goes, float)
+    return np.where(np.abs(rest) <= _ROUNDING * np.maximum(arrives, goes), 0.0, rest)
+
+
+def _notes(links: Iterable[PowerOnLink], taken: Mapping[str, Any]) -> Iterable[str]:
+    if any(link.in_loop for link in links):
+        yield "light goes round: a link in a loop has the power of all rounds together"
+    for name, power in taken.items():
+        if np.any(power < 0.0):
+            yield f"'{name}' gives more light than it gets: it takes a negative power"
+
+
+def _plain(powers: Mapping[str, npt.NDArray[np.float64]]) -> dict[str, Any]:
+    return {name: power.tolist() for name, power in powers.items()}

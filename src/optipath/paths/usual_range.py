@@ -1,0 +1,164 @@
+"""The usual range of a parameter: what a curve or a slider goes over where nobody says."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optipath.errors import ParameterError
+from optipath.values.domains.axis import AxisDomain, axes_for
+from optipath.values.units import dimension_of, in_unit, parse_quantity
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from optipath.paths.path_graph import PathGraph
+    from optipath.values.parameters import Parameter
+    from optipath.values.use import Use
+
+VISIBLE = 380e-9, 780e-9
+"""The wavelengths that are seen, in metres."""
+
+_AXES = (0.0, math.pi), (-math.pi / 2, math.pi / 2)
+_TURNS = (0.0, 2 * math.pi), (-math.pi, math.pi)
+_INDEX = 1.0, 3.0
+_WIDEST = 10.0
+"""How many times as wide as what is given a range may be that is taken as it is."""
+
+_ROUND = 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0
+
+
+def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
+    """Return between which values a parameter is usually looked at.
+
+    The default and the values of all cases lie in it, and it lies where values are allowed: the
+    visible light of a wavelength, a half turn of an axis, an index from 1 to 3, the quadrant of an
+    angle of incidence, and twice the largest value of what has no end.
+
+    Parameters
+    ----------
+    path : PathGraph
+        The path.
+    name : str
+        One of its open parameters.
+
+    Returns
+    -------
+    tuple of float
+        The lower and the upper end, in radians, metres or pure numbers; finite and apart.
+
+    Raises
+    ------
+    ParameterError
+        If the path has no such open parameter, or its values are no single real numbers.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> path = op.load_preset("glass-slab")
+    >>> usual_range(path, "n"), usual_range(path, "intensity")
+    ((1.0, 3.0), (0.0, 2.0))
+    """
+    inputs = path.compose().inputs
+    if name not in inputs.open:
+        raise ParameterError(inputs.unknown(name))
+    parameter, limits = inputs.open[name], inputs.limits[name]
+    if inputs.tails.get(name):
+        raise ParameterError(f"parameter '{name}' is an array; a range is one of single numbers")
+    uses = [use for use in inputs.uses if use.value.name == name]
+    seen = [*_seen(path, parameter, uses)]
+    low, high = _around(seen, parameter, limits, uses)
+    return max(low, limits[0]), min(high, limits[1])
+
+
+def _seen(path: PathGraph, parameter: Parameter, uses: list[Use]) -> Iterable[float]:
+    """Go through the numbers that the default and the cases have."""
+    name = parameter.name
+    given = [parameter.default, *(case.values.get(name) for case in path.cases.values())]
+    for value in given:
+        if value is None:
+            continue
+        value = axes_for(name, value, uses)  # noqa: PLW2901 - the same, as a number
+        resolved = parameter.resolve(value)
+        numbers = np.atleast_1d(resolved.value)[np.atleast_1d(resolved.present)]
+        if numbers.dtype.kind == "c":
+            raise ParameterError(
+                f"parameter '{name}' has the complex value {numbers[0]:g}, and a range is one of "
+                f"real numbers; give the values, or n and k by parameters of their own"
+            )
+        yield from numbers[np.isfinite(numbers)].tolist()
+
+
+def _around(
+    seen: list[float], parameter: Parameter, limits: tuple[float, float], uses: list[Use]
+) -> tuple[float, float]:
+    names = {use.domain.name for use in uses}
+    if isinstance(parameter, Wavelength) or "wavelength" in names:
+        return _of_light(seen, limits)
+    if "angle" in {use.domain.dimension for use in uses}:
+        is_axis = any(isinstance(use.domain, AxisDomain) for use in uses)
+        return _of_angles(seen, limits, is_axis=is_axis)
+    if "index of refraction" in names:
+        return _of_index(seen)
+    return _of_sizes(seen, parameter, limits)
+
+
+def _of_light(seen: list[float], limits: tuple[float, float]) -> tuple[float, float]:
+    low, high = max(VISIBLE[0], limits[0]), min(VISIBLE[1], limits[1])
+    if low < high and all(low <= each <= high for each in seen):
+        return low, high
+    if low < high and any(low <= each <= high for each in seen):
+        return min(low, *seen), max(high, *seen)
+    return (min(seen) / 1.5, max(seen) * 1.5) if seen else limits
+
+
+def _of_angles(
+    seen: list[float], limits: tuple[float, float], *, is_axis: bool
+) -> tuple[float, float]:
+    if limits[1] - limits[0] <= math.pi:
+        return limits
+    for low, high in (*(_AXES if is_axis else ()), *_TURNS):
+        if all(low <= each <= high for each in seen):
+            return low, high
+    return min(0.0, *seen), max(2 * math.pi, *seen)
+
+
+def _of_index(seen: list[float]) -> tuple[float, float]:
+    low, high = _INDEX
+    if seen and (least := min(seen)) < low:
+        low = 10.0 ** math.floor(math.log10(least)) if least > 0.0 else 2 * least
+    return low, max(high, _rounded_up(max(seen, default=0.0)))
+
+
+def _of_sizes(
+    seen: list[float], parameter: Parameter, limits: tuple[float, float]
+) -> tuple[float, float]:
+    one = _in_base_unit(1.0, parameter)
+    largest = max(map(abs, seen), default=0.0)
+    widest = max(map(abs, limits))
+    if math.isfinite(widest) and (not largest or widest <= max(_WIDEST * largest, one)):
+        return limits
+    end = _in_base_unit(_rounded_up(2 * in_unit(largest, parameter.unit)), parameter) or one
+    return (-end if limits[0] < 0.0 else 0.0), end
+
+
+def _in_base_unit(number: float, parameter: Parameter) -> float:
+    """Return a number in the unit of a parameter in base units, as a text of it would be read."""
+    return float(parse_quantity(repr(number), dimension_of(parameter.unit), parameter.unit).real)
+
+
+def _rounded_up(number: float) -> float:
+    """Return the next round number.
+
+    Examples
+    --------
+    >>> _rounded_up(4.24), _rounded_up(0.0), _rounded_up(200.0)
+    (5.0, 0.0, 200.0)
+    """
+    if not number:
+        return 0.0
+    power = 10.0 ** math.floor(math.log10(number))
+    return power * next((each for each in _ROUND if number <= each * power * (1 + 1e-9)), 10.0)

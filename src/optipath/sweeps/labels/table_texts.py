@@ -1,0 +1,142 @@
+"""Tables with a row for each point of a grid, as the text of comma-separated values."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.sweeps.labels.light_quantities import QUANTITIES
+from optipath.sweeps.labels.variable_names import detectors_of, variable_names
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from optipath.plan.plan import Plan
+    from optipath.sweeps.axes.sweep_grid import SweepGrid
+
+_ROWS = 1 << 16
+"""How many rows are computed at once."""
+
+
+def heading(name: str, unit: str) -> str:
+    """Return the heading of a column, with the unit of its numbers.
+
+    Parameters
+    ----------
+    name, unit : str
+        Of the quantity; ``""`` for no unit.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> heading("delta", "deg"), heading("n1", "")
+    ('delta (deg)', 'n1')
+    """
+    return f"{name} ({unit})" if unit else name
+
+
+def regions(shape: Sequence[int], most: int = _ROWS) -> Iterator[tuple[slice, ...]]:
+    """Yield parts of a grid in the order of its points.
+
+    Parameters
+    ----------
+    shape : sequence of int
+        Of the grid.
+    most : int, optional
+        How many points a part has at most.
+
+    Yields
+    ------
+    tuple of slice
+        One for each dimension.
+
+    Examples
+    --------
+    >>> [[(cut.start, cut.stop) for cut in region] for region in regions((2, 3), 2)]
+    [[(0, 1), (0, 2)], [(0, 1), (2, 3)], [(1, 2), (0, 2)], [(1, 2), (2, 3)]]
+    """
+    whole, points = len(shape), 1
+    while whole and points * shape[whole - 1] <= most:
+        whole -= 1
+        points *= shape[whole]
+    behind = [slice(0, size) for size in shape[whole:]]
+    if not whole:
+        yield tuple(behind)
+        return
+    size, step = shape[whole - 1], max(most // points, 1)
+    for index in np.ndindex(*shape[: whole - 1]):
+        before = [slice(place, place + 1) for place in index]
+        for start in range(0, size, step):
+            yield (*before, slice(start, min(start + step, size)), *behind)
+
+
+def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
+    """Return the heading of each column: of the axes, then of the quantities of light.
+
+    Parameters
+    ----------
+    plan : Plan
+        By which the light is computed.
+    grid : SweepGrid
+        The axes.
+
+    Returns
+    -------
+    list of str
+        As they stand in a file.
+    """
+    names = variable_names(grid, plan)
+    ends = detectors_of(plan)
+    at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
+    told = [
+        heading(names[quantity.variable] + place, quantity.shown_unit)
+        for place in at
+        for quantity in QUANTITIES
+    ]
+    return [_quoted(name) for name in (*[heading(a.name, a.unit) for a in grid.axes], *told)]
+
+
+def table_columns(plan: Plan, grid: SweepGrid, region: Sequence[slice]) -> Iterator[Sequence[str]]:
+    """Yield the texts of each column for a part of a grid.
+
+    Parameters
+    ----------
+    plan : Plan
+        By which the light is computed.
+    grid : SweepGrid
+        The axes.
+    region : sequence of slice
+        The part, as `regions` has it.
+
+    Yields
+    ------
+    sequence of str
+        With all digits.
+    """
+    shape = tuple(cut.stop - cut.start for cut in region)
+    places = dict(zip(grid.sizes, range(len(shape)), strict=True))
+    for axis in grid.axes:
+        place = places[axis.dimension]
+        texts = np.array([_text(value) for value in axis.shown[region[place]].tolist()], object)
+        along = texts.reshape(-1, *(1,) * (len(shape) - 1 - place))
+        yield np.broadcast_to(along, shape).ravel().tolist()
+    lights = plan.run_all(**grid.given(region))
+    for end in detectors_of(plan):
+        for quantity in QUANTITIES:
+            numbers = quantity.of(lights[end])
+            numbers = np.degrees(numbers) if quantity.unit == "rad" else numbers
+            each = np.broadcast_to(numbers + 0.0, shape)  # It may be the same along an axis.
+            yield [repr(number) for number in each.ravel().tolist()]
+
+
+def _text(value: Any) -> str:
+    return _quoted(value) if isinstance(value, str) else repr(value)
+
+
+def _quoted(text: str) -> str:
+    """Return a cell of a table, in quotation marks where it needs them."""
+    return '"' + text.replace('"', '""') + '"' if any(each in text for each in ',"\n') else text
