@@ -144,7 +144,7 @@ def key_to(scene: Scene) -> list[Artist]:
         found.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
     if any(ray.tap for ray in scene.rays):
         found.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
-    if any(_is_dark(ray) for ray in scene.rays):
+    if any(ray.is_dark and not ray.leaves for ray in scene.rays):
         found.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
     if any(ray.leaves for ray in scene.rays):
         found.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
@@ -178,10 +178,9 @@ def _normal(scene: Scene, node: SceneNode) -> Array:
 
 
 def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
-    dark = _is_dark(ray)
-    colour, width = (FAINT, 0.9) if ray.leaves or dark else (INK, 1.4)
+    colour, width = (FAINT, 0.9) if ray.leaves or ray.is_dark else (INK, 1.4)
     ends = view.points(np.array([ray.tail, ray.head]))
-    dashes: Any = _DOTS if dark else (0, (4, 2)) if ray.tap else "-"
+    dashes: Any = _DOTS if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
     _line(ax, ends, color=colour, lw=width, ls=dashes, zorder=4.0)
     way = ends[1] - ends[0]
     length = float(np.linalg.norm(way))
@@ -194,10 +193,6 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
         ax.add_patch(head)
     if _has_ellipse(ray):
         _line(ax, view.points(_ellipse(ray)), color=ELLIPSE, lw=1.4, zorder=5.0)
-
-
-def _is_dark(ray: SceneRay) -> bool:
-    return not ray.leaves and not ray.light.intensity > 0.0
 
 
 def _has_ellipse(ray: SceneRay) -> bool:

@@ -97,7 +97,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     below = _note(ax, scene, size)
     room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
     if flat.straight:
-        lines = max(map(len, texts.values())) * 1.3 * size * inch / 72.0
+        lines = (max(map(len, texts.values())) + 0.7) * 1.3 * size * inch / 72.0
         most = _most(widest, whole.width / inch, size)
         flat = _fit_rows(ax, scene, flat, most, (room, lines))
     else:
@@ -191,9 +191,8 @@ def _face(scene: Scene, flat: FlatSheet, node: SceneNode) -> Array | None:
 
 
 def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
-    dark = not ray.leaves and not ray.light.intensity > 0.0
-    colour, width = (FAINT, 0.8) if ray.leaves or dark else (INK, 1.2)
-    style: Any = (0, (1, 2)) if dark else (0, (4, 2)) if ray.tap else "-"
+    colour, width = (FAINT, 0.8) if ray.leaves or ray.is_dark else (INK, 1.2)
+    style: Any = (0, (1, 2)) if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
     for tail, head in drawn.pieces:
         ax.plot(*np.array([tail, head]).T, color=colour, lw=width, ls=style, zorder=3)
         along = (head - tail) / np.linalg.norm(head - tail)
@@ -201,7 +200,7 @@ def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
         aside = 0.025 * np.array([-along[1], along[0]])
         foot = tip - 0.08 * along
         ax.add_patch(Polygon([tip, foot + aside, foot - aside], fc=colour, ec="none", zorder=3.1))
-    if not ray.leaves and not np.isnan(ray.light.dop):  # Dark light has none.
+    if not (ray.leaves or ray.is_dark):
         _polarisation(ax, ray, flat, drawn.middle)
 
 
