@@ -85,6 +85,14 @@ def test_no_text_in_the_pictures_of_hemispheres_is_over_another_or_cut():
         assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
 
 
+def test_no_text_in_the_pictures_in_space_is_over_another_or_cut():
+    pytest.importorskip("matplotlib")
+    example = runpy.run_path(EXAMPLES / "pictures_in_space.py")
+    for name, drawn in example["pictures"]():
+        assert not faults_of(getattr(drawn, "figure", drawn)), name
+        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
+
+
 def test_no_text_in_the_pictures_of_light_is_over_another_or_cut():
     pytest.importorskip("matplotlib")
     example = runpy.run_path(EXAMPLES / "pictures_of_light.py")

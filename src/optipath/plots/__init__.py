@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
-    from optipath.plots.space.bench import bench
-    from optipath.plots.space.geometry import geometry
+    from optipath.plots.space.optical_bench import bench
+    from optipath.plots.space.picture_in_space import geometry
     from optipath.plots.states.ellipse_picture import ellipse
     from optipath.plots.states.mueller_picture import mueller
     from optipath.plots.states.sphere_picture import poincare
@@ -59,8 +59,8 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
-    "space.bench": ["bench"],
-    "space.geometry": ["geometry"],
+    "space.optical_bench": ["bench"],
+    "space.picture_in_space": ["geometry"],
     "states.ellipse_picture": ["ellipse"],
     "states.mueller_picture": ["mueller"],
     "states.sphere_picture": ["poincare"],

@@ -27,6 +27,8 @@ _MIRROR = "#666666"
 _FRAME = 0.15
 """How long x and y of a frame are drawn, of the length of a link."""
 
+_DOTS: Any = (0, (1, 2))
+
 _NORMAL = 0.5
 """How long a normal is drawn."""
 
@@ -142,6 +144,8 @@ def key_to(scene: Scene) -> list[Artist]:
         found.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
     if any(ray.tap for ray in scene.rays):
         found.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
+    if any(ray.is_dark and not ray.leaves for ray in scene.rays):
+        found.append(Line2D([], [], color=FAINT, lw=1.0, ls=_DOTS, label="no light"))
     if any(ray.leaves for ray in scene.rays):
         found.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
     return found
@@ -174,9 +178,10 @@ def _normal(scene: Scene, node: SceneNode) -> Array:
 
 
 def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
-    colour, width = (FAINT, 0.9) if ray.leaves else (INK, 1.4)
+    colour, width = (FAINT, 0.9) if ray.leaves or ray.is_dark else (INK, 1.4)
     ends = view.points(np.array([ray.tail, ray.head]))
-    _line(ax, ends, color=colour, lw=width, ls=(0, (4, 2)) if ray.tap else "-", zorder=4.0)
+    dashes: Any = _DOTS if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
+    _line(ax, ends, color=colour, lw=width, ls=dashes, zorder=4.0)
     way = ends[1] - ends[0]
     length = float(np.linalg.norm(way))
     if length > 0.1 * scene.unit:

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
-_ASIDE = np.radians([30.0, -30.0, 55.0, -55.0])
+_ASIDE = np.radians([40.0, -40.0, 75.0, -75.0])
 """By how much taps, and lights that meet, are turned out of the way of other light."""
 
 _BESIDE = 0.6

@@ -71,6 +71,11 @@ class SceneRay(NamedTuple):
     leaves: bool
     tap: bool
 
+    @property
+    def is_dark(self) -> bool:
+        """Whether there is no light, but for rounding."""
+        return bool(np.isnan(self.light.dop))
+
 
 class ScenePlane(NamedTuple):
     """A plane of incidence, as a rectangle.

@@ -1,0 +1,84 @@
+"""What a flat picture of a set-up shows, and which set-ups it refuses."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import optipath as op
+from optipath.plots.space.bench_symbols import DIAL, ELLIPSE
+from pictures import faults_of
+
+PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "double-pass-waveplate"]
+
+
+def texts_in(ax):
+    return {text.get_text() for text in ax.texts if text.get_text()}
+
+
+def dials_of(ax, colour=ELLIPSE):
+    """The lines in dials, from their middles, 1 being the rim."""
+    lines = [line for line in ax.lines if line.get_color() == colour and line.get_zorder() > 6]
+    points = [np.array(line.get_xydata()) for line in lines]
+    return [(p - (p.min(axis=0) + p.max(axis=0)) / 2) / DIAL / 0.92 for p in points]
+
+
+@pytest.mark.parametrize("preset", PLANE)
+@pytest.mark.parametrize("size", [(9.0, 5.4), (4.5, 2.7)])
+def test_no_name_is_over_another_or_cut(preset, size):
+    figure = Figure(figsize=size, layout="constrained")
+    op.plots.bench(op.load_preset(preset), figure.add_subplot())
+    assert faults_of(figure) == []
+
+
+def test_names_and_values_stand_below_their_symbols():
+    texts = texts_in(op.plots.bench(op.load_preset("senarmont")))
+    assert {"polarizer\n0 deg", "sample\n45 deg\nretardance = 60 deg"} <= texts
+    assert "analyzer\nanalyzer = 120 deg" in texts
+
+
+def test_dials_show_the_light_between_as_malus_has_it():
+    first, second = dials_of(op.plots.bench(op.load_preset("malus"), angle="30 deg"))
+    assert np.allclose(abs(first).max(axis=0), [1.0, 0.0], atol=1e-9)
+    along = second[np.argmax(second[:, 0])]
+    assert np.allclose(along, [np.cos(np.pi / 6), 0.5], atol=1e-2)
+
+
+def test_what_a_link_turns_is_turned_in_the_dial_of_the_plate():
+    ax = op.plots.bench(op.load_preset("quartz-quarter-wave"))
+    (axis,) = dials_of(ax, "#222222")
+    way = axis[1] - axis[0]
+    assert abs(np.degrees(np.arctan2(way[1], way[0])) % 180.0 - 135.0) < 1e-6
+
+
+def test_dark_light_has_no_dial():
+    dark = dials_of(op.plots.bench(op.load_preset("malus"), angle="90 deg"))
+    assert len(dark) == 1
+
+
+def test_long_straight_benches_take_rows():
+    ax = op.plots.bench(op.load_preset("lyot-filter"))
+    below = [text for text in ax.texts if text.get_transform() == ax.transData]
+    assert len(below) == 11
+    assert len({text.get_position()[1] for text in below}) > 1
+
+
+def test_light_that_leaves_the_plane_is_refused_with_the_cure():
+    with pytest.raises(op.PathError, match=r"leaves that at 'X1'; op.plots.geometry"):
+        op.plots.bench(op.load_preset("npgr026", case="8"))
+
+
+def test_the_assignment_in_one_plane_is_drawn():
+    ax = op.plots.bench(op.load_preset("npgr026", case="1"))
+    assert {"X1\ndelta = 53 deg", "X2\nphi = 56 deg"} <= {
+        "\n".join(text.split("\n")[:2]) for text in texts_in(ax)
+    }
+
+
+def test_given_axes_are_drawn_into_and_returned():
+    given = Figure().add_subplot()
+    assert op.plots.bench(op.load_preset("malus"), given) is given
+
+
+def test_several_paths_are_refused():
+    with pytest.raises(op.PathError, match="bench draws one path"):
+        op.plots.bench(op.load_preset("malus"), angle=[0.1, 0.2])
