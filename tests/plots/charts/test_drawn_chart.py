@@ -68,7 +68,7 @@ def test_methods_have_colours_precisions_shapes_and_engines_faces():
 
 def test_the_regions_where_a_method_fails_are_named_or_those_where_it_holds():
     words = " ".join(words_of(op.plots.chart(DOCS / "chart-interface.json")))
-    assert "all but near the critical angle;" in words
+    assert "all but: near the critical angle;" in words
     assert "n near 1, grazing" in words
 
 

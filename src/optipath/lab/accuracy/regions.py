@@ -117,7 +117,17 @@ class Region:
 
 
 class Dice:
-    """Numbers for one region, made of others within 0 .. 1 that are rolled."""
+    """Numbers for one region, made of others within 0 .. 1 that are rolled.
+
+    Parameters
+    ----------
+    count : int
+        How many samples there are.
+    roll : callable
+        Returns as many numbers within 0 .. 1, others at every call.
+    precision : numpy.finfo
+        What samples are rounded to.
+    """
 
     def __init__(self, count: int, roll: Callable[[], Floats], precision: Any) -> None:
         self.count = count
@@ -125,13 +135,33 @@ class Dice:
         self._roll = roll
 
     def even(self, low: float, high: float) -> Floats:
-        """Return numbers spread evenly."""
+        """Return numbers spread evenly.
+
+        Parameters
+        ----------
+        low, high : float
+            Between which.
+
+        Returns
+        -------
+        ndarray
+        """
         numbers: Floats = low + (high - low) * self._roll()
         # What is computed from them has the digits of the precision, if that is more.
         return numbers.astype(np.result_type(self.precision.dtype, np.float64))
 
     def decades(self, low: float, high: float) -> Floats:
-        """Return numbers whose logarithms are spread evenly."""
+        """Return numbers whose logarithms are spread evenly.
+
+        Parameters
+        ----------
+        low, high : float
+            Between which, above 0.
+
+        Returns
+        -------
+        ndarray
+        """
         return 10.0 ** self.even(np.log10(low), np.log10(high))
 
     def sign(self) -> Floats:
@@ -170,7 +200,19 @@ def _beside(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
 
 
 def beside(tangent: Floats, off: Floats) -> tuple[Floats, Floats]:
-    """Return cosine and sine of what is so far, in radians, from the angle of a tangent."""
+    """Return cosine and sine of what is so far from the angle of a tangent.
+
+    Parameters
+    ----------
+    tangent : ndarray
+        Of the angle.
+    off : ndarray
+        How far, in radians, with a sign.
+
+    Returns
+    -------
+    tuple of two ndarray
+    """
     t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
     return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)
 

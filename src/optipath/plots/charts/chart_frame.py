@@ -23,7 +23,7 @@ _BESIDE = 0.31
 """The share of the width, on the left, where words stand and no marks."""
 
 
-class Frame(NamedTuple):
+class ChartFrame(NamedTuple):
     """The room of a panel from below: names of limits, marks, the frontier's name, what fails.
 
     Attributes
@@ -44,7 +44,7 @@ class Frame(NamedTuple):
     limits: int
 
     @classmethod
-    def around(cls, chart: Mapping[str, Any], panels: list[list[Mark]]) -> Frame:
+    def around(cls, chart: Mapping[str, Any], panels: list[list[Mark]]) -> ChartFrame:
         """Return the frame of all panels of a chart.
 
         Parameters
@@ -56,7 +56,7 @@ class Frame(NamedTuple):
 
         Returns
         -------
-        Frame
+        ChartFrame
         """
         marks = [mark for panel in panels for mark in panel]
         rows = dict.fromkeys(mark.method for mark in marks if mark.fails)

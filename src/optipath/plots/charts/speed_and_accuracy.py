@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from optipath.plots.charts.chart_frame import GAP, LEFT, LINE, RIGHT, WIDTH, Frame, panel_width
+from optipath.plots.charts.chart_frame import GAP, LEFT, LINE, RIGHT, WIDTH, ChartFrame, panel_width
 from optipath.plots.charts.chart_legend import EDGE, draw_legend, failing_lines, legend_rows
 from optipath.plots.charts.chart_marks import POINTS, Looks, marks_of
 from optipath.plots.charts.chart_panel import draw_panel, name_rows
@@ -46,7 +46,7 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
     """
     looks = Looks(chart)
     marks = {kind: marks_of(chart, kind) for kind in _KINDS}
-    frame = Frame.around(chart, list(marks.values()))
+    frame = ChartFrame.around(chart, list(marks.values()))
     legend = legend_rows(chart, looks)
     notes = [_notes(chart, kind, found) for kind, found in marks.items()]
     told = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
