@@ -28,7 +28,8 @@ export function drawEnergy(svg, energy) {
     bars.push(shape("rect", { x: node.x, y: node.y, width: long, height: BAR, class: "bar-of" }));
     bars.push(text([node.x - 7, node.y + 7], name, "strong halo", "end"));
   }
-  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, height), ...endNames(energy, nodes));
+  for (const each of labels) each.x = Math.min(Math.max(each.end, besides(each, nodes, energy)), width - wide(each.words) - 6);
+  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, height), ...endNames(energy, nodes, width));
   show(svg, width, height, energyInWords(energy), ...parts);
 }
 
@@ -47,8 +48,9 @@ function placeNodes(nodes, layers, room) {
     let x = left - gaps[0];
     layer.forEach((name, k) => {
       x += gaps[k];
-      Object.assign(nodes.get(name), { x, y: TOP + i * STEP, above: 0, below: 0 });
-      x += nodes.get(name).power * scale;
+      const node = nodes.get(name);
+      Object.assign(node, { x, y: TOP + i * STEP, above: 0, below: 0, right: x + node.power * scale });
+      x = node.right;
     });
   });
   return scale;
@@ -78,22 +80,34 @@ function lossOf(loss, node, scale, labels) {
   const thick = Math.min(drawn, STEP * 0.4);
   const end = Math.max(node.x + node.power * scale, node.x + node.below) + 16;
   const y = top + 10;
-  labels.push({ x: end + 2, y: y + thick / 2, words: labelOf(loss) });
+  labels.push({ node, end: end + 9, x: end, y: y + thick / 2, words: labelOf(loss) });
   const d =
     `M${a} ${top}C${a} ${y + thick} ${a + drawn / 2} ${y + thick} ${end} ${y + thick}` +
     `V${y}C${a + drawn} ${y} ${a + drawn} ${y} ${a + drawn} ${top}Z`;
   return shape("path", { d, class: `loss ${loss.kind}` });
 }
 
+/** Where there is nothing to the right of what stands beside a loss and below it. */
+function besides({ node }, nodes, energy) {
+  const near = [...nodes].filter(([, each]) => each.x > node.x && [0, 1].includes(each.layer - node.layer));
+  return Math.max(0, ...near.map(([name, each]) => each.right + endOf(name, energy)));
+}
+
+/** How far the power that an end gets is written beyond its bar. */
+function endOf(name, energy) {
+  const end = energy.ends.find((each) => each.node === name);
+  return end === undefined ? 8 : wide(end.text) + 8;
+}
+
 function lossNames(labels, height) {
   const heights = spread(labels.map((each) => each.y), 16, 12, height - 8);
-  return labels.flatMap(({ x, y, words }, i) => [
-    segment([x, y], [x + 7, heights[i]], "lead"),
-    text([x + 10, heights[i] + 4.5], words, "small halo", "start"),
+  return labels.flatMap(({ end, x, y, words }, i) => [
+    segment([end - 7, y], [x, heights[i]], "lead"),
+    text([x + 3, heights[i] + 4.5], words, "small halo", "start"),
   ]);
 }
 
-const namesOf = (labels) => labels.map(({ x, y, words }) => [x + 6, y - 9, x + 12 + wide(words), y + 9]);
+const namesOf = (labels) => labels.map(({ x, y, words }) => [x, y - 9, x + 6 + wide(words), y + 9]);
 
 /** The power of a band, written where there is room for it. */
 function bandNames(bands, boxes) {
@@ -108,8 +122,12 @@ function bandNames(bands, boxes) {
   });
 }
 
-function endNames(energy, nodes) {
+function endNames(energy, nodes, width) {
   return energy.ends
     .filter((each) => nodes.has(each.node))
-    .map((each) => text([nodes.get(each.node).x, nodes.get(each.node).y + BAR + 16], typeset(each.text), "strong halo", "start"));
+    .map((each) => {
+      const { x, y } = nodes.get(each.node);
+      const words = typeset(each.text);
+      return text([Math.min(x, width - wide(words) - 4), y + BAR + 16], words, "strong halo", "start");
+    });
 }

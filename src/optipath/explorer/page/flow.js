@@ -78,7 +78,7 @@ export function lossesOf(name, energy) {
   const leaves = energy.leaves.filter((each) => nodeOf(each.name) === name);
   const taken = energy.taken.filter((each) => each.node === name && each.power > 0);
   return [
-    ...leaves.map((each) => ({ ...each, kind: "leaves" })),
-    ...taken.map((each) => ({ ...each, kind: "taken", name: `taken by ${name}` })),
+    ...leaves.map((each) => ({ ...each, kind: "leaves", name: each.name.slice(name.length + 1) })),
+    ...taken.map((each) => ({ ...each, kind: "taken", name: "taken" })),
   ];
 }

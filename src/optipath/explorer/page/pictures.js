@@ -86,7 +86,7 @@ export class Pictures {
     canvasOf("curve").hidden = !curve;
     if (curve) this.across = drawCurve(svgOf("curve"), curve, this.about.quantities.map((each) => each.name));
     canvasOf("energy").hidden = !energy?.links.length;
-    say(by("energy-notes"), typeset([energy?.text ?? "", ...(energy?.notes ?? [])].filter(Boolean).join(" ")));
+    say(by("energy-notes"), typeset([energy?.text, ...(energy?.notes ?? []).map((each) => `(${each})`)].filter(Boolean).join(" ")));
     if (energy?.links.length) drawEnergy(svgOf("energy"), energy);
   }
 
