@@ -92,7 +92,9 @@ def test_every_control_and_picture_has_a_name(visited):
     assert len(ids) == len(set(ids))
     told = "[...document.querySelectorAll('[aria-describedby]')].flatMap((each) => each.getAttribute('aria-describedby').split(' '))"
     assert set(page.evaluate(told)) <= set(ids)
-    levels = page.evaluate("[...document.querySelectorAll('h1, h2, h3')].map((each) => +each.tagName[1])")
+    levels = page.evaluate(
+        "[...document.querySelectorAll('h1, h2, h3')].map((each) => +each.tagName[1])"
+    )
     assert levels[0] == 1
     assert all(after - before <= 1 for before, after in zip(levels, levels[1:], strict=False))
 
@@ -122,8 +124,21 @@ def test_keys_alone_reach_and_change_everything(visited):
     reached = set()
     for _ in range(80):
         page.keyboard.press("Tab")
-        reached.add(page.evaluate("document.activeElement.id || document.activeElement.ariaLabel || document.activeElement.textContent"))
-    assert {"preset", "case", "reset", "theme", "parameter-delta", "delta, slider", "place-place", "export-copy"} <= reached
+        reached.add(
+            page.evaluate(
+                "document.activeElement.id || document.activeElement.ariaLabel || document.activeElement.textContent"
+            )
+        )
+    assert {
+        "preset",
+        "case",
+        "reset",
+        "theme",
+        "parameter-delta",
+        "delta, slider",
+        "place-place",
+        "export-copy",
+    } <= reached
     assert any("arrow keys turn it" in each for each in reached)
     outline = page.evaluate("getComputedStyle(document.activeElement).outlineStyle")
     assert outline != "none"

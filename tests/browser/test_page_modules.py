@@ -82,7 +82,10 @@ def test_steps_of_a_slider_have_no_dust(it):
 
 
 def test_small_differences_are_powers_of_ten(it):
-    assert it("units.js", "it.powered(-8.21e-6)") == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
+    assert (
+        it("units.js", "it.powered(-8.21e-6)")
+        == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
+    )
     assert it("units.js", "it.powered(0.25)") == "0.25"
 
 
@@ -112,9 +115,12 @@ def test_an_axis_of_equal_numbers_has_a_length(it):
 
 
 def test_labels_are_not_over_one_another(it):
-    boxes = it("labels.js", """it.placed(
+    boxes = it(
+        "labels.js",
+        """it.placed(
       Array.from({ length: 6 }, () => ({ at: [100, 100], words: "delta = 48" })), [400, 400],
-    ).map((each) => each.box)""")
+    ).map((each) => each.box)""",
+    )
     apart = [
         one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
         for i, one in enumerate(boxes)
@@ -137,7 +143,10 @@ def test_power_that_goes_round_leads_back_once(it):
       { start: "back", end: "front", name: "c", power: 0.1, text: "0.1" },
       { start: "front", end: "eye", name: "d", power: 0.2, text: "0.2" }],
       leaves: [{ name: "back.out", power: 0.8, text: "0.8" }], taken: [], ends: [] }"""
-    found = it("flow.js", f"(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(it.flowOf({energy}))")
+    found = it(
+        "flow.js",
+        f"(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(it.flowOf({energy}))",
+    )
     assert found == {
         "layers": [["lamp"], ["front"], ["back", "eye"]],
         "back": [False, False, True, False],

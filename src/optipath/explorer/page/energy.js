@@ -9,13 +9,13 @@ import { energyInWords } from "./words.js";
 const STEP = 66;
 const BAR = 5;
 const TOP = 14;
-const BELOW = 30;
 
 /** @param {SVGElement} svg @param {object} energy an answer's */
 export function drawEnergy(svg, energy) {
   const width = widthOf(svg);
   const { nodes, layers, bands } = flowOf(energy);
-  const height = TOP + BELOW + (layers.length - 1) * STEP + BAR;
+  const below = layers.at(-1).some((name) => lossesOf(name, energy).length > 0) ? 48 : 30;
+  const height = TOP + below + (layers.length - 1) * STEP + BAR;
   const lost = [...nodes.keys()].flatMap((name) => lossesOf(name, energy));
   const aside = Math.min(0.5 * width, Math.max(40, ...lost.map((each) => wide(labelOf(each)) + 44)));
   const scale = placeNodes(nodes, layers, width - aside);
@@ -28,8 +28,9 @@ export function drawEnergy(svg, energy) {
     bars.push(shape("rect", { x: node.x, y: node.y, width: long, height: BAR, class: "bar-of" }));
     bars.push(text([node.x - 7, node.y + 7], name, "strong halo", "end"));
   }
+  const ends = endNames(energy, nodes, width);
   for (const each of labels) each.x = Math.min(Math.max(each.end, besides(each, nodes, energy)), width - wide(each.words) - 6);
-  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, height), ...endNames(energy, nodes, width));
+  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, ends, height), ...ends.map((each) => each.drawn));
   show(svg, width, height, energyInWords(energy), ...parts);
 }
 
@@ -99,8 +100,13 @@ function endOf(name, energy) {
   return end === undefined ? 8 : wide(end.text) + 8;
 }
 
-function lossNames(labels, height) {
-  const heights = spread(labels.map((each) => each.y), 16, 12, height - 8);
+function lossNames(labels, ends, height) {
+  const free = ({ x, y, words }) => {
+    const box = [x, y - 8, x + wide(words), y + 8];
+    const lowest = Math.max(0, ...ends.filter((each) => overlap(box, each.box) > 0).map((each) => each.box[3]));
+    return lowest > 0 ? lowest + 9 : y;
+  };
+  const heights = spread(labels.map(free), 16, 12, height - 8);
   return labels.flatMap(({ end, x, y, words }, i) => [
     segment([end - 7, y], [x, heights[i]], "lead"),
     text([x + 3, heights[i] + 4.5], words, "small halo", "start"),
@@ -128,6 +134,8 @@ function endNames(energy, nodes, width) {
     .map((each) => {
       const { x, y } = nodes.get(each.node);
       const words = typeset(each.text);
-      return text([Math.min(x, width - wide(words) - 4), y + BAR + 16], words, "strong halo", "start");
+      const [left, base] = [Math.min(x, width - wide(words) - 4), y + BAR + 16];
+      const box = [left, base - 12, left + wide(words), base + 4];
+      return { box, drawn: text([left, base], words, "strong halo", "start") };
     });
 }
