@@ -36,7 +36,8 @@ def test_an_address_without_a_preset_is_no_state(it):
 def test_changes_of_one_drag_are_one_step(it):
     steps = """(() => {
       const history = new it.History(1);
-      history.push(2, "slide"); history.push(3, "slide"); history.settle(); history.push(4, "slide");
+      history.push(2, "slide"); history.push(3, "slide"); history.settle();
+      history.push(4, "slide");
       const back = [history.undo(), history.undo(), history.undo()];
       return [...back, history.canUndo, history.redo(), history.redo(), history.canRedo];
     })()"""
@@ -145,7 +146,8 @@ def test_power_that_goes_round_leads_back_once(it):
       leaves: [{ name: "back.out", power: 0.8, text: "0.8" }], taken: [], ends: [] }"""
     found = it(
         "flow.js",
-        f"(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(it.flowOf({energy}))",
+        f"""(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(
+          it.flowOf({energy}))""",
     )
     assert found == {
         "layers": [["lamp"], ["front"], ["back", "eye"]],
@@ -157,7 +159,8 @@ def test_of_questions_that_wait_the_newest_is_asked(it):
     asked = """(async () => {
       const answered = [];
       let free;
-      const ask = it.newest((n) => new Promise((done) => { free = () => done(n * 10); }), (n, answer) => answered.push(answer));
+      const slow = (n) => new Promise((done) => { free = () => done(n * 10); });
+      const ask = it.newest(slow, (n, answer) => answered.push(answer));
       const all = ask(1); ask(2); ask(3);
       free(); await new Promise((done) => setTimeout(done, 0));
       free(); await all;
