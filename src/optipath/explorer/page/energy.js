@@ -17,7 +17,10 @@ export function drawEnergy(svg, energy) {
   const below = layers.at(-1).some((name) => lossesOf(name, energy).length > 0) ? 48 : 30;
   const height = TOP + below + (layers.length - 1) * STEP + BAR;
   const lost = [...nodes.keys()].flatMap((name) => lossesOf(name, energy));
-  const aside = Math.min(0.5 * width, Math.max(40, ...lost.map((each) => wide(labelOf(each)) + 44)));
+  const aside = Math.min(
+    0.5 * width,
+    Math.max(40, ...lost.map((each) => wide(labelOf(each)) + 44)),
+  );
   const scale = placeNodes(nodes, layers, width - aside);
   const parts = bands.flatMap((each) => bandOf(each, nodes, scale));
   const labels = [];
@@ -29,8 +32,17 @@ export function drawEnergy(svg, energy) {
     bars.push(text([node.x - 7, node.y + 7], name, "strong halo", "end"));
   }
   const ends = endNames(energy, nodes, width);
-  for (const each of labels) each.x = Math.min(Math.max(each.end, besides(each, nodes, energy)), width - wide(each.words) - 6);
-  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, ends, height), ...ends.map((each) => each.drawn));
+  for (const each of labels)
+    each.x = Math.min(
+      Math.max(each.end, besides(each, nodes, energy)),
+      width - wide(each.words) - 6,
+    );
+  parts.push(
+    ...bars,
+    ...bandNames(bands, namesOf(labels)),
+    ...lossNames(labels, ends, height),
+    ...ends.map((each) => each.drawn),
+  );
   show(svg, width, height, energyInWords(energy), ...parts);
 }
 
@@ -41,8 +53,15 @@ function placeNodes(nodes, layers, room) {
   const names = (layer) => layer.map((name) => wide(name) + 18);
   const power = (layer) => layer.reduce((total, name) => total + nodes.get(name).power, 0);
   const left = Math.max(...layers.map((layer) => names(layer)[0]));
-  const free = (layer) => room - left - names(layer).slice(1).reduce((total, each) => total + each, 0);
-  const scales = layers.filter((layer) => power(layer) > 0).map((layer) => Math.max(24, free(layer)) / power(layer));
+  const free = (layer) =>
+    room -
+    left -
+    names(layer)
+      .slice(1)
+      .reduce((total, each) => total + each, 0);
+  const scales = layers
+    .filter((layer) => power(layer) > 0)
+    .map((layer) => Math.max(24, free(layer)) / power(layer));
   const scale = scales.length > 0 ? Math.min(...scales) : 0;
   layers.forEach((layer, i) => {
     const gaps = names(layer);
@@ -50,7 +69,13 @@ function placeNodes(nodes, layers, room) {
     layer.forEach((name, k) => {
       x += gaps[k];
       const node = nodes.get(name);
-      Object.assign(node, { x, y: TOP + i * STEP, above: 0, below: 0, right: x + node.power * scale });
+      Object.assign(node, {
+        x,
+        y: TOP + i * STEP,
+        above: 0,
+        below: 0,
+        right: x + node.power * scale,
+      });
       x = node.right;
     });
   });
@@ -59,9 +84,16 @@ function placeNodes(nodes, layers, room) {
 
 /** Down from below one bar to another's upper side; or back up between the same sides. */
 function bandOf(band, nodes, scale) {
-  const [upper, lower] = band.back ? [nodes.get(band.to), nodes.get(band.from)] : [nodes.get(band.from), nodes.get(band.to)];
+  const [upper, lower] = band.back
+    ? [nodes.get(band.to), nodes.get(band.from)]
+    : [nodes.get(band.from), nodes.get(band.to)];
   const wideBand = Math.max(0, band.power ?? 0) * scale;
-  const [a, b, top, bottom] = [upper.x + upper.below, lower.x + lower.above, upper.y + BAR, lower.y];
+  const [a, b, top, bottom] = [
+    upper.x + upper.below,
+    lower.x + lower.above,
+    upper.y + BAR,
+    lower.y,
+  ];
   upper.below += wideBand;
   lower.above += wideBand;
   Object.assign(band, { middle: [(a + b + wideBand) / 2, (top + bottom) / 2], wide: wideBand });
@@ -90,7 +122,9 @@ function lossOf(loss, node, scale, labels) {
 
 /** Where there is nothing to the right of what stands beside a loss and below it. */
 function besides({ node }, nodes, energy) {
-  const near = [...nodes].filter(([, each]) => each.x > node.x && [0, 1].includes(each.layer - node.layer));
+  const near = [...nodes].filter(
+    ([, each]) => each.x > node.x && [0, 1].includes(each.layer - node.layer),
+  );
   return Math.max(0, ...near.map(([name, each]) => each.right + endOf(name, energy)));
 }
 
@@ -103,7 +137,10 @@ function endOf(name, energy) {
 function lossNames(labels, ends, height) {
   const free = ({ x, y, words }) => {
     const box = [x, y - 8, x + wide(words), y + 8];
-    const lowest = Math.max(0, ...ends.filter((each) => overlap(box, each.box) > 0).map((each) => each.box[3]));
+    const lowest = Math.max(
+      0,
+      ...ends.filter((each) => overlap(box, each.box) > 0).map((each) => each.box[3]),
+    );
     return lowest > 0 ? lowest + 9 : y;
   };
   const heights = spread(labels.map(free), 16, 12, height - 8);
