@@ -1,9 +1,7 @@
 """The results as Markdown, and their place in a page."""
 
-import platform
-from pathlib import Path
-
 from contenders.optipath_engines import REFERENCE
+from optipath.lab.accuracy.machine import processor
 from optipath.lab.bench.report import software
 
 BEGIN = "<!-- peers: python benchmarks/peers/race.py --write docs/performance.md -->"
@@ -59,13 +57,6 @@ def short(number):
 def machine():
     """Return the processor, and what has run in which version."""
     return {"processor": processor(), "software": software(PACKAGES)}
-
-
-def processor():
-    cpuinfo = Path("/proc/cpuinfo")
-    lines = cpuinfo.read_text(encoding="utf-8").splitlines() if cpuinfo.exists() else []
-    names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
-    return next(names, platform.processor() or platform.machine())
 
 
 def has_place(page):

@@ -39,6 +39,7 @@ _COMMANDS = (
     "explain",
     "explore",
     "materials",
+    "plot",
     "polarization",
     "presets",
     "run",

@@ -101,7 +101,7 @@ class Interface(BoundaryElement, kind="interface"):
         """Return what is reflected and what is let through, from either side.
 
         Between media that do not absorb, both are the same from the two sides (Stokes'
-        relations): r' = -r for s and for p, and power carried either way is 1 - |r|^2. Where
+        relations): r' = -r for s and for p, and power carried either way is ``1 - |r|^2``. Where
         the medium in front may be one that light does not get into, since it has been
         refracted before, what is reflected from behind is another matter. With absorption,
         r' = -r as well, but what is let through differs.

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from optipath.explorer.explored_presets import ExploredPresets
 
+_WARNINGS = (AngleWarning, LoopWarning)
 _STATE = ("case", "places", "values", "detector", "curve", "want")
 
 
@@ -116,9 +117,11 @@ class PageAnswers:
             units_are_written(),
             warnings.catch_warnings(record=True) as heard,
         ):
-            for kind in (AngleWarning, LoopWarning):
+            for kind in _WARNINGS:
                 warnings.simplefilter("always", kind)
-            yield lambda: dict.fromkeys(str(each.message) for each in heard or ())
+            yield lambda: dict.fromkeys(
+                str(each.message) for each in heard or () if issubclass(each.category, _WARNINGS)
+            )
 
 
 def _or_faults(answer: Any) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from optipath.errors import FrameError, ShapeError, shown
 from optipath.kernels.carriers.structures import turn_linear
 from optipath.light.array_axes import each_number
 from optipath.light.array_of_light import stacked_components
+from optipath.light.drawn_light import DrawnLight
 from optipath.light.exchange import LightExchange
 from optipath.light.frames import Frame
 from optipath.light.inherited_noise import noise_in
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 _LARGEST = 2.0**40
 
 
-class Light(SpectralLight, LightExchange, Unchanging):
+class Light(SpectralLight, LightExchange, DrawnLight, Unchanging):
     """A Stokes vector (S0, S1, S2, S3), or a batch of them, in one frame.
 
     Parameters

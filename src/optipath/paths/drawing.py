@@ -40,30 +40,66 @@ def draw(path: PathGraph) -> str:
     for name in order:
         element = path.element(name)
         described = f"{name.ljust(name_width)}  {element.kind.ljust(kind_width)}  "
-        lines.append((described + _values(element)).rstrip())
+        lines.append((described + "  ".join(element_values(element))).rstrip())
         links = sorted(graph.out_edges(name, keys=True))
         for link in links:
             _, end, (leaves, enters) = link
             azimuth, tap = graph.edges[link]["azimuth"], graph.edges[link].get("tap")
-            turn = "" if azimuth is None else f"  turned by {_text(azimuth, 'deg')}"
+            turn = "" if azimuth is None else f"  turned by {value_text(azimuth, 'deg')}"
             lines.append(f"  | {leaves} --> {end}.{enters}{turn}{'  (a tap)' * bool(tap)}")
         leaving = [port for port in element.outputs if f"{name}.{port}" in wiring.outlets]
         lines += [f"  | {port} --> leaves the path" for port in leaving]
     return "\n".join(lines)
 
 
-def _values(element: Element) -> str:
+def element_values(element: Element) -> list[str]:
+    """Return the values of an element that are not the usual ones, each with its name.
+
+    Parameters
+    ----------
+    element : Element
+        Any.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> element_values(op.Interface(index=op.Parameter("n"), incidence="56 deg"))
+    ['index=$n', 'incidence=56 deg']
+    """
     domains = element.domains()
     shown = []
     for f in fields(element):  # type: ignore[arg-type]
         value = getattr(element, f.name)
         if value is None or (isinstance(value, (int, float, str)) and value == f.default):
             continue
-        shown.append(f"{f.name}={_text(value, domains[f.name].unit)}")
-    return "  ".join(shown)
+        shown.append(f"{f.name}={value_text(value, domains[f.name].unit)}")
+    return shown
 
 
-def _text(value: Any, unit: str) -> str:
+def value_text(value: Any, unit: str) -> str:
+    """Return a value of an element as a drawing shows it: ``$name`` for a parameter.
+
+    Parameters
+    ----------
+    value : Any
+        What a field of an element holds.
+    unit : str
+        Of plain numbers.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> value_text(2 * op.Parameter("a"), "deg"), value_text([1.5], "")
+    ('2 * $a', '[1.5]')
+    """
     if value is FOLLOWS:
         return cure(repr(value), value.word)
     if isinstance(value, CurveValue):
@@ -74,13 +110,15 @@ def _text(value: Any, unit: str) -> str:
         n, k = value.n, value.k
         if isinstance(n, CurveValue) and isinstance(k, CurveValue) and n.curve == k.curve:
             return str(n.curve.label)
-        return f"{_text(value.n, '')} + {_text(value.k, '')} i"
+        return f"{value_text(value.n, '')} + {value_text(value.k, '')} i"
     if isinstance(value, VerticesByAngles):
         each = ((name, getattr(value, name)) for name in ("incidences", "turns"))
-        texts = (f"{name} ({', '.join(_text(a, 'deg') for a in angles)})" for name, angles in each)
+        texts = (
+            f"{name} ({', '.join(value_text(a, 'deg') for a in angles)})" for name, angles in each
+        )
         return ", ".join([*texts, *["backwards"] * value.backwards])
     if isinstance(value, tuple):
-        return "[" + ", ".join(_text(one, unit) for one in value) + "]"
+        return "[" + ", ".join(value_text(one, unit) for one in value) + "]"
     if isinstance(value, np.ndarray):
         return f"array{value.shape}"
     if isinstance(value, (int, float)):

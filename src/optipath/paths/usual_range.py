@@ -9,7 +9,6 @@ import numpy as np
 
 from optipath.errors import ParameterError
 from optipath.values.domains.axis import AxisDomain, axes_for
-from optipath.values.domains.whole_number import WholeNumber
 from optipath.values.units import dimension_of, in_unit, parse_quantity
 from optipath.values.wavelength import Wavelength
 
@@ -72,8 +71,6 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
     uses = [use for use in inputs.uses if use.value.name == name]
     seen = [*_seen(path, parameter, uses)]
     low, high = _around(seen, parameter, limits, uses)
-    if any(isinstance(use.domain, WholeNumber) for use in uses):
-        low, high = math.ceil(low), math.floor(high)
     return max(low, limits[0]), min(high, limits[1])
 
 

@@ -61,9 +61,35 @@ class ColourScale(NamedTuple):
         return cls("viridis", Normalize(0.0, largest))
 
     @classmethod
+    def ordered(cls, least: float, largest: float) -> ColourScale:
+        """Return that of numbers in an order; of one number, with some room about it.
+
+        Parameters
+        ----------
+        least, largest : float
+            The numbers at its ends.
+
+        Returns
+        -------
+        ColourScale
+        """
+        room = 0.5 * max(abs(least), 1.0) if least == largest else 0.0
+        return cls("viridis", Normalize(least - room, largest + room))
+
+    @classmethod
     def axis(cls) -> ColourScale:
         """Return that of the angles of axes in degrees, of which -90 and 90 are one."""
         return cls("twilight", Normalize(-90.0, 90.0), (-90.0, -45.0, 0.0, 45.0, 90.0))
+
+    @classmethod
+    def phase(cls) -> ColourScale:
+        """Return that of phases in degrees, of which -180 and 180 are one."""
+        return cls("twilight", Normalize(-180.0, 180.0), (-180.0, -90.0, 0.0, 90.0, 180.0))
+
+    @classmethod
+    def between(cls, least: float, largest: float) -> ColourScale:
+        """Return that of numbers between any two."""
+        return cls("viridis", Normalize(least, largest))
 
     def bar(self, image: Any, axes: Any, label: str, **options: Any) -> Colorbar:
         """Draw the colour bar of an image.

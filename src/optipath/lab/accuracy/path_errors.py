@@ -13,7 +13,7 @@ from optipath.lab.accuracy.path_reference import exact_batch
 from optipath.lab.accuracy.region_path import in_region, interfaces
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterator
 
     import networkx as nx
 
@@ -48,9 +48,8 @@ def trials(
     regions: tuple[Region, ...],
     dtype: str,
     count: int,
-    tick: Callable[[], object] = lambda: None,
-) -> list[Trial]:
-    """Return the path as given, and in every region if it has interfaces.
+) -> Iterator[Trial]:
+    """Yield the path as given, and in every region if it has interfaces.
 
     Parameters
     ----------
@@ -62,31 +61,47 @@ def trials(
         The precision that they are rounded to.
     count : int
         How many samples a region has.
-    tick : callable, optional
-        Is called after each.
+
+    Yields
+    ------
+    Trial
+    """
+    given = path.graph.copy()
+    yield Trial(AS_GIVEN, given, tuple(exact_batch(given)))
+    for region in regions if interfaces(path) else ():
+        yield trial(path, region, dtype, count)
+
+
+def trial(path: PathGraph, region: Region, dtype: str, count: int) -> Trial:
+    """Return the path with its interfaces in one region.
+
+    Parameters
+    ----------
+    path : PathGraph
+        Any path.
+    region : Region
+        Where its interfaces are drawn.
+    dtype : str
+        The precision that they are rounded to.
+    count : int
+        How many samples there are.
 
     Returns
     -------
-    list of Trial
+    Trial
     """
-    graphs = [(AS_GIVEN, path.graph.copy())]
-    if interfaces(path):
-        graphs += [(region.name, in_region(path, region, count, dtype)) for region in regions]
-    found = []
-    for name, graph in graphs:
-        found.append(Trial(name, graph, tuple(exact_batch(graph))))
-        tick()
-    return found
+    graph = in_region(path, region, count, dtype)
+    return Trial(region.name, graph, tuple(exact_batch(graph)))
 
 
-def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
+def path_errors(composer: Composer, of: Trial, dtype: str) -> Errors:
     """Return the errors of a composer's plan, at all ends together.
 
     Parameters
     ----------
     composer : Composer
         What makes the plan.
-    trial : Trial
+    of : Trial
         What it is made of.
     dtype : str
         The precision whose ulp is the unit.
@@ -96,10 +111,10 @@ def path_errors(composer: Composer, trial: Trial, dtype: str) -> Errors:
     Errors
         One row a sample and end; infinite for a plan that refuses, because a number is not finite.
     """
-    ends = list(trial.lights[0])
-    exact = [lights[end] for end in ends for lights in trial.lights]
+    ends = list(of.lights[0])
+    exact = [lights[end] for end in ends for lights in of.lights]
     try:
-        lights = composer.compose(trial.graph).run_all()
+        lights = composer.compose(of.graph).run_all()
     except ParameterError:
         shape = (len(exact), 4)
         return Errors(np.full(shape, np.inf), np.full(len(exact), np.inf))
@@ -126,7 +141,9 @@ def _comparable(light: ExactLight, power: int, read: list[bool]) -> ExactLight:
     A component that a detector does not read is 0, and has no error.
     """
     parts = zip(light.stokes, read, strict=True)
-    return light._replace(stokes=tuple(mpmath.ldexp(part, -power) * seen for part, seen in parts))
+    # A product would be rounded to the digits that mpmath works with outside of references.
+    scaled = (mpmath.ldexp(part, -power) if seen else mpmath.mpf(0) for part, seen in parts)
+    return light._replace(stokes=tuple(scaled))
 
 
 def worst_and_median(numbers: Any) -> dict[str, float]:

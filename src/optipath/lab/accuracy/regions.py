@@ -36,7 +36,7 @@ class Samples(NamedTuple):
         return np.arctan2(self.sin.astype(np.float64), self.cos.astype(np.float64))
 
 
-Draw: TypeAlias = Callable[["_Dice"], tuple["Floats", ...]]
+Draw: TypeAlias = Callable[["Dice"], tuple["Floats", ...]]
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Region:
         (3,)
         """
         random = np.random.default_rng([seed, *self.name.encode()])
-        return self._drawn(_Dice(count, lambda: random.random(count), np.finfo(dtype)), dtype)
+        return self._drawn(Dice(count, lambda: random.random(count), np.finfo(dtype)), dtype)
 
     def at(self, units: Floats, dtype: str = "float64") -> Samples:
         """Return what comes of numbers within 0 .. 1 in place of random ones.
@@ -98,7 +98,7 @@ class Region:
         array([2.55, 2.55])
         """
         rows = iter(units)
-        return self._drawn(_Dice(units.shape[1], lambda: next(rows), np.finfo(dtype)), dtype)
+        return self._drawn(Dice(units.shape[1], lambda: next(rows), np.finfo(dtype)), dtype)
 
     @property
     def dimensions(self) -> int:
@@ -109,14 +109,14 @@ class Region:
             rolls.append(np.full(1, 0.5))
             return rolls[-1]
 
-        self.draw(_Dice(1, roll, np.finfo(np.float64)))
+        self.draw(Dice(1, roll, np.finfo(np.float64)))
         return len(rolls)
 
-    def _drawn(self, dice: _Dice, dtype: str) -> Samples:
+    def _drawn(self, dice: Dice, dtype: str) -> Samples:
         return Samples(*(np.broadcast_to(x, dice.count).astype(dtype) for x in self.draw(dice)))
 
 
-class _Dice:
+class Dice:
     """Numbers for one region, made of others within 0 .. 1 that are rolled."""
 
     def __init__(self, count: int, roll: Callable[[], Floats], precision: Any) -> None:
@@ -158,59 +158,63 @@ def _at(angle: Floats | float) -> tuple[Floats, Floats]:
     return np.cos(angle), np.sin(angle)
 
 
-def _generic(dice: _Dice) -> tuple[Floats, ...]:
+def _generic(dice: Dice) -> tuple[Floats, ...]:
     angle = np.radians(dice.even(1, 89))
     return dice.even(0.1, 5), dice.some(dice.even(0.01, 8)), *_at(angle)
 
 
-def _beside(dice: _Dice, tangent: Floats) -> tuple[Floats, Floats]:
+def _beside(dice: Dice, tangent: Floats) -> tuple[Floats, Floats]:
     """Return cos and sin 1e-12 (or some roundings) to 1e-1 rad beside the angle of a tangent."""
     least = max(1e-12, 64.0 * float(dice.precision.eps))
-    off = dice.sign() * dice.decades(least, 1e-1)
+    return beside(tangent, dice.sign() * dice.decades(least, 1e-1))
+
+
+def beside(tangent: Floats, off: Floats) -> tuple[Floats, Floats]:
+    """Return cosine and sine of what is so far, in radians, from the angle of a tangent."""
     t = np.abs((tangent + np.tan(off)) / (1.0 - tangent * np.tan(off)))
     return 1.0 / np.hypot(1.0, t), t / np.hypot(1.0, t)
 
 
-def _brewster(dice: _Dice) -> tuple[Floats, ...]:
+def _brewster(dice: Dice) -> tuple[Floats, ...]:
     n = np.where(dice.sign() > 0, dice.even(1.05, 4), dice.even(0.25, 0.95))
     return n, np.zeros(1), *_beside(dice, n)
 
 
-def _critical(dice: _Dice, k: Floats) -> tuple[Floats, ...]:
+def _critical(dice: Dice, k: Floats) -> tuple[Floats, ...]:
     n = dice.even(0.2, 0.95)
     return n, k, *_beside(dice, n / np.sqrt((1 - n) * (1 + n)))
 
 
-def _total(dice: _Dice, k: Floats) -> tuple[Floats, ...]:
+def _total(dice: Dice, k: Floats) -> tuple[Floats, ...]:
     n = dice.even(0.2, 0.95)
     critical = np.arcsin(n)
     return n, k, *_at(critical + (np.pi / 2 - critical) * dice.even(0.05, 0.95))
 
 
-def _inner(dice: _Dice) -> tuple[Floats, Floats]:
+def _inner(dice: Dice) -> tuple[Floats, Floats]:
     return _at(np.radians(dice.even(1, 89)))
 
 
-def _grazing(dice: _Dice) -> tuple[Floats, Floats]:
+def _grazing(dice: Dice) -> tuple[Floats, Floats]:
     below_90 = np.radians(dice.decades(1e-12, 1e-1))
     return np.sin(below_90), np.cos(below_90)
 
 
-def _nearly_one(dice: _Dice) -> Floats:
+def _nearly_one(dice: Dice) -> Floats:
     return 1.0 + dice.sign() * dice.decades(1e-14, 1e-3)
 
 
-def _alike(dice: _Dice) -> tuple[Floats, ...]:
+def _alike(dice: Dice) -> tuple[Floats, ...]:
     n = _nearly_one(dice)
     return n, np.abs(n - 1.0) * dice.decades(0.1, 10), *_inner(dice)
 
 
-def _large(dice: _Dice) -> tuple[Floats, Floats]:
+def _large(dice: Dice) -> tuple[Floats, Floats]:
     size, phase = dice.decades(1e3, 1e8), dice.even(0.0, np.pi / 2)
     return size * np.cos(phase), size * np.sin(phase)
 
 
-def _extreme(dice: _Dice) -> tuple[Floats, ...]:
+def _extreme(dice: Dice) -> tuple[Floats, ...]:
     size, phase = dice.extreme(), dice.even(0.1, 1.4)
     k = dice.some(size * np.sin(phase))
     return size * np.cos(phase), k, *_inner(dice)

@@ -16,6 +16,7 @@ from optipath.light.frames import Frame
 from optipath.light.inherited_noise import inheriting
 from optipath.light.light import Light
 from optipath.light.mueller import cloude
+from optipath.light.mueller.drawn_matrix import DrawnMatrix
 from optipath.light.mueller.figures import MatrixFigures
 from optipath.light.mueller.matrix_noise import noise_of_product
 from optipath.light.mueller.measured_matrices import (
@@ -40,7 +41,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, Unchanging):
+class Mueller(HasReciprocal, ArrayAxes, MatrixFigures, MuellerExchange, DrawnMatrix, Unchanging):
     """What an optical system does to light: a matrix, or a batch, between two frames.
 
     ``M2 @ M1`` lets light meet M1 first; ``M @ light`` attenuates. Both turn the numbers from the

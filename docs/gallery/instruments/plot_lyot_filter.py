@@ -1,0 +1,48 @@
+"""
+Lyot's filter
+=============
+
+Four plates of quartz, each twice as thick as the one before, stand at 45 degrees between
+polarisers. Each lets through the wavelengths at which it retards by whole waves. One line of the
+spectrum passes them all: astronomers look through such filters at the Sun, in the red line of
+hydrogen, 656.28 nm.
+"""
+
+import numpy as np
+from matplotlib.figure import Figure
+
+import optipath as op
+
+THICKNESS = op.load_preset("lyot-filter").parameters["thickness"].default
+quartz = op.Crystal.named("quartz").birefringence
+wavelength = np.linspace(620e-9, 690e-9, 1401)
+
+
+def filter_of(plates):
+    """Return a filter of one plate after the other, each between polarisers."""
+    path = op.Source() >> op.Polarizer()
+    for number in range(plates):
+        plate = op.Waveplate(THICKNESS * 2**number, quartz, op.Wavelength(), "45 deg")
+        path = path >> plate >> op.Polarizer()
+    return path >> op.Detector()
+
+
+figure = Figure(figsize=(6.4, 5), layout="constrained")
+rows = figure.subplots(4, sharex=True, sharey=True)
+for plates, ax in enumerate(rows, start=1):
+    passed = filter_of(plates).trace(wavelength=wavelength).intensity
+    ax.fill_between(1e9 * wavelength, passed, color="#0072B2", alpha=0.3)
+    ax.plot(1e9 * wavelength, passed, color="#0072B2", linewidth=1)
+    ax.set(ylabel=f"{plates} plates" if plates > 1 else "1 plate", ylim=(0, 0.55))
+    ax.axvline(656.28, color="#D55E00", linewidth=0.8)
+rows[-1].set(xlabel="wavelength (nm)", xlim=(620, 690))
+figure.supylabel("intensity, over that of the lamp", fontsize="medium")
+figure
+
+# %%
+# All four together are the preset ``lyot-filter``. Between whole waves the last plate has half
+# waves, and the width of the line is its:
+
+line = op.load_preset("lyot-filter").trace(wavelength=wavelength).intensity
+width = 1e9 * np.ptp(wavelength[(line > line.max() / 2) & (abs(wavelength - 656.28e-9) < 4e-9)])
+print(f"{width:.2f} nm wide, at half of the intensity")

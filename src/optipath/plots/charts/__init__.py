@@ -1,0 +1,1 @@
+"""Charts of what the lab has measured: speed against accuracy, and where methods fail."""

@@ -1,0 +1,192 @@
+"""What the marks and lines of a chart mean, and in which regions methods fail, as words below."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from optipath.plots.charts.chart_frame import LINE, WIDTH
+from optipath.plots.charts.chart_marks import POINTS
+from optipath.plots.charts.chart_panel import FAILING
+from optipath.plots.charts.fitted_text import broken, shortened, width_of
+from optipath.plots.line_colours import FAINT, INK
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from matplotlib.artist import Artist
+    from matplotlib.figure import Figure
+
+    from optipath.plots.charts.chart_marks import Looks, Mark
+
+EDGE = 0.25
+"""Between words and the edge of a picture, in inches."""
+
+_HANDLE = 0.6
+_WAYS = {"stokes": "large: Stokes", "jones": "small: Jones"}
+_FACES = {"numba": "filled: ", "numpy": "open: "}
+
+
+def legend_rows(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
+    """Return what is explained, in rows that fit the width of a picture.
+
+    Parameters
+    ----------
+    chart : mapping
+        What was measured.
+    looks : Looks
+        How its marks look.
+
+    Returns
+    -------
+    list of list of Artist
+    """
+    return flowing(_groups(chart, looks))
+
+
+def flowing(groups: list[list[Artist]]) -> list[list[Artist]]:
+    """Return groups of what is explained in rows that fit the width of a picture.
+
+    Parameters
+    ----------
+    groups : list of list of Artist
+        Each begins a row.
+
+    Returns
+    -------
+    list of list of Artist
+    """
+    rows: list[list[Artist]] = []
+    for group in groups:
+        reached = WIDTH
+        for handle in group:
+            needed = _HANDLE + 1.03 * width_of(str(handle.get_label()), POINTS)
+            if reached + needed > WIDTH - 2 * EDGE:
+                rows.append([])
+                reached = 0.0
+            rows[-1].append(handle)
+            reached += needed
+    return rows
+
+
+def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
+    marker: dict[str, Any] = {"color": INK, "linewidth": 0, "markersize": 11}
+    fails = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
+    methods: list[Artist] = [
+        Line2D([], [], color=looks.colour(name), lw=7, label=_short(name)) for name in looks.methods
+    ]
+    shapes = [
+        Line2D([], [], marker=looks.shape(name), label=_short(name), **marker)
+        for name in looks.dtypes
+    ]
+    faces = [
+        Line2D([], [], marker="o", label=_FACES.get(name, "half: ") + _short(name))
+        for name in looks.engines
+    ]
+    for line, name in zip(faces, looks.engines, strict=True):
+        line.set(**marker, mew=1.8)
+        line.set(**looks.face(name))
+    sizes = [
+        Line2D([], [], marker="o", label=_WAYS.get(name, f"large: {_short(name)}"))
+        for name in looks.ways
+    ]
+    for line, name in zip(sizes, looks.ways, strict=True):
+        line.set(**(marker | {"markersize": looks.size(name)}))
+    ways = sizes if len(sizes) > 1 else []
+    return [
+        [*methods, *shapes],
+        [
+            *faces,
+            *ways,
+            Line2D([], [], marker="o", label="worst region", **marker),
+            Line2D([], [], marker="_", label="middle region", **(marker | {"mew": 2})),
+        ],
+        [
+            Patch(facecolor=FAILING, label=fails),
+            Line2D([], [], color=FAINT, lw=1.8, label="frontier: best that fails nowhere"),
+            Line2D([], [], color=FAINT, ls="--", label="eps"),
+            Line2D([], [], color=FAINT, lw=1.6, ls=":", label="machine's limit"),
+        ],
+    ]
+
+
+def _short(name: str) -> str:
+    return shortened(name, 3.0, POINTS)
+
+
+def draw_legend(figure: Figure, rows: list[list[Artist]], top: float) -> None:
+    """Draw rows of what is explained.
+
+    Parameters
+    ----------
+    figure : Figure
+        Where.
+    rows : list of list of Artist
+        As `legend_rows` returns them.
+    top : float
+        How far from below the first begins, in inches.
+    """
+    height = figure.get_figheight()
+    for number, row in enumerate(rows):
+        figure.legend(
+            handles=row,
+            ncols=len(row),
+            loc="upper left",
+            bbox_to_anchor=(EDGE / WIDTH, (top - LINE * 1.15 * number) / height),
+            borderaxespad=0.0,
+            borderpad=0.0,
+            frameon=False,
+            fontsize=POINTS,
+            labelcolor=INK,
+            handlelength=1.3,
+            handletextpad=0.5,
+            columnspacing=1.1,
+        )
+
+
+def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[tuple[str, str]]:
+    """Return in which regions methods fail.
+
+    Parameters
+    ----------
+    marks : list of Mark
+        Of one kind of errors.
+    regions : list of str
+        All that were measured.
+    inches : float
+        How wide a line may be.
+
+    Returns
+    -------
+    list of (str, str)
+        The method, of the first line of each, and the line.
+    """
+    found = []
+    for method in dict.fromkeys(mark.method for mark in marks if mark.fails):
+        own = [mark for mark in marks if mark.method == method]
+        where = {name: {m.dtype for m in own if name in m.fails} for name in regions}
+        failing = [name for name, dtypes in where.items() if dtypes]
+        all_of_it = {mark.dtype for mark in own}
+        begin = f"{shortened(method, 1.6, POINTS)}:"
+        if len(failing) == len(regions):
+            words = [begin, "everywhere"]
+        elif 2 * len(failing) > len(regions):
+            holds = [name for name, dtypes in where.items() if not dtypes]
+            words = [begin, "all but", *_listed(holds)]
+        else:
+            words = [begin, *_listed([_told(name, where[name], all_of_it) for name in failing])]
+        found += [
+            (method if number == 0 else "", line)
+            for number, line in enumerate(broken(words, inches, POINTS))
+        ]
+    return found
+
+
+def _told(region: str, dtypes: set[str], everything: set[str]) -> str:
+    return region if dtypes == everything else f"{region} ({', '.join(sorted(dtypes))})"
+
+
+def _listed(names: list[str]) -> list[str]:
+    return [*(f"{name};" for name in names[:-1]), names[-1]]

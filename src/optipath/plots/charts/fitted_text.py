@@ -1,0 +1,101 @@
+"""Texts that fit: as wide as they are drawn, broken into lines, shortened."""
+
+from __future__ import annotations
+
+import warnings
+from typing import TYPE_CHECKING
+
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextToPath
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_INCH = 72.0
+_MEASURE = TextToPath()
+
+
+def width_of(text: str, points: float) -> float:
+    """Return how wide a text is, in inches.
+
+    Parameters
+    ----------
+    text : str
+        One line.
+    points : float
+        The size of its letters.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> width_of("iii", 14.0) < width_of("mmm", 14.0) < 1.0
+    True
+    """
+    with warnings.catch_warnings():
+        # A letter that the font lacks is drawn as a box.
+        warnings.filterwarnings("ignore", message="Glyph")
+        font = FontProperties(size=points)
+        return float(_MEASURE.get_text_width_height_descent(text, font, ismath=False)[0]) / _INCH
+
+
+def shortened(text: str, inches: float, points: float) -> str:
+    """Return a text, or its beginning, so that it is no wider.
+
+    Parameters
+    ----------
+    text : str
+        One line.
+    inches : float
+        How much room there is.
+    points : float
+        The size of its letters.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> shortened("near the critical angle", 1.0, 14.0)
+    'near the…'
+    """
+    text = " ".join(text.split())
+    if width_of(text, points) <= inches:
+        return text
+    while text and width_of(text + "…", points) > inches:
+        text = text[:-1]
+    return text.rstrip() + "…"
+
+
+def broken(words: Iterable[str], inches: float, points: float) -> list[str]:
+    """Return lines that are no wider, made of words that stay whole where they fit.
+
+    Parameters
+    ----------
+    words : iterable of str
+        Each may have blanks, and stays on one line.
+    inches : float
+        How wide a line may be.
+    points : float
+        The size of its letters.
+
+    Returns
+    -------
+    list of str
+
+    Examples
+    --------
+    >>> broken(["grazing,", "n near 0,", "metals"], 1.7, 14.0)
+    ['grazing, n near 0,', 'metals']
+    """
+    lines: list[str] = []
+    for word in words:
+        fits = lines and width_of(f"{lines[-1]} {word}", points) <= inches
+        if fits:
+            lines[-1] += f" {word}"
+        else:
+            lines.append(shortened(word, inches, points))
+    return lines

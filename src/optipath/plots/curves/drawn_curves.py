@@ -1,0 +1,138 @@
+"""Curves of quantities of light, drawn into axes: on the left, and on the right if need be."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed
+from optipath.plots.curves.open_at_jumps import open_at_jumps
+from optipath.plots.fitting_text import label_axes
+from optipath.plots.legend_above import legend_above
+from optipath.plots.line_colours import DASHES, FAINT, INK, LINES
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+
+    from optipath.plots.curves.along_axis import AlongAxis
+    from optipath.plots.curves.drawn_quantity import DrawnQuantity
+
+    Drawn = tuple[DrawnQuantity, npt.NDArray[np.float64]]
+
+_MARGIN = 0.04
+"""The share of an axis that is left free above and below."""
+
+
+def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
+    """Return quantities by their units: the left axis, and the right one.
+
+    Raises
+    ------
+    OptipathError
+        If there are more than two units.
+    """
+    groups: dict[str, list[DrawnQuantity]] = {}
+    for each in quantities:
+        groups.setdefault(each.unit, []).append(each)
+    if len(groups) > 2:
+        kinds = [" and ".join(each.name for each in group) for group in groups.values()]
+        raise OptipathError(
+            f"{listed(kinds)} have {len(groups)} units, and a picture has two axes, left and "
+            f"right; draw those of one or two units, and the others in another picture"
+        )
+    return [*groups.values()]
+
+
+def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
+    """Draw curves, their axes, and a legend where there are several.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where; the axis on the right is made where there are two units.
+    along : AlongAxis
+        What goes along x.
+    curves : sequence of (DrawnQuantity, ndarray)
+        What goes up, each of the shape of `along.numbers`.
+
+    Raises
+    ------
+    OptipathError
+        If they have more than two units.
+    """
+    groups = units_of([quantity for quantity, _ in curves])
+    order = np.argsort(along.numbers, kind="stable")
+    numbers = along.numbers[order]
+    colours = dict(zip((q.name for q, _ in curves), range(len(curves)), strict=True))
+    sides = [ax, *(ax.twinx() for _ in groups[1:])]
+    lines: list[Any] = []
+    for side, group in zip(sides, groups, strict=True):
+        members = [(q, values[order]) for q, values in curves if q in group]
+        for quantity, values in members:
+            lines += _draw(side, numbers, quantity, values, colours[quantity.name])
+        _limit(side, members)
+        texts = [", ".join(q.short for q in group)]
+        if len(group) == 1:
+            texts.insert(0, group[0].label)
+        label_axes(side, along.labels, texts)
+    ax.set_xlim(numbers[0], numbers[-1])
+    ax.grid(visible=True, alpha=0.3)
+    mark_default(ax, along)
+    tell_missing(ax, [(q.name, values) for q, values in curves])
+    if len(curves) > 1:
+        legend_above(sides, lines)
+
+
+def _draw(
+    ax: Axes,
+    along: npt.NDArray[np.float64],
+    quantity: DrawnQuantity,
+    values: npt.NDArray[np.float64],
+    place: int,
+) -> list[Any]:
+    if quantity.period:
+        along, values = open_at_jumps(along, values, quantity.period)
+    dash = (place + place // len(LINES)) % len(DASHES)
+    style: dict[str, Any] = {"color": LINES[place % len(LINES)], "linestyle": DASHES[dash]}
+    return ax.plot(along, values, label=quantity.short, gid=quantity.name, **style)
+
+
+def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
+    """Let an axis reach from end to end where its quantities have ends, and else from 0."""
+    ends = [quantity.limits for quantity, _ in members]
+    finite = [values[np.isfinite(values)] for _, values in members]
+    if all(ends):
+        low, high = min(each[0] for each in ends if each), max(each[1] for each in ends if each)
+    else:
+        together = np.concatenate([*finite, np.zeros(1)])
+        low, high = float(together.min()), float(together.max())
+        if low == high:
+            high = 1.0
+    room = _MARGIN * (high - low)
+    ax.set_ylim(low - room, high + room)
+    if members[0][0].unit == "°":
+        step = 30.0 if high - low <= 180.0 else 90.0
+        ax.set_yticks(np.arange(low, high + 1.0, step))
+
+
+def mark_default(ax: Axes, along: AlongAxis) -> None:
+    """Mark the value by default by a thin vertical line, with its text above."""
+    if along.default is None:
+        return
+    ax.axvline(along.default, color=FAINT, linewidth=0.8, zorder=0.5, gid="default")
+    top = ax.secondary_xaxis("top")
+    top.set_xticks([along.default], labels=[along.default_text])
+    top.tick_params(length=3.0, color=FAINT, labelcolor=INK, labelsize="small")
+
+
+def tell_missing(ax: Axes, curves: Sequence[tuple[str, npt.NDArray[np.float64]]]) -> None:
+    """Say which quantities have no value anywhere, where curves are missing."""
+    missing = [name for name, values in curves if not np.isfinite(values).any()]
+    if not missing:
+        return
+    told = f"{listed(missing)}: the light has none"
+    ax.text(0.5, 0.5, told, transform=ax.transAxes, ha="center", va="center", color=INK, fontsize=9)

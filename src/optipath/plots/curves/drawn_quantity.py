@@ -1,0 +1,158 @@
+"""The quantities of light as curves and maps draw them: in degrees, with limits and labels."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optipath.errors import OptipathError, shown, unknown
+from optipath.plots.colour_scale import ColourScale
+from optipath.sweeps.labels.light_quantities import FAINT, QUANTITIES, LightQuantity
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+_ALL = (*QUANTITIES, FAINT)
+
+_LIMITS = {
+    "DoP": (0.0, 1.0),
+    "DoLP": (0.0, 1.0),
+    "ellipticity": (-1.0, 1.0),
+    "AoP": (-90.0, 90.0),
+    "psi": (0.0, 90.0),
+    "delta": (-180.0, 180.0),
+}
+"""Of quantities that have ends; angles in degrees."""
+
+_PERIODS = {"AoP": 180.0, "delta": 360.0}
+"""Of angles whose ends are one."""
+
+
+class DrawnQuantity(NamedTuple):
+    """A quantity of light as it is drawn.
+
+    Attributes
+    ----------
+    light : LightQuantity
+        What it is.
+    """
+
+    light: LightQuantity
+
+    @property
+    def name(self) -> str:
+        """What it is called, such as ``"DoLP"``."""
+        return self.light.variable
+
+    @property
+    def unit(self) -> str:
+        """The unit in which it is drawn; quantities of one share an axis."""
+        if self.light is FAINT:
+            return "log10"
+        return {"rad": "°"}.get(self.light.unit, self.light.unit)
+
+    @property
+    def label(self) -> str:
+        """Its name, what it is, and its unit."""
+        what = self.light.name.partition(",")[0]
+        return f"{self.name}: {what}{' (°)' if self.unit == '°' else ''}"
+
+    @property
+    def short(self) -> str:
+        """Its name and its unit."""
+        return f"{self.name} (°)" if self.unit == "°" else self.name
+
+    @property
+    def limits(self) -> tuple[float, float] | None:
+        """Its ends, where it has some."""
+        return _LIMITS.get(self.name)
+
+    @property
+    def period(self) -> float | None:
+        """After how many degrees an angle is the same again."""
+        return _PERIODS.get(self.name)
+
+    def of(self, numbers: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        """Return numbers of the light, in radians where they are angles, as they are drawn."""
+        plain = np.asarray(numbers, np.float64)
+        return np.degrees(plain) if self.unit == "°" else plain
+
+    def colours(self, numbers: npt.NDArray[np.float64]) -> ColourScale:
+        """Return the colours of some numbers: in order, apart from 0, or round in a circle."""
+        if self.period:
+            return ColourScale.axis() if self.name == "AoP" else ColourScale.phase()
+        low, high = self.limits or (-1.0 if self.name in {"S1", "S2", "S3"} else 0.0, np.nan)
+        if self.light is FAINT:
+            return ColourScale.between(*_ends(numbers))
+        largest = high if np.isfinite(high) else max(np.abs(_ends(numbers)))
+        return ColourScale.signed(largest) if low < 0.0 else ColourScale.share(largest)
+
+
+def _ends(numbers: npt.NDArray[np.float64]) -> tuple[float, float]:
+    """Return the least and the largest number that is finite, apart."""
+    finite = numbers[np.isfinite(numbers)]
+    if not finite.size or not finite.any():
+        return 0.0, 1.0
+    low, high = float(finite.min()), float(finite.max())
+    return (low, high) if low < high else (low - abs(low) / 2, high + abs(high) / 2)
+
+
+def drawn_quantities(names: Any) -> list[DrawnQuantity]:
+    """Return the quantities of some names, which may be written in small letters.
+
+    Parameters
+    ----------
+    names : str or sequence of str
+        Such as ``"S0"`` or ``("dop", "dolp")``.
+
+    Returns
+    -------
+    list of DrawnQuantity
+
+    Raises
+    ------
+    OptipathError
+        With every name that no quantity has, or one that stands there twice.
+
+    Examples
+    --------
+    >>> [each.label for each in drawn_quantities(("s0", "AoP"))]
+    ['S0: intensity', 'AoP: angle of polarisation (°)']
+    """
+    given = [names] if isinstance(names, str) else names
+    if not isinstance(given, (list, tuple)) or not given:
+        raise OptipathError(
+            f"quantities are {shown(names)}; give a name such as 'S0', or several: ('S0', 'DoLP')"
+        )
+    known = {each.variable: each for each in _ALL}
+    small = {name.lower(): name for name in known}
+    read = [small.get(name.lower(), name) if isinstance(name, str) else name for name in given]
+    faults = [sentence for name in read for sentence in unknown("quantity", name, known)]
+    if not faults and len({*read}) < len(read):
+        faults = [f"quantities are {shown([*given])}; give each of them once"]
+    if faults:
+        raise OptipathError(*faults)
+    return [DrawnQuantity(known[name]) for name in read]
+
+
+def drawn_quantity(name: Any) -> DrawnQuantity:
+    """Return the quantity of one name.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"S0"``.
+
+    Returns
+    -------
+    DrawnQuantity
+
+    Raises
+    ------
+    OptipathError
+        If no quantity has it.
+    """
+    if not isinstance(name, str):
+        raise OptipathError(f"quantity is {shown(name)}; give one name, such as 'S0'")
+    return drawn_quantities(name)[0]

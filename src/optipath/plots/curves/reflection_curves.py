@@ -1,0 +1,158 @@
+"""Curves of what a boundary reflects, from normal to grazing incidence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.elements.single_boundary import given_index
+from optipath.errors import OptipathError, shown
+from optipath.plots.curves.marked_angles import CLEAR, marked_angles, reflected
+from optipath.plots.fitting_text import fitting_text, label_axes
+from optipath.plots.legend_above import legend_above
+from optipath.plots.line_colours import DASHES, FAINT, INK, LINES
+from optipath.plots.own_axes import own_axes
+from optipath.values.materials import Material
+from optipath.values.wavelength import Wavelength
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_SIZE = 6.4, 4.4
+_COUNT = 901
+_NAMES = "$R_s$", "$R_p$", "$R$ unpolarised", "DoLP reflected"
+
+
+def reflection(
+    index: Any, ax: Axes | None = None, *, outside: Any = 1.0, wavelength: Any = None
+) -> Axes:
+    """Draw what a boundary reflects of light from one side, against the angle of incidence.
+
+    The reflectances of s, of p and of light without polarisation, and the degree of linear
+    polarisation of the last one, by Fresnel's equations. Marked are Brewster's angle and the
+    critical one; for what absorbs, the angle at which least of p is reflected and that of the
+    highest degree of polarisation.
+
+    Parameters
+    ----------
+    index : float, complex, str or Material
+        Of the medium behind; n + ik, or the name of a material, such as ``"gold"``.
+    ax : Axes, optional
+        Where; a figure of its own by default, ``.figure`` of what is returned.
+    outside : float, str or Material, optional
+        The index of the medium in front, which does not absorb; a k below 1e-5 n is left out.
+    wavelength : float or str, optional
+        In vacuum, in metres or with a unit; needed where an index depends on it, and only there.
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    OptipathError
+        If an index or the wavelength does not fit, or there is nothing that reflects.
+
+    Examples
+    --------
+    >>> ax = reflection("gold", wavelength="516 nm")
+    >>> [text.get_text() for text in ax.get_legend().get_texts()][-2:]
+    ['pseudo-Brewster angle 62.01°', 'highest DoLP 67.41°']
+    """
+    behind, front, told = _indices(index, outside, wavelength)
+    ratio = behind / front
+    ax = own_axes(ax, _SIZE)
+    incidence = np.linspace(0.0, np.pi / 2, _COUNT)
+    curves = reflected(ratio, incidence)
+    lines: list[Any] = []
+    for place, (name, values) in enumerate(zip(_NAMES, curves, strict=True)):
+        colour, dash = LINES[place], DASHES[place]
+        lines += ax.plot(np.degrees(incidence), values, color=colour, linestyle=dash, label=name)
+    for place, marked in enumerate(marked_angles(ratio)):
+        degrees = float(np.degrees(marked.angle))
+        label = f"{marked.name} {degrees:.2f}°"
+        colour, dash = ((INK, ":"), (FAINT, "-."))[place]
+        lines.append(ax.axvline(degrees, color=colour, linestyle=dash, zorder=1.0, label=label))
+    ax.set(xlim=(0.0, 90.0), ylim=(-0.02, 1.02))
+    ax.set_xticks(range(0, 91, 15))
+    ax.set_yticks(np.arange(0.0, 1.1, 0.2))
+    ax.grid(visible=True, alpha=0.3)
+    label_axes(
+        ax,
+        ["angle of incidence (°)", "incidence (°)"],
+        ["reflectance, degree of polarisation", "reflectance, DoLP", "R, DoLP"],
+    )
+    fitting_text(ax.set_title("", fontsize="medium"), told, ax.get_window_extent().width)
+    legend_above([ax], lines)
+    return ax
+
+
+def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float, list[str]]:
+    """Return the index behind, that in front, and titles that say both."""
+    given = {"index": index, "outside": outside}
+    media = {name: _medium(name, one) for name, one in given.items()}
+    depending = [name for name, one in media.items() if one.span != (0.0, np.inf)]
+    if depending and wavelength is None:
+        raise OptipathError(
+            f"{depending[0]} {shown(given[depending[0]])} depends on the wavelength; give one, "
+            f"such as wavelength='550 nm'"
+        )
+    if wavelength is not None and not depending:
+        raise OptipathError(
+            f"wavelength is {shown(wavelength)}, and no index depends on it; leave it out, or "
+            f"give the name of a material"
+        )
+    at = {}
+    if depending:
+        parameter = Wavelength()
+        length = float(parameter.resolve(wavelength).value)
+        media = {name: one.at(length) for name, one in media.items()}
+        at = {name: f" at {parameter.text(length)}" for name in depending}
+    numbers = {name: np.asarray(one.refractive_index) for name, one in media.items()}
+    faults = [
+        f"{name} is {shown(given[name])}; a picture is of one index"
+        for name, number in numbers.items()
+        if number.ndim
+    ]
+    behind, front = (complex(numbers[name]) if not faults else 1j for name in given)
+    if front.imag <= CLEAR * front.real:
+        front = complex(front.real)
+    if not faults and (front.imag or not front.real):
+        faults.append(
+            f"outside is {_written(front)}; give the index of a clear medium, n above 0: in one "
+            f"that absorbs, light has no angle of incidence of its own"
+        )
+    if not faults and behind == front:
+        faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
+    if faults:
+        raise OptipathError(*faults)
+    names = {name: one if isinstance(one, str) else "" for name, one in given.items()}
+    long, short = [
+        " in ".join(
+            _told(names[name] if named else "", number, at.get(name, "") if named else "")
+            for name, number in (("index", behind), ("outside", front))
+        )
+        for named in (True, False)
+    ]
+    return behind, front.real, [f"reflection: {long}", long, short]
+
+
+def _medium(name: str, given: Any) -> Material:
+    """Return the medium that an index, a name or a material stands for."""
+    if isinstance(given, Material):
+        return given
+    if isinstance(given, str) and given.strip()[:1].isalpha():
+        return Material.named(given)
+    number = np.asarray(given_index(name, given))
+    return Material(number.real.copy(), number.imag.copy())
+
+
+def _told(name: str, number: complex, at: str) -> str:
+    written = f"n = {_written(number)}"
+    return f"{name}{at}, {written}" if name else written
+
+
+def _written(index: complex) -> str:
+    n = f"{index.real:.4g}"
+    return f"{n} + {index.imag:.4g}i" if index.imag else n

@@ -1,0 +1,142 @@
+"""Texts of pictures, broken into lines that are no wider than the axes, and legends below them."""
+
+from __future__ import annotations
+
+from textwrap import fill
+from typing import TYPE_CHECKING, Any
+
+from matplotlib.font_manager import FontProperties
+from matplotlib.transforms import ScaledTranslation
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from matplotlib.axes import Axes
+
+_WIDTH = 0.58
+"""Of a letter, of the size of its font, in the middle of texts."""
+
+_LEAST = 10
+
+_NARROW = 3.0
+"""In inches."""
+
+_WHOLE: dict[str, Any] = {"break_long_words": False, "break_on_hyphens": False}
+
+_EQUAL = "\u00a0=\u00a0"
+
+_TICKS, _LINE = 20.0, 14.0
+"""How much room ticks with their numbers and a line of a label need, in points."""
+
+
+_SPHERE_LEAVES = 0.08
+"""Which share of the height of its axes a sphere leaves free below it."""
+
+
+def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
+    r"""Return a text in lines that are no wider than some axes.
+
+    Parameters
+    ----------
+    ax : Axes
+        Below, above or in which it is to stand.
+    text : str
+        One line, or several, each of which is broken by itself.
+    size : str, optional
+        Of its font, as Matplotlib names sizes.
+    less : int, optional
+        How many letters are kept free, as for the handle of a legend.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> fitting(Figure(figsize=(1.5, 1.5)).add_subplot(), "polarised part: 80 % of S0")
+    'polarised part:\n80 % of S0'
+    """
+    letters = (
+        72.0 * inches_wide(ax) / (_WIDTH * FontProperties(size=size).get_size_in_points()) - less
+    )
+    kept = max(_LEAST, int(letters))
+    # What is equal stays on one line.
+    lines = text.replace(" = ", _EQUAL).split("\n")
+    broken = "\n".join(fill(line, kept, **_WHOLE) for line in lines)
+    return broken.replace(_EQUAL, " = ")
+
+
+def head(ax: Axes, text: str) -> None:
+    """Write a title in lines that are no wider than the axes, smaller above small ones.
+
+    Parameters
+    ----------
+    ax : Axes
+        Above which it stands.
+    text : str
+        One line, or several.
+    """
+    size = "medium" if inches_wide(ax) > _NARROW else "small"
+    ax.set_title(fitting(ax, text, size), fontsize=size, parse_math=False)
+
+
+def inches_wide(ax: Axes) -> float:
+    """Return how wide axes are, in inches, before they are laid out.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> round(inches_wide(Figure(figsize=(4.0, 3.0)).add_subplot()), 3)
+    3.1
+    """
+    return float(ax.get_position().width * ax.figure.figure.get_figwidth())
+
+
+def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
+    """Draw a legend below some axes, their ticks and their label.
+
+    Parameters
+    ----------
+    ax : Axes
+        Whose label is there already.
+    handles : sequence of Artist
+        With their labels; nothing is drawn where there are none.
+    size : str, optional
+        Of the font.
+    """
+    if not handles:
+        return
+    down = _TICKS + _LINE * (1 + ax.get_xlabel().count("\n")) if ax.axison else 0.0
+    bottom = 0.0 if ax.axison else _SPHERE_LEAVES
+    scale = ax.figure.figure.dpi_scale_trans
+    place = ax.transAxes + ScaledTranslation(0.0, -down / 72.0, scale)
+    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, bottom)}
+    _draw_key(ax, handles, fontsize=size, borderaxespad=0.0, bbox_transform=place, **at)
+
+
+def key_above(ax: Axes, handles: Sequence[Any]) -> None:
+    """Draw a legend above some axes, where ticks of many lines are below them.
+
+    Parameters
+    ----------
+    ax : Axes
+        Which have no title.
+    handles : sequence of Artist
+        With their labels; nothing is drawn where there are none.
+    """
+    if handles:
+        wide = inches_wide(ax) > _NARROW
+        columns = 2 if wide and len(handles) > 1 else 1
+        size = "small" if wide else "x-small"
+        at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
+        _draw_key(ax, handles, fontsize=size, ncols=columns, **at)
+
+
+def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> None:
+    """Draw a legend of labels as they are, be they begun by "_" or with "$" within."""
+    blank = ["-"] * len(handles)
+    legend = ax.legend(handles, blank, frameon=False, **options)
+    for text, handle in zip(legend.get_texts(), handles, strict=True):
+        text.set(text=handle.get_label(), parse_math=False)
+    legend.set_zorder(10)

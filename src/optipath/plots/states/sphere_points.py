@@ -1,0 +1,106 @@
+"""Lights on the Poincaré sphere: points, full on its near half and hollow on its far one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+
+from optipath.plots.line_colours import INK
+from optipath.plots.states.poincare_sphere import is_near
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from mpl_toolkits.mplot3d import Axes3D
+
+_FAR = 0.45
+"""How much of a colour is seen on the far half."""
+
+
+def sphere_point(light: Any) -> npt.NDArray[np.float64]:
+    """Return S1, S2 and S3 over S0; NaN where light is dark or has not been read.
+
+    Parameters
+    ----------
+    light : Light
+        One, or a batch of shape (...).
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> sphere_point(op.Light([2.0, 1.0, 0.0, 0.0], exponent=-5000))
+    array([0.5, 0. , 0. ])
+    """
+    return np.asarray(light.normalized, float)[..., 1:]
+
+
+def draw_points(ax: Axes3D, points: npt.NDArray[np.float64], colours: Any, size: float) -> None:
+    """Draw points on the sphere and within it.
+
+    Parameters
+    ----------
+    ax : Axes3D
+        With the sphere.
+    points : ndarray, shape (n, 3)
+        None of them NaN.
+    colours : array_like, shape (n, 4)
+        Of each.
+    size : float
+        In points of a font.
+    """
+    near, colours = is_near(points), np.array(colours, float)
+    face = np.where(near[:, np.newaxis], colours, 1.0)
+    style: dict[str, Any] = {"s": size**2, "linewidths": 1.3, "depthshade": False, "zorder": 7}
+    if len(points):
+        ax.scatter(*points.T, facecolors=face, edgecolors=colours, **style)
+
+
+def draw_steps(
+    ax: Axes3D,
+    starts: npt.NDArray[np.float64],
+    ends: npt.NDArray[np.float64],
+    colours: Any,
+    **line: Any,
+) -> None:
+    """Draw straight lines, fainter on the far half.
+
+    Parameters
+    ----------
+    ax : Axes3D
+        With the sphere.
+    starts, ends : ndarray, shape (n, 3)
+        Lines to or from NaN are left out.
+    colours : array_like, shape (n, 4)
+        Of each.
+    **line
+        How they are drawn, as `Axes3D.plot` takes it.
+    """
+    for start, end, colour in zip(starts, ends, np.array(colours, float), strict=True):
+        if np.isfinite([start, end]).all() and (start != end).any():
+            alpha = 1.0 if is_near(0.5 * (start + end)) else _FAR
+            ax.plot(*np.transpose([start, end]), color=colour, alpha=alpha, zorder=6, **line)
+
+
+def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D]:
+    """Return the key of hollow points, where there are some.
+
+    Parameters
+    ----------
+    points : ndarray, shape (n, 3)
+        All that are drawn.
+    colour : str, optional
+        In which the key is shown.
+
+    Returns
+    -------
+    list of Line2D
+    """
+    if is_near(points).all():
+        return []
+    mark: dict[str, Any] = {"marker": "o", "markersize": 5.0, "markerfacecolor": "white"}
+    return [Line2D([], [], color=colour, linestyle="none", label="hollow: far half", **mark)]

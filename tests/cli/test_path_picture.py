@@ -1,0 +1,153 @@
+"""``optipath show --svg``: the drawing of a graph."""
+
+import re
+from itertools import pairwise
+from xml.etree import ElementTree as ET
+
+import pytest
+
+import optipath as op
+from drawn_paths import SPACE, Box, faults_of, page_of
+from optipath.cli import main
+from optipath.cli.path_picture import path_picture
+from optipath.values.cases import Case
+
+
+def upright_lines(drawn):
+    """The straight pieces of a link that leads onwards."""
+    ways, x, y = [], 0.0, 0.0
+    for piece in re.findall(r"[MVCH][^MVCH]*", drawn):
+        numbers = [float(number) for number in piece[1:].split()]
+        if piece[0] == "V":
+            ways.append(Box(drawn, x - 1, y, x + 1, numbers[0]))
+            y = numbers[0]
+        elif piece[0] == "H":
+            x = numbers[0]
+        else:
+            x, y = numbers[-2:]
+    return ways
+
+
+def texts_of(svg):
+    return [text.told for text in page_of(svg)[1]]
+
+
+def links_of(svg):
+    tags = ET.fromstring(svg).iter(f"{SPACE}path")  # noqa: S314 - our own
+    return [tag.get("d") for tag in tags if "link" in tag.get("class")]
+
+
+@pytest.mark.parametrize("name", op.preset_names())
+def test_nothing_of_a_preset_is_cut_or_lies_over_something_else(name):
+    path = op.load_preset(name)
+    svg = path_picture(path, name)
+    assert faults_of(svg) == []
+    shown = "".join("".join(texts_of(svg)).split())
+    for told in [*path, *path.parameters, *path.cases]:
+        assert "".join(told.split()) in shown
+    assert len(page_of(svg)[2]) == len(path)
+    leaves = sum(text.endswith("leaves the path") for text in texts_of(svg))
+    assert len(links_of(svg)) == path.graph.number_of_edges() + leaves
+
+
+def chain_of(count, name="{}", kind=op.Rotator):
+    path = op.PathGraph("a <b> & 'c'")
+    nodes = [path.add("lamp", op.Source())]
+    nodes += [path.add(name.format(number), kind(0.1)) for number in range(count)]
+    nodes.append(path.add("eye", op.Detector()))
+    for one, other in pairwise(nodes):
+        one >> other
+    return path
+
+
+def test_a_chain_of_sixty_elements_hangs_straight():
+    svg = path_picture(chain_of(60), "chain")
+    assert faults_of(svg) == []
+    nodes = page_of(svg)[2]
+    assert len(nodes) == 62
+    assert len({round((node.left + node.right) / 2, 6) for node in nodes}) == 1
+
+
+@pytest.mark.parametrize(
+    "name", ["偏光子{}", "e\u0301\u0301\u0301{}", "<&>{}", "\u202e{}", "w" * 200 + "{}"]
+)
+def test_names_in_any_letters_stay_in_their_boxes(name):
+    svg = path_picture(chain_of(3, name), name)
+    assert faults_of(svg) == []
+    assert "a <b> & 'c'" in texts_of(svg)
+
+
+def test_long_values_and_helps_go_on_in_the_next_line():
+    path = op.PathGraph(
+        "word " * 100,
+        {"a" * 90: Case({}), "b": Case({}, note="n" * 500)},
+    )
+    n = op.Parameter("n" * 120, 1.5, help="h" * 300)
+    stack = op.LayerStack([1.0, *[n, 1.0] * 20], incidence=0.5)
+    path.add("lamp", op.Source()) >> path.add("pile", stack)
+    path.add("eye", op.Detector())
+    path.connect("pile.transmitted", "eye.in")
+    svg = path_picture(path, "long")
+    assert faults_of(svg) == []
+    assert "".join(texts_of(svg)).count("$" + "n" * 30) == 20
+
+
+def test_a_link_over_several_layers_passes_no_box():
+    path = op.PathGraph()
+    lamp, split = path.add("lamp", op.Source()), path.add("split", op.BeamSplitter())
+    a, b = (path.add(name, op.Rotator(0.1)) for name in "ab")
+    path.add("meet", op.BeamSplitter())
+    path.add("eye", op.Detector())
+    lamp >> split
+    path.connect("split.reflected", "a.in")
+    a >> b
+    path.connect("b.out", "meet.in")
+    path.connect("split.transmitted", "meet.back")
+    path.connect("meet.transmitted", "eye.in")
+    svg = path_picture(path, "ways")
+    assert faults_of(svg) == []
+    _, _, nodes = page_of(svg)
+    upright = [line for drawn in links_of(svg) for line in upright_lines(drawn)]
+    assert not [line for line in upright for node in nodes if node.overlaps(line)]
+    assert max(map(len, map(upright_lines, links_of(svg)))) == 4
+
+
+def test_light_that_goes_round_is_led_back_upwards():
+    svg = path_picture(op.load_preset("glass-slab"), "glass-slab")
+    back = [drawn for drawn in links_of(svg) if "H" in drawn and drawn.count("V") == 3]
+    assert len(back) == 1
+    places = [float(part.split("H")[0]) for part in back[0].split("V")[1:]]
+    assert places[1] < places[2] < places[0]
+
+
+def test_a_tap_is_dashed_and_named_and_a_turn_is_told():
+    svg = path_picture(op.load_preset("ellipsometer-rough"), "ellipsometer-rough")
+    assert 'class="link tap"' in svg
+    assert {"out, a tap", "in, turned by -90 deg"} <= {*texts_of(svg)}
+
+
+def test_a_reader_of_screens_is_told_the_path_in_words():
+    root = ET.fromstring(path_picture(op.load_preset("malus"), "malus"))  # noqa: S314 - our own
+    assert root.get("role") == "img"
+    assert root.find(f"{SPACE}title").text == "The path malus"
+    assert "| out --> " in root.find(f"{SPACE}desc").text
+
+
+def test_a_path_without_parameters_has_no_legend():
+    assert "parameter" not in texts_of(path_picture(chain_of(1), "bare"))
+
+
+def test_equal_notes_of_cases_are_told_once():
+    texts = texts_of(path_picture(op.load_preset("npgr026"), "npgr026"))
+    assert "7, 8, 9" in texts
+    assert sum(text.startswith("X1 is copper") for text in texts) == 1
+
+
+@pytest.mark.parametrize("name", ["x.png", "x", "x.svg.gz"])
+def test_a_file_that_does_not_end_in_svg_is_refused(name, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert main(["show", "malus", "--svg", name]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.startswith(f"optipath: --svg draws SVG, and '{name}' ends otherwise")
+    assert not [*tmp_path.iterdir()]
