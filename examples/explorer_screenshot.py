@@ -17,7 +17,7 @@ from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.page_answers import PageAnswers
 from optipath.explorer.page_server import PageServer
 
-STATE = "preset=npgr026&case=9"
+STATE = "preset=npgr026&case=8"
 SIZE = {"width": 1440, "height": 1320}
 
 

@@ -1,49 +1,17 @@
 """The page for every window, eye and hand."""
 
 import re
+from itertools import pairwise
 
 import pytest
 
+from page_faults import CONTRASTS, CUT, OVER, UNNAMED
+
 expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'").expect
 
+FOCUSED = """(({ id, ariaLabel, textContent }) => id || ariaLabel || textContent)(
+  document.activeElement)"""
 SIZES = {"phone": (400, 800), "desk": (1280, 900), "wall": (3840, 2160)}
-
-UNNAMED = """() => [...document.querySelectorAll('button, input, select, [tabindex="0"], svg')]
-  .filter((each) => each.checkVisibility())
-  .filter((each) => !(each.ariaLabel || each.labels?.length || each.textContent.trim()))
-  .map((each) => each.outerHTML.slice(0, 120))"""
-
-CONTRASTS = """() => {
-  const parts = (colour) => colour.match(/[\\d.]+/g).map(Number);
-  const ground = (each) => {
-    for (let at = each; at; at = at.parentElement) {
-      const found = parts(getComputedStyle(at).backgroundColor);
-      if (found.length < 4 || found[3] > 0.99) return found;
-    }
-    return [255, 255, 255];
-  };
-  const light = ([r, g, b]) => [r, g, b]
-    .map((each) => each / 255)
-    .map((each) => (each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4))
-    .reduce((sum, each, i) => sum + each * [0.2126, 0.7152, 0.0722][i], 0);
-  return [...document.querySelectorAll('body *')]
-    .filter((each) => each.checkVisibility() && !each.matches(':disabled, .unseen, option'))
-    .filter((each) => [...each.childNodes].some((child) => child.nodeType === 3 && child.data.trim()))
-    .map((each) => {
-      const colour = each.matches('svg text') ? getComputedStyle(each).fill : getComputedStyle(each).color;
-      const [one, other] = [light(parts(colour)), light(ground(each))].sort((a, b) => b - a);
-      return [(one + 0.05) / (other + 0.05), each.textContent.trim().slice(0, 40)];
-    })
-    .filter(([contrast]) => contrast < 4.5);
-}"""
-
-CUT = """() => [...document.querySelectorAll('svg[role=img]')].flatMap((svg) => {
-  const room = svg.getBoundingClientRect();
-  return [...svg.querySelectorAll('text')].filter((each) => {
-    const box = each.getBoundingClientRect();
-    return box.left < room.left - 1 || box.right > room.right + 1 || box.top < room.top - 1 || box.bottom > room.bottom + 1;
-  }).map((each) => each.textContent);
-})"""
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
@@ -56,6 +24,7 @@ def test_nothing_is_cut_or_faint_in_a_window(visited_with, size, scheme):
     assert wide <= width
     assert page.evaluate(CONTRASTS) == []
     assert page.evaluate(CUT) == []
+    assert page.evaluate(OVER) == []
     ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
     brightness = sum(map(int, re.findall(r"\d+", ground)[:3]))
     assert (brightness > 600) is (scheme == "light")
@@ -90,11 +59,15 @@ def test_every_control_and_picture_has_a_name(visited):
     assert page.evaluate(UNNAMED) == []
     ids = page.evaluate("[...document.querySelectorAll('[id]')].map((each) => each.id)")
     assert len(ids) == len(set(ids))
-    told = "[...document.querySelectorAll('[aria-describedby]')].flatMap((each) => each.getAttribute('aria-describedby').split(' '))"
-    assert set(page.evaluate(told)) <= set(ids)
-    levels = page.evaluate("[...document.querySelectorAll('h1, h2, h3')].map((each) => +each.tagName[1])")
+    told = page.locator("[aria-describedby]").evaluate_all(
+        "all => all.flatMap((each) => each.getAttribute('aria-describedby').split(' '))"
+    )
+    assert set(told) <= set(ids)
+    levels = page.evaluate(
+        "[...document.querySelectorAll('h1, h2, h3')].map((each) => +each.tagName[1])"
+    )
     assert levels[0] == 1
-    assert all(after - before <= 1 for before, after in zip(levels, levels[1:], strict=False))
+    assert all(after - before <= 1 for before, after in pairwise(levels))
 
 
 def test_pictures_say_in_words_and_numbers_what_they_show(visited):
@@ -122,8 +95,17 @@ def test_keys_alone_reach_and_change_everything(visited):
     reached = set()
     for _ in range(80):
         page.keyboard.press("Tab")
-        reached.add(page.evaluate("document.activeElement.id || document.activeElement.ariaLabel || document.activeElement.textContent"))
-    assert {"preset", "case", "reset", "theme", "parameter-delta", "delta, slider", "place-place", "export-copy"} <= reached
+        reached.add(page.evaluate(FOCUSED))
+    assert {
+        "preset",
+        "case",
+        "reset",
+        "theme",
+        "parameter-delta",
+        "delta, slider",
+        "place-place",
+        "export-copy",
+    } <= reached
     assert any("arrow keys turn it" in each for each in reached)
     outline = page.evaluate("getComputedStyle(document.activeElement).outlineStyle")
     assert outline != "none"

@@ -36,7 +36,8 @@ def test_an_address_without_a_preset_is_no_state(it):
 def test_changes_of_one_drag_are_one_step(it):
     steps = """(() => {
       const history = new it.History(1);
-      history.push(2, "slide"); history.push(3, "slide"); history.settle(); history.push(4, "slide");
+      history.push(2, "slide"); history.push(3, "slide"); history.settle();
+      history.push(4, "slide");
       const back = [history.undo(), history.undo(), history.undo()];
       return [...back, history.canUndo, history.redo(), history.redo(), history.canRedo];
     })()"""
@@ -82,7 +83,10 @@ def test_steps_of_a_slider_have_no_dust(it):
 
 
 def test_small_differences_are_powers_of_ten(it):
-    assert it("units.js", "it.powered(-8.21e-6)") == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
+    assert (
+        it("units.js", "it.powered(-8.21e-6)")
+        == "-8.2\N{MIDDLE DOT}10\N{SUPERSCRIPT MINUS}\N{SUPERSCRIPT SIX}"
+    )
     assert it("units.js", "it.powered(0.25)") == "0.25"
 
 
@@ -112,9 +116,12 @@ def test_an_axis_of_equal_numbers_has_a_length(it):
 
 
 def test_labels_are_not_over_one_another(it):
-    boxes = it("labels.js", """it.placed(
+    boxes = it(
+        "labels.js",
+        """it.placed(
       Array.from({ length: 6 }, () => ({ at: [100, 100], words: "delta = 48" })), [400, 400],
-    ).map((each) => each.box)""")
+    ).map((each) => each.box)""",
+    )
     apart = [
         one[2] <= other[0] or other[2] <= one[0] or one[3] <= other[1] or other[3] <= one[1]
         for i, one in enumerate(boxes)
@@ -137,7 +144,11 @@ def test_power_that_goes_round_leads_back_once(it):
       { start: "back", end: "front", name: "c", power: 0.1, text: "0.1" },
       { start: "front", end: "eye", name: "d", power: 0.2, text: "0.2" }],
       leaves: [{ name: "back.out", power: 0.8, text: "0.8" }], taken: [], ends: [] }"""
-    found = it("flow.js", f"(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(it.flowOf({energy}))")
+    found = it(
+        "flow.js",
+        f"""(({{ layers, bands }}) => ({{ layers, back: bands.map((each) => each.back) }}))(
+          it.flowOf({energy}))""",
+    )
     assert found == {
         "layers": [["lamp"], ["front"], ["back", "eye"]],
         "back": [False, False, True, False],
@@ -148,7 +159,8 @@ def test_of_questions_that_wait_the_newest_is_asked(it):
     asked = """(async () => {
       const answered = [];
       let free;
-      const ask = it.newest((n) => new Promise((done) => { free = () => done(n * 10); }), (n, answer) => answered.push(answer));
+      const slow = (n) => new Promise((done) => { free = () => done(n * 10); });
+      const ask = it.newest(slow, (n, answer) => answered.push(answer));
       const all = ask(1); ask(2); ask(3);
       free(); await new Promise((done) => setTimeout(done, 0));
       free(); await all;

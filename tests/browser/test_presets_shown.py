@@ -3,6 +3,7 @@
 import pytest
 
 import optipath as op
+from page_faults import CUT, OVER
 
 expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'").expect
 
@@ -22,4 +23,6 @@ def test_a_preset_is_shown_whole(stayed, name):
     for picture in DRAWN:
         assert page.locator(f"[data-picture={picture}] svg > *").count() > 1, picture
     assert "NaN" not in page.locator("main").inner_html()
+    assert page.evaluate(CUT) == []
+    assert page.evaluate(OVER) == []
     assert stayed.complaints == []

@@ -1,4 +1,4 @@
-/** Questions to the server: one is under way at a time, and of those that wait the newest is asked. */
+/** Questions to the server: one at a time, and of those that wait the newest. */
 
 /** @param {string} route @returns {Promise<any>} */
 export async function get(route) {

@@ -8,7 +8,9 @@ export class Controls {
   /** @param {HTMLElement} root @param {object} about of the preset @param {object} actions */
   constructor(root, about, actions) {
     this.about = about;
-    this.rows = new Map(about.parameters.map((each) => [each.name, new ParameterRow(each, actions)]));
+    this.rows = new Map(
+      about.parameters.map((each) => [each.name, new ParameterRow(each, actions)]),
+    );
     this.places = new Map(about.choices.map((each) => [each.name, placeOf(each, actions)]));
     root.replaceChildren(
       element("h2", {}, "Parameters"),
@@ -28,9 +30,11 @@ export class Controls {
 
   /** What holds without an answer: the choices, and values as they were given. */
   choose(state) {
-    for (const [name, { select, preset }] of this.places) select.value = state.places[name] ?? preset;
+    for (const [name, { select, preset }] of this.places)
+      select.value = state.places[name] ?? preset;
     by("case").value = state.case ?? "";
-    for (const row of this.rows.values()) row.root.hidden = !takesPart(row.about, state, this.about);
+    for (const row of this.rows.values())
+      row.root.hidden = !takesPart(row.about, state, this.about);
     for (const [name, text] of Object.entries(state.values)) this.rows.get(name)?.keep(text);
   }
 
@@ -49,13 +53,22 @@ export class Controls {
 
 function placeOf(choice, actions) {
   const id = `place-${choice.name}`;
-  const select = element("select", { id, "aria-describedby": `${id}-help ${id}-fault` }, ...choice.words.map((each) => option(each)));
+  const select = element(
+    "select",
+    { id, "aria-describedby": `${id}-help ${id}-fault` },
+    ...choice.words.map((each) => option(each)),
+  );
   select.addEventListener("change", () => actions.place(choice.name, select.value));
   const fault = element("p", { className: "fault", id: `${id}-fault`, hidden: true });
   const root = element(
     "div",
     { className: "parameter" },
-    element("div", { className: "head" }, element("label", { for: id }, choice.name), element("div", { className: "fields" }, select)),
+    element(
+      "div",
+      { className: "head" },
+      element("label", { for: id }, choice.name),
+      element("div", { className: "fields" }, select),
+    ),
     element("p", { className: "help", id: `${id}-help` }, choice.help),
     fault,
   );
@@ -63,6 +76,9 @@ function placeOf(choice, actions) {
 }
 
 function fillCases(about) {
-  by("case").replaceChildren(option("", "none: defaults"), ...about.cases.map((each) => option(each.name)));
+  by("case").replaceChildren(
+    option("", "none: defaults"),
+    ...about.cases.map((each) => option(each.name)),
+  );
   by("case").disabled = about.cases.length === 0;
 }

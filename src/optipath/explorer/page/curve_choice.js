@@ -6,17 +6,32 @@ import { takesPart } from "./state.js";
 const field = (words, made) => element("label", { className: "named" }, `${words} `, made);
 
 export class CurveChoice {
-  /** @param {object} about of the preset @param {(change: object, key: string|null) => void} change */
+  /**
+   * @param {object} about of the preset
+   * @param {(change: object, key: string|null) => void} change
+   */
   constructor(about, change) {
     this.about = about;
     this.able = about.parameters.filter((each) => each.slider && !each.bound && !each.array);
     this.x = element("select", {}, ...this.able.map((each) => option(each.name)));
-    this.from = element("input", { type: "text", autocomplete: "off", "aria-describedby": "curve-fault" });
-    this.to = element("input", { type: "text", autocomplete: "off", "aria-describedby": "curve-fault" });
+    this.from = element("input", {
+      type: "text",
+      autocomplete: "off",
+      "aria-describedby": "curve-fault",
+    });
+    this.to = element("input", {
+      type: "text",
+      autocomplete: "off",
+      "aria-describedby": "curve-fault",
+    });
     this.x.addEventListener("change", () => change({ x: this.x.value, from: "", to: "" }, null));
     this.from.addEventListener("change", () => change({ from: this.from.value.trim() }, null));
     this.to.addEventListener("change", () => change({ to: this.to.value.trim() }, null));
-    by("curve-range").replaceChildren(field("against", this.x), field("from", this.from), field("to", this.to));
+    by("curve-range").replaceChildren(
+      field("against", this.x),
+      field("from", this.from),
+      field("to", this.to),
+    );
     this.chips = about.quantities.map((each) =>
       chip(each.name, false, () => change({ y: this.toggled(each.name) }, null)),
     );
@@ -49,11 +64,18 @@ export class CurveChoice {
     this.now = state.curve.y;
     const asked = this.asked({ ...state, curve: { ...state.curve, y: ["S0"] } });
     if (asked === null) return;
-    [...this.x.options].forEach((each, i) => (each.hidden = !takesPart(this.able[i], state, this.about)));
+    [...this.x.options].forEach(
+      (each, i) => (each.hidden = !takesPart(this.able[i], state, this.about)),
+    );
     this.x.value = asked.x;
-    for (const [field, text] of [[this.from, asked.from], [this.to, asked.to]]) {
+    for (const [field, text] of [
+      [this.from, asked.from],
+      [this.to, asked.to],
+    ]) {
       if (document.activeElement !== field) field.value = text;
     }
-    this.chips.forEach((each) => each.setAttribute("aria-pressed", String(this.now.includes(each.textContent))));
+    this.chips.forEach((each) =>
+      each.setAttribute("aria-pressed", String(this.now.includes(each.textContent))),
+    );
   }
 }

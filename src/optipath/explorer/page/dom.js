@@ -16,7 +16,11 @@ export const by = (id) => document.getElementById(id);
 
 /** A button that is pressed or not. */
 export function chip(words, pressed, click) {
-  const made = element("button", { type: "button", className: "chip", "aria-pressed": String(pressed) }, words);
+  const made = element(
+    "button",
+    { type: "button", className: "chip", "aria-pressed": String(pressed) },
+    words,
+  );
   made.addEventListener("click", click);
   return made;
 }

@@ -40,11 +40,20 @@ function axes(at, middle) {
 
 /** The long axis and its angle from x. */
 function angle(at, middle, aop) {
-  const turn = (degrees) => [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+  const turn = (degrees) => [
+    Math.cos((degrees * Math.PI) / 180),
+    Math.sin((degrees * Math.PI) / 180),
+  ];
   const along = turn(aop);
-  const arc = Array.from({ length: 25 }, (_, i) => at(turn((aop * i) / 24).map((each) => 0.34 * each)));
+  const arc = Array.from({ length: 25 }, (_, i) =>
+    at(turn((aop * i) / 24).map((each) => 0.34 * each)),
+  );
   return [
-    segment(at(along.map((each) => -1.08 * each)), at(along.map((each) => 1.08 * each)), "axis dashed"),
+    segment(
+      at(along.map((each) => -1.08 * each)),
+      at(along.map((each) => 1.08 * each)),
+      "axis dashed",
+    ),
     line(arc, "angle"),
   ];
 }
@@ -59,7 +68,12 @@ function ends(curve) {
   const direction = [one[0] - other[0], one[1] - other[1]];
   return [
     head(one, direction, 13, "field-tip"),
-    head(other, direction.map((each) => -each), 13, "field-tip"),
+    head(
+      other,
+      direction.map((each) => -each),
+      13,
+      "field-tip",
+    ),
   ];
 }
 
@@ -80,5 +94,7 @@ function nothing(light) {
 function caption(light) {
   const { handedness, dop } = light.ellipse;
   if (light.ellipse.points === null) return isDark(light) ? "dark" : "unpolarised";
-  return dop < 0.9995 ? `${handedness}, ${Number((100 * dop).toPrecision(3))} % polarised` : handedness;
+  return dop < 0.9995
+    ? `${handedness}, ${Number((100 * dop).toPrecision(3))} % polarised`
+    : handedness;
 }

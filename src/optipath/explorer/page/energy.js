@@ -9,15 +9,18 @@ import { energyInWords } from "./words.js";
 const STEP = 66;
 const BAR = 5;
 const TOP = 14;
-const BELOW = 30;
 
 /** @param {SVGElement} svg @param {object} energy an answer's */
 export function drawEnergy(svg, energy) {
   const width = widthOf(svg);
   const { nodes, layers, bands } = flowOf(energy);
-  const height = TOP + BELOW + (layers.length - 1) * STEP + BAR;
+  const below = layers.at(-1).some((name) => lossesOf(name, energy).length > 0) ? 48 : 30;
+  const height = TOP + below + (layers.length - 1) * STEP + BAR;
   const lost = [...nodes.keys()].flatMap((name) => lossesOf(name, energy));
-  const aside = Math.min(0.5 * width, Math.max(40, ...lost.map((each) => wide(labelOf(each)) + 44)));
+  const aside = Math.min(
+    0.5 * width,
+    Math.max(40, ...lost.map((each) => wide(labelOf(each)) + 44)),
+  );
   const scale = placeNodes(nodes, layers, width - aside);
   const parts = bands.flatMap((each) => bandOf(each, nodes, scale));
   const labels = [];
@@ -28,7 +31,18 @@ export function drawEnergy(svg, energy) {
     bars.push(shape("rect", { x: node.x, y: node.y, width: long, height: BAR, class: "bar-of" }));
     bars.push(text([node.x - 7, node.y + 7], name, "strong halo", "end"));
   }
-  parts.push(...bars, ...bandNames(bands, namesOf(labels)), ...lossNames(labels, height), ...endNames(energy, nodes));
+  const ends = endNames(energy, nodes, width);
+  for (const each of labels)
+    each.x = Math.min(
+      Math.max(each.end, besides(each, nodes, energy)),
+      width - wide(each.words) - 6,
+    );
+  parts.push(
+    ...bars,
+    ...bandNames(bands, namesOf(labels)),
+    ...lossNames(labels, ends, height),
+    ...ends.map((each) => each.drawn),
+  );
   show(svg, width, height, energyInWords(energy), ...parts);
 }
 
@@ -39,16 +53,30 @@ function placeNodes(nodes, layers, room) {
   const names = (layer) => layer.map((name) => wide(name) + 18);
   const power = (layer) => layer.reduce((total, name) => total + nodes.get(name).power, 0);
   const left = Math.max(...layers.map((layer) => names(layer)[0]));
-  const free = (layer) => room - left - names(layer).slice(1).reduce((total, each) => total + each, 0);
-  const scales = layers.filter((layer) => power(layer) > 0).map((layer) => Math.max(24, free(layer)) / power(layer));
+  const free = (layer) =>
+    room -
+    left -
+    names(layer)
+      .slice(1)
+      .reduce((total, each) => total + each, 0);
+  const scales = layers
+    .filter((layer) => power(layer) > 0)
+    .map((layer) => Math.max(24, free(layer)) / power(layer));
   const scale = scales.length > 0 ? Math.min(...scales) : 0;
   layers.forEach((layer, i) => {
     const gaps = names(layer);
     let x = left - gaps[0];
     layer.forEach((name, k) => {
       x += gaps[k];
-      Object.assign(nodes.get(name), { x, y: TOP + i * STEP, above: 0, below: 0 });
-      x += nodes.get(name).power * scale;
+      const node = nodes.get(name);
+      Object.assign(node, {
+        x,
+        y: TOP + i * STEP,
+        above: 0,
+        below: 0,
+        right: x + node.power * scale,
+      });
+      x = node.right;
     });
   });
   return scale;
@@ -56,9 +84,16 @@ function placeNodes(nodes, layers, room) {
 
 /** Down from below one bar to another's upper side; or back up between the same sides. */
 function bandOf(band, nodes, scale) {
-  const [upper, lower] = band.back ? [nodes.get(band.to), nodes.get(band.from)] : [nodes.get(band.from), nodes.get(band.to)];
+  const [upper, lower] = band.back
+    ? [nodes.get(band.to), nodes.get(band.from)]
+    : [nodes.get(band.from), nodes.get(band.to)];
   const wideBand = Math.max(0, band.power ?? 0) * scale;
-  const [a, b, top, bottom] = [upper.x + upper.below, lower.x + lower.above, upper.y + BAR, lower.y];
+  const [a, b, top, bottom] = [
+    upper.x + upper.below,
+    lower.x + lower.above,
+    upper.y + BAR,
+    lower.y,
+  ];
   upper.below += wideBand;
   lower.above += wideBand;
   Object.assign(band, { middle: [(a + b + wideBand) / 2, (top + bottom) / 2], wide: wideBand });
@@ -78,22 +113,44 @@ function lossOf(loss, node, scale, labels) {
   const thick = Math.min(drawn, STEP * 0.4);
   const end = Math.max(node.x + node.power * scale, node.x + node.below) + 16;
   const y = top + 10;
-  labels.push({ x: end + 2, y: y + thick / 2, words: labelOf(loss) });
+  labels.push({ node, end: end + 9, x: end, y: y + thick / 2, words: labelOf(loss) });
   const d =
     `M${a} ${top}C${a} ${y + thick} ${a + drawn / 2} ${y + thick} ${end} ${y + thick}` +
     `V${y}C${a + drawn} ${y} ${a + drawn} ${y} ${a + drawn} ${top}Z`;
   return shape("path", { d, class: `loss ${loss.kind}` });
 }
 
-function lossNames(labels, height) {
-  const heights = spread(labels.map((each) => each.y), 16, 12, height - 8);
-  return labels.flatMap(({ x, y, words }, i) => [
-    segment([x, y], [x + 7, heights[i]], "lead"),
-    text([x + 10, heights[i] + 4.5], words, "small halo", "start"),
+/** Where there is nothing to the right of what stands beside a loss and below it. */
+function besides({ node }, nodes, energy) {
+  const near = [...nodes].filter(
+    ([, each]) => each.x > node.x && [0, 1].includes(each.layer - node.layer),
+  );
+  return Math.max(0, ...near.map(([name, each]) => each.right + endOf(name, energy)));
+}
+
+/** How far the power that an end gets is written beyond its bar. */
+function endOf(name, energy) {
+  const end = energy.ends.find((each) => each.node === name);
+  return end === undefined ? 8 : wide(end.text) + 8;
+}
+
+function lossNames(labels, ends, height) {
+  const free = ({ x, y, words }) => {
+    const box = [x, y - 8, x + wide(words), y + 8];
+    const lowest = Math.max(
+      0,
+      ...ends.filter((each) => overlap(box, each.box) > 0).map((each) => each.box[3]),
+    );
+    return lowest > 0 ? lowest + 9 : y;
+  };
+  const heights = spread(labels.map(free), 16, 12, height - 8);
+  return labels.flatMap(({ end, x, y, words }, i) => [
+    segment([end - 7, y], [x, heights[i]], "lead"),
+    text([x + 3, heights[i] + 4.5], words, "small halo", "start"),
   ]);
 }
 
-const namesOf = (labels) => labels.map(({ x, y, words }) => [x + 6, y - 9, x + 12 + wide(words), y + 9]);
+const namesOf = (labels) => labels.map(({ x, y, words }) => [x, y - 9, x + 6 + wide(words), y + 9]);
 
 /** The power of a band, written where there is room for it. */
 function bandNames(bands, boxes) {
@@ -108,8 +165,14 @@ function bandNames(bands, boxes) {
   });
 }
 
-function endNames(energy, nodes) {
+function endNames(energy, nodes, width) {
   return energy.ends
     .filter((each) => nodes.has(each.node))
-    .map((each) => text([nodes.get(each.node).x, nodes.get(each.node).y + BAR + 16], typeset(each.text), "strong halo", "start"));
+    .map((each) => {
+      const { x, y } = nodes.get(each.node);
+      const words = typeset(each.text);
+      const [left, base] = [Math.min(x, width - wide(words) - 4), y + BAR + 16];
+      const box = [left, base - 12, left + wide(words), base + 4];
+      return { box, drawn: text([left, base], words, "strong halo", "start") };
+    });
 }

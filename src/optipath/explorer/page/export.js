@@ -3,17 +3,36 @@
 import { post } from "./api.js";
 import { by, chip, element } from "./dom.js";
 
-const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-opacity", "stroke-dasharray", "stroke-linecap", "stroke-linejoin", "opacity", "font-family", "font-size", "font-style", "font-weight", "paint-order"];
+const LOOKS = [
+  "fill",
+  "fill-opacity",
+  "stroke",
+  "stroke-width",
+  "stroke-opacity",
+  "stroke-dasharray",
+  "stroke-linecap",
+  "stroke-linejoin",
+  "opacity",
+  "font-family",
+  "font-size",
+  "font-style",
+  "font-weight",
+  "paint-order",
+];
 const SHARP = 3;
 
-/** A picture as a file of its own: its looks are written into it, texts stay texts. @param {SVGElement} svg */
+/** A picture as a file of its own: its looks are written into it, texts stay texts. */
 export function svgText(svg) {
   const copy = svg.cloneNode(true);
   const originals = [svg, ...svg.querySelectorAll("*")];
   [copy, ...copy.querySelectorAll("*")].forEach((each, i) => {
     const style = getComputedStyle(originals[i]);
-    const looks = each.tagName === "text" || each === copy ? LOOKS : LOOKS.filter((look) => !look.startsWith("font"));
-    for (const look of each.tagName === "g" ? [] : looks) each.setAttribute(look, style.getPropertyValue(look));
+    const looks =
+      each.tagName === "text" || each === copy
+        ? LOOKS
+        : LOOKS.filter((look) => !look.startsWith("font"));
+    for (const look of each.tagName === "g" ? [] : looks)
+      each.setAttribute(look, style.getPropertyValue(look));
     each.removeAttribute("class");
   });
   const [, , width, height] = svg.getAttribute("viewBox").split(" ");
@@ -21,7 +40,12 @@ export function svgText(svg) {
   copy.setAttribute("width", width);
   copy.setAttribute("height", height);
   const ground = document.createElementNS("http://www.w3.org/2000/svg", "rect");
-  for (const [key, value] of Object.entries({ width, height, fill: getComputedStyle(svg.closest(".card")).backgroundColor })) ground.setAttribute(key, value);
+  for (const [key, value] of Object.entries({
+    width,
+    height,
+    fill: getComputedStyle(svg.closest(".card")).backgroundColor,
+  }))
+    ground.setAttribute(key, value);
   const title = document.createElementNS("http://www.w3.org/2000/svg", "title");
   title.textContent = svg.getAttribute("aria-label");
   copy.prepend(title, ground);
@@ -60,12 +84,23 @@ export function addSaving(stem) {
     const kind = figure.dataset.picture;
     const title = figure.querySelector("h3").textContent;
     const button = (form, make) => {
-      const made = element("button", { type: "button", className: "quiet", "aria-label": `Save ${title} as ${form}` }, form);
-      made.addEventListener("click", async () => save(`${stem()}-${kind}.${form.toLowerCase()}`, await make(figure.querySelector("svg"))));
+      const made = element(
+        "button",
+        { type: "button", className: "quiet", "aria-label": `Save ${title} as ${form}` },
+        form,
+      );
+      made.addEventListener("click", async () =>
+        save(`${stem()}-${kind}.${form.toLowerCase()}`, await make(figure.querySelector("svg"))),
+      );
       return made;
     };
     figure.querySelector("figcaption").append(
-      element("span", { className: "tools" }, button("SVG", (svg) => new Blob([svgText(svg)], { type: "image/svg+xml" })), button("PNG", pngBlob)),
+      element(
+        "span",
+        { className: "tools" },
+        button("SVG", (svg) => new Blob([svgText(svg)], { type: "image/svg+xml" })),
+        button("PNG", pngBlob),
+      ),
     );
   }
 }
@@ -79,9 +114,13 @@ export class Texts {
     this.question = question;
     this.form = "python";
     this.answer = null;
-    this.chips = Object.entries(FORMS).map(([form, words]) => chip(words, form === this.form, () => this.choose(form)));
+    this.chips = Object.entries(FORMS).map(([form, words]) =>
+      chip(words, form === this.form, () => this.choose(form)),
+    );
     by("export-forms").replaceChildren(...this.chips);
-    by("export-copy").addEventListener("click", () => copy(this.answer?.text ?? "", by("export-said")));
+    by("export-copy").addEventListener("click", () =>
+      copy(this.answer?.text ?? "", by("export-said")),
+    );
     by("export-save").addEventListener("click", () => {
       if (this.answer) save(this.answer.name, new Blob([this.answer.text], { type: "text/plain" }));
     });
@@ -89,7 +128,9 @@ export class Texts {
 
   choose(form) {
     this.form = form;
-    Object.keys(FORMS).forEach((each, i) => this.chips[i].setAttribute("aria-pressed", String(each === form)));
+    Object.keys(FORMS).forEach((each, i) =>
+      this.chips[i].setAttribute("aria-pressed", String(each === form)),
+    );
     return this.refresh();
   }
 
@@ -101,7 +142,8 @@ export class Texts {
     if (form !== this.form) return;
     const faults = answer.faults ?? [];
     this.answer = faults.length > 0 ? null : answer;
-    by("export-text").textContent = faults.length > 0 ? faults.map((each) => each.sentence).join("\n") : answer.text;
+    by("export-text").textContent =
+      faults.length > 0 ? faults.map((each) => each.sentence).join("\n") : answer.text;
     for (const id of ["export-copy", "export-save"]) by(id).disabled = this.answer === null;
   }
 }

@@ -6,20 +6,30 @@ const sum = (list) => list.reduce((total, each) => total + Math.max(0, each.powe
 
 /**
  * @param {object} energy an answer's
- * @returns {{nodes: Map<string, {layer: number, power: number}>, bands: object[], layers: string[][]}}
+ * @returns {{nodes: Map<string, object>, bands: object[], layers: string[][]}}
  *   `power`, by which a node is wide, is what goes in from above and back out there, or what goes
  *   out below and comes back in there; bands that lead back up are marked. A tap takes nothing.
  */
 export function flowOf(energy) {
-  const bands = energy.links.map((each) => ({ ...each, power: each.tap ? 0 : each.power, from: nodeOf(each.start), to: nodeOf(each.end) }));
+  const bands = energy.links.map((each) => ({
+    ...each,
+    power: each.tap ? 0 : each.power,
+    from: nodeOf(each.start),
+    to: nodeOf(each.end),
+  }));
   const names = [...new Set(bands.flatMap(({ from, to }) => [from, to]))];
   const closing = leadingBack(names, bands);
   for (const each of bands) each.back = closing.has(each);
-  const layer = layersOf(names, bands.filter((each) => !each.back));
+  const layer = layersOf(
+    names,
+    bands.filter((each) => !each.back),
+  );
   const layers = [];
   for (const name of names) (layers[layer.get(name)] ??= []).push(name);
   order(layers, bands);
-  const nodes = new Map(names.map((name) => [name, { layer: layer.get(name), power: across(name, bands, energy) }]));
+  const nodes = new Map(
+    names.map((name) => [name, { layer: layer.get(name), power: across(name, bands, energy) }]),
+  );
   return { nodes, layers, bands };
 }
 
@@ -41,9 +51,13 @@ function layersOf(names, forth) {
 function order(layers, bands) {
   layers.forEach((names, i) => {
     const place = (name) => {
-      const above = bands.filter((each) => each.to === name && !each.back).map((each) => (layers[i - 1] ?? []).indexOf(each.from));
+      const above = bands
+        .filter((each) => each.to === name && !each.back)
+        .map((each) => (layers[i - 1] ?? []).indexOf(each.from));
       const known = above.filter((each) => each >= 0);
-      return known.length > 0 ? sum(known.map((power) => ({ power }))) / known.length : names.length;
+      return known.length > 0
+        ? sum(known.map((power) => ({ power }))) / known.length
+        : names.length;
     };
     const places = new Map(names.map((name) => [name, place(name)]));
     names.sort((one, other) => places.get(one) - places.get(other));
@@ -63,7 +77,8 @@ function leadingBack(names, bands) {
     state.set(name, "done");
   };
   const entered = new Set(bands.map((each) => each.to));
-  for (const name of [...names.filter((each) => !entered.has(each)), ...names]) if (!state.has(name)) visit(name);
+  for (const name of [...names.filter((each) => !entered.has(each)), ...names])
+    if (!state.has(name)) visit(name);
   return back;
 }
 
@@ -78,7 +93,7 @@ export function lossesOf(name, energy) {
   const leaves = energy.leaves.filter((each) => nodeOf(each.name) === name);
   const taken = energy.taken.filter((each) => each.node === name && each.power > 0);
   return [
-    ...leaves.map((each) => ({ ...each, kind: "leaves" })),
-    ...taken.map((each) => ({ ...each, kind: "taken", name: `taken by ${name}` })),
+    ...leaves.map((each) => ({ ...each, kind: "leaves", name: each.name.slice(name.length + 1) })),
+    ...taken.map((each) => ({ ...each, kind: "taken", name: "taken" })),
   ];
 }

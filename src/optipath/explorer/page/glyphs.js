@@ -18,7 +18,12 @@ export function glyph(node, at, size) {
   if (sides === null) return [dot(place, 6, "element")];
   const [across, up] = sides;
   if (node.role === "surface" || node.role === "mirror") {
-    const corners = [[1, 1], [-1, 1], [-1, -1], [1, -1]].map(([a, b]) => at(plus(plus(node.at, across, 1.25 * a * size), up, 1.25 * b * size)));
+    const corners = [
+      [1, 1],
+      [-1, 1],
+      [-1, -1],
+      [1, -1],
+    ].map(([a, b]) => at(plus(plus(node.at, across, 1.25 * a * size), up, 1.25 * b * size)));
     return [line(corners, node.role, true)];
   }
   const ring = Array.from({ length: 33 }, (_, i) => {
@@ -43,5 +48,8 @@ function unit(vector) {
 }
 
 function crossed([x, y]) {
-  return [segment([x - 5, y - 5], [x + 5, y + 5], "dump"), segment([x - 5, y + 5], [x + 5, y - 5], "dump")];
+  return [
+    segment([x - 5, y - 5], [x + 5, y + 5], "dump"),
+    segment([x - 5, y + 5], [x + 5, y - 5], "dump"),
+  ];
 }

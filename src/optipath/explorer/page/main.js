@@ -4,10 +4,10 @@ import { get, newest, post } from "./api.js";
 import { Controls } from "./controls.js";
 import { CurveChoice } from "./curve_choice.js";
 import { by, debounced, option, say } from "./dom.js";
-import { Texts, addSaving, copy } from "./export.js";
+import { Texts, addSaving } from "./export.js";
+import { listen } from "./listen.js";
 import { Pictures } from "./pictures.js";
 import { History, fromHash, newState, toHash, withEntry, withoutIdle } from "./state.js";
-import { onStepKeys } from "./step_keys.js";
 import { chooseTheme } from "./theme.js";
 import { typeset } from "./units.js";
 
@@ -16,7 +16,10 @@ const open = { about: null, key: null, controls: null, curve: null, history: nul
 const pictures = new Pictures(turned);
 const texts = new Texts(() => (open.about === null ? null : question(open.history.now)));
 const refreshTexts = debounced(() => texts.refresh(), 400);
-const writeAddress = debounced(() => history.replaceState(null, "", `#${toHash(open.history.now)}`), 120);
+const writeAddress = debounced(
+  () => history.replaceState(null, "", `#${toHash(open.history.now)}`),
+  120,
+);
 
 const WANTED = ["scene", "energy", "explanation"];
 
@@ -25,7 +28,14 @@ const keyOf = (state) => JSON.stringify([state.preset, state.places]);
 /** The part of a state that the server is told. */
 function question(state) {
   const { preset, places, values, detector } = state;
-  return { preset, case: state.case, places, values, detector, curve: open.curve?.asked(state) ?? null };
+  return {
+    preset,
+    case: state.case,
+    places,
+    values,
+    detector,
+    curve: open.curve?.asked(state) ?? null,
+  };
 }
 
 /** Open the preset where it is another one, and trace. */
@@ -70,7 +80,13 @@ function show(state, answer) {
   const rest = open.controls?.complain(faults) ?? faults;
   const ofCurve = rest.filter((each) => each.field?.startsWith("curve"));
   say(by("curve-fault"), ofCurve.map((each) => each.sentence).join(" "));
-  say(by("fault"), rest.filter((each) => !ofCurve.includes(each)).map((each) => each.sentence).join(" "));
+  say(
+    by("fault"),
+    rest
+      .filter((each) => !ofCurve.includes(each))
+      .map((each) => each.sentence)
+      .join(" "),
+  );
   const stale = faults.length > 0;
   if (answer.before) take(state, answer.before);
   document.body.classList.toggle("stale", stale && open.answer !== null);
@@ -90,7 +106,9 @@ function show(state, answer) {
 
 /** Whether nothing has been set since. */
 function isNow(state) {
-  return ["preset", "case", "places", "values"].every((part) => state[part] === open.history.now[part]);
+  return ["preset", "case", "places", "values"].every(
+    (part) => state[part] === open.history.now[part],
+  );
 }
 
 /** Show what an answer without faults says. */
@@ -103,9 +121,14 @@ function take(state, answer) {
 
 const request = newest(ask, show);
 
-/** Go to a state: a step that can be undone. @param {string|null} key of changes that are one step */
-function go(state, key) {
+/**
+ * Go to a state, a step that can be undone; changes under one `key` are one step.
+ *
+ * @param {boolean} all whether the field that has the focus is written, too
+ */
+function go(state, key, all = false) {
   if (toHash(state) === toHash(open.history.now)) return;
+  forced ||= all;
   open.history.push(state, key);
   shown();
 }
@@ -129,50 +152,19 @@ function place(name, word) {
 /** A view that has been turned is kept in the address, but is no step. */
 function turned(name, view) {
   const now = open.history.now;
-  open.history.replace({ ...now, views: { ...now.views, [name]: view && view.map((each) => Math.round(each * 100) / 100) } });
+  open.history.replace({
+    ...now,
+    views: { ...now.views, [name]: view && view.map((each) => Math.round(each * 100) / 100) },
+  });
   writeAddress();
 }
 
 /** @param {"undo"|"redo"} way */
 function step(way) {
+  if (!(way === "undo" ? open.history.canUndo : open.history.canRedo)) return;
   forced = true;
   pictures.view(open.history[way]());
   shown();
-}
-
-const undo = () => open.history.canUndo && step("undo");
-const redo = () => open.history.canRedo && step("redo");
-
-function listen() {
-  by("preset").addEventListener("change", () => go(newState(by("preset").value), null));
-  by("case").addEventListener("change", () => {
-    forced = true;
-    go({ ...open.history.now, case: by("case").value || null, values: {} }, null);
-  });
-  by("detector").addEventListener("change", () => go({ ...open.history.now, detector: by("detector").value }, null));
-  by("undo").addEventListener("click", undo);
-  by("redo").addEventListener("click", redo);
-  by("reset").addEventListener("click", () => {
-    forced = true;
-    go({ ...open.history.now, values: {}, places: {} }, null);
-  });
-  by("share").addEventListener("click", () => {
-    history.replaceState(null, "", `#${toHash(open.history.now)}`);
-    copy(location.href, by("share-said"));
-  });
-  onStepKeys(undo, redo);
-  window.addEventListener("hashchange", () => {
-    const state = fromHash(location.hash);
-    if (state === null) return;
-    forced = true;
-    go(state, null);
-    pictures.view(state);
-  });
-  pictures.onPointed((x) => {
-    const asked = open.curve.asked(open.history.now);
-    const about = open.about.parameters.find((each) => each.name === asked?.x);
-    if (about) set(about.name, `${x(about)} ${about.unit}`.trim(), `point ${about.name}`);
-  }, () => open.history.settle());
 }
 
 async function start() {
@@ -183,12 +175,18 @@ async function start() {
     return;
   }
   by("version").textContent = presets.version;
-  by("preset").replaceChildren(...presets.presets.map(({ name, file }) => option(name, file ? `${name} (your file)` : name)));
+  by("preset").replaceChildren(
+    ...presets.presets.map(({ name, file }) => option(name, file ? `${name} (your file)` : name)),
+  );
   open.history = new History(fromHash(location.hash) ?? newState(presets.opened));
   pictures.view(open.history.now);
   by("preset").value = open.history.now.preset;
-  addSaving(() => [open.history.now.preset, open.history.now.case && `case-${open.history.now.case}`].filter(Boolean).join("-"));
-  listen();
+  addSaving(() =>
+    [open.history.now.preset, open.history.now.case && `case-${open.history.now.case}`]
+      .filter(Boolean)
+      .join("-"),
+  );
+  listen({ open, pictures, go, step, set });
   await request(open.history.now);
 }
 

@@ -28,7 +28,17 @@ export class ParameterRow {
     this.units = this.makeUnits();
     this.words = about.words.map((word) => chip(word, false, () => this.choose(word)));
     this.fault = element("p", { className: "fault", id: `${id}-fault`, hidden: true });
-    this.back = element("button", { type: "button", className: "back", hidden: true, title: `Back to the value of ${about.name} in the case, or its default`, "aria-label": `Reset ${about.name}` }, "\u21ba");
+    this.back = element(
+      "button",
+      {
+        type: "button",
+        className: "back",
+        hidden: true,
+        title: `Back to the value of ${about.name} in the case, or its default`,
+        "aria-label": `Reset ${about.name}`,
+      },
+      "\u21ba",
+    );
     this.back.addEventListener("click", () => actions.set(about.name, null, null));
     this.root = this.lay(id);
     this.listen();
@@ -41,11 +51,23 @@ export class ParameterRow {
     const parts = [element("div", { className: "head" }, label, this.back, fields)];
     if (this.slider !== null) parts.push(this.slider);
     if (this.words.length > 0) {
-      parts.push(element("div", { className: "words", role: "group", "aria-label": `Words for ${name}` }, ...this.words));
+      parts.push(
+        element(
+          "div",
+          { className: "words", role: "group", "aria-label": `Words for ${name}` },
+          ...this.words,
+        ),
+      );
     }
-    const said = this.about.materials ? `${help}${help ? "; " : ""}a number or the name of a material` : help;
+    const said = this.about.materials
+      ? `${help}${help ? "; " : ""}a number or the name of a material`
+      : help;
     this.material = element("p", { className: "help", hidden: true });
-    parts.push(element("p", { className: "help", id: `${id}-help` }, said), this.material, this.fault);
+    parts.push(
+      element("p", { className: "help", id: `${id}-help` }, said),
+      this.material,
+      this.fault,
+    );
     return element("div", { className: "parameter", role: "group", "aria-label": name }, ...parts);
   }
 
@@ -59,7 +81,11 @@ export class ParameterRow {
   makeUnits() {
     const { units, unit, name } = this.about;
     if (units.length < 2) return element("span", { className: "unit" }, unit);
-    const made = element("select", { className: "unit", "aria-label": `Unit of ${name}` }, ...units.map((each) => option(each)));
+    const made = element(
+      "select",
+      { className: "unit", "aria-label": `Unit of ${name}` },
+      ...units.map((each) => option(each)),
+    );
     made.value = unit;
     return made;
   }
@@ -99,7 +125,11 @@ export class ParameterRow {
     const read = taken(text);
     if (read !== null && units.includes(read.unit) && this.unit !== read.unit) this.show(read.unit);
     const bare = read !== null && read.unit === "" && this.unit !== "";
-    this.actions.set(name, text === "" ? null : bare ? `${text} ${this.unit}` : text, `type ${name}`);
+    this.actions.set(
+      name,
+      text === "" ? null : bare ? `${text} ${this.unit}` : text,
+      `type ${name}`,
+    );
   }
 
   show(unit) {
@@ -114,7 +144,8 @@ export class ParameterRow {
     if (forced || document.activeElement !== this.field) this.write();
     this.slide();
     say(this.material, materialInWords(value));
-    for (const each of this.words) each.setAttribute("aria-pressed", String(each.textContent === value.word));
+    for (const each of this.words)
+      each.setAttribute("aria-pressed", String(each.textContent === value.word));
   }
 
   /** A value that the server has refused, or not yet seen, as it was given. */

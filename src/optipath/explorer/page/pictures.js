@@ -18,7 +18,7 @@ const svgOf = (kind) => document.querySelector(`[data-picture="${kind}"] svg`);
 const canvasOf = (kind) => document.querySelector(`[data-picture="${kind}"] .canvas`);
 
 export class Pictures {
-  /** @param {(name: string, view: number[]|null) => void} keep called when a view has been turned */
+  /** @param {(name: string, view: number[]|null) => void} keep a turned view */
   constructor(keep) {
     this.answer = null;
     this.views = { ...USUAL };
@@ -84,9 +84,21 @@ export class Pictures {
     this.drawTurnable("sphere");
     this.drawTurnable("scene");
     canvasOf("curve").hidden = !curve;
-    if (curve) this.across = drawCurve(svgOf("curve"), curve, this.about.quantities.map((each) => each.name));
+    if (curve)
+      this.across = drawCurve(
+        svgOf("curve"),
+        curve,
+        this.about.quantities.map((each) => each.name),
+      );
     canvasOf("energy").hidden = !energy?.links.length;
-    say(by("energy-notes"), typeset([energy?.text ?? "", ...(energy?.notes ?? [])].filter(Boolean).join(" ")));
+    say(
+      by("energy-notes"),
+      typeset(
+        [energy?.text, ...(energy?.notes ?? []).map((each) => `(${each})`)]
+          .filter(Boolean)
+          .join(" "),
+      ),
+    );
     if (energy?.links.length) drawEnergy(svgOf("energy"), energy);
   }
 

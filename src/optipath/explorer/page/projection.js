@@ -61,7 +61,8 @@ export function turnable(frame, view, change) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (event.key in KEYS) change(turned(view(), ...KEYS[event.key]), true);
     else if (event.key === "Home") change(null, true);
-    else if (view().length > 2 && "+=-".includes(event.key)) change(nearer(view(), event.key === "-" ? 0.8 : 1.25), true);
+    else if (view().length > 2 && "+=-".includes(event.key))
+      change(nearer(view(), event.key === "-" ? 0.8 : 1.25), true);
     else return;
     event.preventDefault();
   });

@@ -7,6 +7,8 @@ import { head, line, segment, show, text, widthOf } from "./svg.js";
 import { typeset } from "./units.js";
 import { sceneInWords } from "./words.js";
 
+const SHARE = 0.72;
+
 export const SCENE_VIEW = [-55, 24, 1];
 
 /**
@@ -24,8 +26,7 @@ export function drawScene(svg, scene, view, parts) {
   const labels = [];
   const add = (points, ...drawn) => things.push([mean(points.map((each) => each[2])), drawn]);
   if (parts.has("planes")) {
-    for (const { corners } of scene.planes) {
-      const points = corners.map(at);
+    for (const points of planesOf(scene).map((corners) => corners.map(at))) {
       things.push([Math.min(...points.map((each) => each[2])) - 1, [line(points, "plane", true)]]);
     }
   }
@@ -34,7 +35,8 @@ export function drawScene(svg, scene, view, parts) {
     add([at(node.at)], ...glyph(node, at, 0.16 * size));
     if (parts.has("names")) labels.push({ at: at(node.at), words: node.name, look: "strong" });
   }
-  if (parts.has("frames")) for (const each of scene.frames) labels.push(...drawFrame(each, at, add, 0.13 * size));
+  if (parts.has("frames"))
+    for (const each of scene.frames) labels.push(...drawFrame(each, at, add, 0.13 * size));
   if (parts.has("angles")) {
     for (const each of scene.angles) {
       const arc = each.arc.map(at);
@@ -43,14 +45,32 @@ export function drawScene(svg, scene, view, parts) {
     }
   }
   things.sort((one, other) => one[0] - other[0]);
-  show(svg, width, height, sceneInWords(scene), ...things.flatMap(([, drawn]) => drawn), ...named(labels, scene, at, [width, height]));
+  show(
+    svg,
+    width,
+    height,
+    sceneInWords(scene),
+    ...things.flatMap(([, drawn]) => drawn),
+    ...named(labels, scene, at, [width, height]),
+  );
 }
 
 const mean = (numbers) => numbers.reduce((sum, each) => sum + each, 0) / numbers.length;
 
+/** The corners of the planes of incidence, drawn in as far as they leave room for the rest. */
+function planesOf(scene) {
+  const places = new Map(scene.nodes.map(({ name, at }) => [name, at]));
+  return scene.planes.map(({ node, corners }) => {
+    const middle = places.get(node);
+    return corners.map((corner) => plus(middle, plus(corner, middle, -1), SHARE));
+  });
+}
+
 /** How long a usual ray is, after which marks are sized. */
 function sizeOf(scene) {
-  const lengths = scene.rays.map(({ from, to }) => Math.hypot(...plus(to, from, -1))).filter((each) => each > 0);
+  const lengths = scene.rays
+    .map(({ from, to }) => Math.hypot(...plus(to, from, -1)))
+    .filter((each) => each > 0);
   lengths.sort((a, b) => a - b);
   return lengths[Math.floor(lengths.length / 2)] ?? 1;
 }
@@ -67,7 +87,7 @@ function extent(scene, view) {
   const points = [
     ...scene.rays.flatMap(({ from, to }) => [from, to]),
     ...scene.nodes.map((each) => each.at),
-    ...scene.planes.flatMap((each) => each.corners),
+    ...planesOf(scene).flat(),
   ].map(projected(view));
   const side = (k) => points.map((each) => each[k]);
   return [Math.min(...side(0)), Math.min(...side(1)), Math.max(...side(0)), Math.max(...side(1))];
@@ -79,11 +99,17 @@ function fitted(scene, view, width, height) {
   const [left, top, right, bottom] = extent(scene, view);
   const size = sizeOf(scene);
   const room = [width - 110, height - 80];
-  const scale = view[2] * Math.min(room[0] / Math.max(right - left, size), room[1] / Math.max(bottom - top, size));
+  const scale =
+    view[2] *
+    Math.min(room[0] / Math.max(right - left, size), room[1] / Math.max(bottom - top, size));
   const middle = [(left + right) / 2, (top + bottom) / 2];
   return (point) => {
     const [x, y, near] = project(point);
-    return [width / 2 + scale * (x - middle[0]), height / 2 + scale * (y - middle[1]), near * scale];
+    return [
+      width / 2 + scale * (x - middle[0]),
+      height / 2 + scale * (y - middle[1]),
+      near * scale,
+    ];
   };
 }
 
@@ -94,7 +120,8 @@ function drawRay(ray, at, add, parts) {
   const share = ray.ellipse !== null && parts.has("ellipses") ? 0.76 : 0.56;
   const tip = from.map((each, k) => each + (to[k] - each) * (ray.leaves ? 1 : share));
   add([from, to], segment(from, to, look));
-  if (Math.hypot(...direction) > 14) add([from, to], head(tip, direction, 9, ray.leaves ? "ray-tip leaves" : "ray-tip"));
+  if (Math.hypot(...direction) > 14)
+    add([from, to], head(tip, direction, 9, ray.leaves ? "ray-tip leaves" : "ray-tip"));
   if (!parts.has("ellipses") || ray.ellipse === null || ray.leaves) return;
   const middle = plus(ray.from, plus(ray.to, ray.from, -1), 0.5);
   const curve = ray.ellipse.map((each) => at(plus(middle, each)));

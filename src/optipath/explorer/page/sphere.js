@@ -11,7 +11,13 @@ const MIDDLE = [SIZE / 2, SIZE / 2];
 
 export const SPHERE_VIEW = [32, 22];
 
-/** @param {SVGElement} svg @param {number[]} view @param {string} name @param {object} light @param {object[]} along */
+/**
+ * @param {SVGElement} svg
+ * @param {number[]} view azimuth and elevation of the eye
+ * @param {string} name of the detector
+ * @param {object} light its answer
+ * @param {object[]} along the light on each link
+ */
 export function drawSphere(svg, view, name, light, along) {
   const project = projected(view);
   const at = (point) => {
@@ -22,7 +28,9 @@ export function drawSphere(svg, view, name, light, along) {
   const way = steps(along);
   const points = along.filter((each) => each.poincare !== null).map((each) => at(each.poincare));
   parts.push(...way.map((each) => trail(each, at)));
-  parts.push(...points.map((each) => dot(each, 3.2, each[2] < 0 ? "trail-mark behind" : "trail-mark")));
+  parts.push(
+    ...points.map((each) => dot(each, 3.2, each[2] < 0 ? "trail-mark behind" : "trail-mark")),
+  );
   const obstacles = points.map(([x, y]) => [x - 4, y - 4, x + 4, y + 4]);
   if (light.poincare !== null) {
     const here = at(light.poincare);
@@ -41,8 +49,14 @@ function circles(at) {
     [ring((t) => [0, Math.cos(t), Math.sin(t)]), "meridian"],
   ];
   return rings.flatMap(([points, look]) => [
-    line(seen(points, (near) => near < 0), `${look} behind`),
-    line(seen(points, (near) => near >= 0), look),
+    line(
+      seen(points, (near) => near < 0),
+      `${look} behind`,
+    ),
+    line(
+      seen(points, (near) => near >= 0),
+      look,
+    ),
   ]);
 }
 
@@ -57,11 +71,16 @@ function seen(points, side) {
 const AXES = { S1: [1, 0, 0], S2: [0, 1, 0], S3: [0, 0, 1] };
 
 function axes(at) {
-  return Object.values(AXES).map((axis) => segment(at(axis.map((each) => -each)), at(axis.map((each) => 1.16 * each)), "helper"));
+  return Object.values(AXES).map((axis) =>
+    segment(at(axis.map((each) => -each)), at(axis.map((each) => 1.16 * each)), "helper"),
+  );
 }
 
 function names(at, here, obstacles) {
-  const axes = Object.entries(AXES).map(([words, axis]) => ({ words, at: at(axis.map((each) => 1.17 * each)) }));
+  const axes = Object.entries(AXES).map(([words, axis]) => ({
+    words,
+    at: at(axis.map((each) => 1.17 * each)),
+  }));
   const labels = here === null ? axes : [{ words: here[0], at: here[1] }, ...axes];
   return placed(labels, [SIZE, SIZE], obstacles).map(({ x, y }, i) => {
     const { words } = labels[i];
@@ -73,7 +92,9 @@ function names(at, here, obstacles) {
 function steps(along) {
   const there = along.filter((each) => each.poincare !== null);
   const pairs = there.flatMap((each) =>
-    there.filter((next) => next.start === each.end && next !== each).map((next) => [each.poincare, next.poincare]),
+    there
+      .filter((next) => next.start === each.end && next !== each)
+      .map((next) => [each.poincare, next.poincare]),
   );
   return pairs;
 }

@@ -38,7 +38,7 @@ function asksWavelength(state, about) {
   return given.some((each) => !/^[\s(]*[-+]?\.?\d/.test(state.values[each.name]));
 }
 
-/** Whether a parameter has a part in a state: a wavelength without a default has it with materials. */
+/** Whether a parameter has a part: a wavelength without a default has it with materials. */
 export function takesPart(parameter, state, about) {
   const own = parameter.name !== WAVELENGTH || parameter.default !== "";
   return own || parameter.name in state.values || asksWavelength(state, about);
@@ -47,7 +47,9 @@ export function takesPart(parameter, state, about) {
 /** A state without a wavelength that nothing asks for. */
 export function withoutIdle(state, about) {
   const idle = about.parameters.some((each) => each.name === WAVELENGTH && each.default === "");
-  return idle && !asksWavelength(state, about) ? withEntry(state, "values", WAVELENGTH, null) : state;
+  return idle && !asksWavelength(state, about)
+    ? withEntry(state, "values", WAVELENGTH, null)
+    : state;
 }
 
 /** @param {State} state @returns {string} the part of an address behind its "#" */

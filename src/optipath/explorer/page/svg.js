@@ -63,8 +63,14 @@ export function head(tip, direction, size, look) {
 export function arrow(from, to, size, shaft, tip) {
   const direction = [to[0] - from[0], to[1] - from[1]];
   const length = Math.hypot(...direction);
-  const end = length > size ? to.map((each, i) => each - (direction[i] / length) * size * 0.9) : from;
-  return shape("g", {}, segment(from, end, shaft), head(to, direction, Math.min(size, length), tip));
+  const end =
+    length > size ? to.map((each, i) => each - (direction[i] / length) * size * 0.9) : from;
+  return shape(
+    "g",
+    {},
+    segment(from, end, shaft),
+    head(to, direction, Math.min(size, length), tip),
+  );
 }
 
 /** How wide a picture may be, in its units. @param {SVGElement} svg */

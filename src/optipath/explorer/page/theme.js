@@ -5,7 +5,8 @@ const KEY = "optipath-theme";
 /** @param {HTMLElement} button that switches */
 export function chooseTheme(button) {
   const system = matchMedia("(prefers-color-scheme: dark)");
-  const dark = () => (document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
+  const dark = () =>
+    (document.documentElement.dataset.theme ?? (system.matches ? "dark" : "light")) === "dark";
   const tell = () => button.setAttribute("aria-pressed", String(dark()));
   const kept = remembered();
   if (kept === "dark" || kept === "light") document.documentElement.dataset.theme = kept;

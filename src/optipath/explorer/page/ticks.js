@@ -1,11 +1,12 @@
 /** Round numbers along an axis. */
 
-/** @param {number} low @param {number} high @param {number} count about how many @returns {number[]} */
+/** @param {number} count about how many @returns {number[]} */
 export function ticks(low, high, count = 5, bases = [1, 2, 5, 10]) {
   if (!(high > low)) return [low];
   const rough = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = bases.map((base) => base * power).find((each) => each >= rough * 0.999) ?? 10 * power;
+  const step =
+    bases.map((base) => base * power).find((each) => each >= rough * 0.999) ?? 10 * power;
   const places = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const found = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1) {
@@ -27,7 +28,10 @@ export function degreeTicks(low, high, count = 5) {
 /** @returns {string} a number of an axis, with a true minus sign */
 export function ofAxis(number) {
   const small = number !== 0 && (Math.abs(number) < 1e-4 || Math.abs(number) >= 1e6);
-  return (small ? number.toExponential(1) : String(Number(number.toPrecision(6)))).replace("-", "\u2212");
+  return (small ? number.toExponential(1) : String(Number(number.toPrecision(6)))).replace(
+    "-",
+    "\u2212",
+  );
 }
 
 /** The range of an axis that shows all numbers, never of no length. @param {number[]} numbers */

@@ -44,7 +44,9 @@ export function short(number, digits = 10) {
 /** A number as the steps of a slider allow, without the dust of sums. */
 export function stepped(number, low, step) {
   const places = Math.max(0, 2 - Math.floor(Math.log10(step)));
-  return String(Number((low + Math.round((number - low) / step) * step).toFixed(Math.min(places, 20))));
+  return String(
+    Number((low + Math.round((number - low) / step) * step).toFixed(Math.min(places, 20))),
+  );
 }
 
 /** What stands in a field, cut into the number and the unit, where it is a number at all. */
@@ -65,5 +67,8 @@ export function powered(number) {
 
 /** For the eye: a true minus sign and a degree sign. */
 export function typeset(text) {
-  return text.replace(/(^|[\s(=])-(?=\d)/g, "$1\u2212").replace(/(\de)-(?=\d)/g, "$1\u2212").replace(/(\d) deg\b/g, "$1\u00b0");
+  return text
+    .replace(/(^|[\s(=])-(?=\d)/g, "$1\u2212")
+    .replace(/(\de)-(?=\d)/g, "$1\u2212")
+    .replace(/(\d) deg\b/g, "$1\u00b0");
 }

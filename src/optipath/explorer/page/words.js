@@ -42,14 +42,19 @@ export function curveInWords(curve) {
   });
   const ends = [curve.x[0], curve.x[curve.x.length - 1]].map((each) => short(each, 4));
   const at = curve.at === null ? "" : ` Now at ${short(curve.at, 6)}.`;
-  return typeset(`Against ${curve.x_label} from ${ends[0]} to ${ends[1]}: ${parts.join("; ")}.${at}`);
+  return typeset(
+    `Against ${curve.x_label} from ${ends[0]} to ${ends[1]}: ${parts.join("; ")}.${at}`,
+  );
 }
 
 /** What a material stands for, or where a value comes from; "" for a plain value. */
 export function materialInWords({ material, n, k, by }) {
   if (by !== undefined) return `that of the material of ${by}`;
   if (material === undefined) return "";
-  const numbers = [["n", n], ["k", k]].filter(([, each]) => typeof each === "number");
+  const numbers = [
+    ["n", n],
+    ["k", k],
+  ].filter(([, each]) => typeof each === "number");
   return [material, ...numbers.map(([name, each]) => `${name} ${short(each, 6)}`)].join(", ");
 }
 
@@ -58,10 +63,14 @@ export const most = (numbers) => numbers.reduce((a, b) => Math.max(a, b), -Infin
 
 /** @param {object} scene @returns {string} */
 export function sceneInWords(scene) {
-  const names = scene.nodes.map(({ name, kind }) => (kind && kind !== name ? `${name} (${kind})` : name));
+  const names = scene.nodes.map(({ name, kind }) =>
+    kind && kind !== name ? `${name} (${kind})` : name,
+  );
   const angles = scene.angles.map((each) => each.text);
   const said = angles.length > 0 ? ` Angles: ${angles.join(", ")}.` : "";
-  return typeset(`Geometry in space. ${names.join(", ")}; ${scene.rays.length} rays.${said} ${scene.notes.join(". ")}`);
+  return typeset(
+    `Geometry in space. ${names.join(", ")}; ${scene.rays.length} rays.${said} ${scene.notes.join(". ")}`,
+  );
 }
 
 /** @param {object} energy @returns {string} */
