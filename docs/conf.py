@@ -6,6 +6,8 @@ import sys
 from importlib.metadata import version as installed_version
 from pathlib import Path
 
+from sphinx_gallery.sorting import ExplicitOrder
+
 from optipath import Element
 
 DOCS = Path(__file__).parent
@@ -69,9 +71,9 @@ sphinx_gallery_conf = {
     "image_scrapers": ("shown_figure.scraper",),
     "reset_modules": (),
     "capture_repr": (),
-    "subsection_order": [
-        f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")
-    ],
+    "subsection_order": ExplicitOrder(
+        [f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")]
+    ),
     "within_subsection_order": "ExampleTitleSortKey",
     "remove_config_comments": True,
     "abort_on_example_error": True,
