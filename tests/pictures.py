@@ -13,6 +13,7 @@ def texts_of(figure):
         axes = (ax.xaxis, ax.yaxis)
         unseen |= {text for axis in axes for text in axis.findobj(Text)}
         if ax.axison:
+            axes = [axis for axis in axes if axis.get_visible()]
             ticks = [tick for axis in axes for tick in axis._update_ticks()]
             unseen -= {text for tick in ticks for text in (tick.label1, tick.label2)}
             unseen -= {axis.label for axis in axes}

@@ -12,10 +12,10 @@ from optipath.errors import AngleWarning, LoopWarning, OptipathError
 from optipath.explorer.asked_state import asked_state
 from optipath.explorer.exported_state import exported_as_json
 from optipath.explorer.path_as_json import path_as_json
-from optipath.explorer.read_values import FieldFaults, read_state
+from optipath.explorer.read_values import FieldFaults, read_path, read_state
 from optipath.explorer.traced_state import traced_as_json
 from optipath.spelling import few_suggestions
-from optipath.values.cures import of_files
+from optipath.values.cures import of_fields, of_files
 from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ class PageAnswers:
         with self._answering():
             asked = asked_state(given, ("places",))
             return _or_faults(
-                lambda: {"faults": [], **path_as_json(read_state(self._presets, asked).explored)}
+                lambda: {"faults": [], **path_as_json(read_path(self._presets, asked))}
             )
 
     def trace(self, given: Any) -> dict[str, Any]:
@@ -112,6 +112,7 @@ class PageAnswers:
             self._lock,
             few_suggestions(),
             of_files(),
+            of_fields(),
             units_are_written(),
             warnings.catch_warnings(record=True) as heard,
         ):

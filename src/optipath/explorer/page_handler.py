@@ -25,8 +25,6 @@ from optipath.explorer.strict_json import read_json
 if TYPE_CHECKING:
     import socket
 
-    from optipath.explorer.page_server import PageServer
-
 _FIRST, _NEXT, _SENDING = 10.0, 60.0, 20.0
 """Seconds for a first request, for another of somebody who knows the token, and for an answer."""
 
@@ -71,11 +69,12 @@ class _PatientReader(RawIOBase):
 class PageHandler(BaseHTTPRequestHandler):
     """One connection; see `BaseHTTPRequestHandler`, which calls its methods."""
 
-    server: PageServer
+    server: Any  # A `PageServer`, which makes these.
     protocol_version = "HTTP/1.1"
     default_request_version = "HTTP/1.0"
 
     def setup(self) -> None:
+        """Begin a connection, of which nobody is known yet."""
         super().setup()
         self.rfile.close()
         self._patient = _PatientReader(self.connection)
@@ -83,20 +82,23 @@ class PageHandler(BaseHTTPRequestHandler):
         self._known = False
 
     def handle_one_request(self) -> None:
+        """Answer one request, which must be there whole before its time is up."""
         self._patient.until = time.monotonic() + (_NEXT if self._known else _FIRST)
         self.close_connection = True
         super().handle_one_request()
 
     def version_string(self) -> str:
+        """Return what the server calls itself, without the version of anything."""
         return "optipath"
 
     def log_message(self, *_: Any) -> None:
         """Write no log: an address in it would hold the token."""
 
     def handle_expect_100(self) -> bool:
-        return True  # Whether it is read is told by the answer.
+        """Promise nothing: whether what follows is read is told by the answer."""
+        return True
 
-    def do_GET(self) -> None:  # noqa: N802 - as the base class calls it
+    def do_GET(self) -> None:
         """Answer with a file of the page, or with what there is."""
         place = self._admitted()
         if place is None:
@@ -113,7 +115,7 @@ class PageHandler(BaseHTTPRequestHandler):
 
     do_HEAD = do_GET  # noqa: N815 - as the base class calls it
 
-    def do_POST(self) -> None:  # noqa: N802 - as the base class calls it
+    def do_POST(self) -> None:
         """Answer a question about a path."""
         place = self._admitted()
         if place is None:

@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from optipath.errors import OptipathError, unknown
+from optipath.errors import OptipathError, printable, unknown
 from optipath.paths.bound_materials import given_by_materials
 from optipath.paths.presets.loader import beside
 from optipath.values.materials import Material
@@ -20,7 +20,7 @@ from optipath.values.single_texts import single_value
 from optipath.values.unknown_parameter import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from optipath.explorer.asked_state import AskedState
     from optipath.explorer.explored_path import ExploredPath
@@ -55,7 +55,9 @@ class FieldFaults(Exception):  # noqa: N818 - a fault is what the messages call 
     """
 
     def __init__(self, faults: Iterable[FieldFault]) -> None:
-        self.faults = [*dict.fromkeys(faults)]
+        # One line each, whatever stands in the names that they quote.
+        told = [(field, printable(" ".join(text.split()))) for field, text in faults]
+        self.faults = [FieldFault(*fault) for fault in dict.fromkeys(told)]
         super().__init__(*[fault.sentence for fault in self.faults])
 
 
@@ -101,9 +103,9 @@ class ReadState:
             return {}
         return self.explored.path.cases[self.asked.case].published
 
-    def faults(self, error: OptipathError, names: Iterable[str] = ()) -> list[FieldFault]:
+    def faults(self, error: OptipathError) -> list[FieldFault]:
         """Return what is wrong with the fields that sentences name."""
-        known = [*names] or [*self.explored.parameters, *self.asked.values]
+        known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
         return [FieldFault(_field(sentence, known), sentence) for sentence in error.faults]
 
 
@@ -127,18 +129,9 @@ def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
         With all that is wrong at once.
     """
     faults: list[FieldFault] = []
-    try:
-        base = presets.base(asked.preset)
-    except OptipathError as error:
-        raise FieldFaults(FieldFault("preset", each) for each in error.faults) from None
-    case = asked.case
-    if case is not None and (wrong := unknown(f"case of '{asked.preset}'", case, base.cases)):
-        faults += [FieldFault("case", sentence) for sentence in wrong]
-        case = None
-    known = {} if case is None else base.cases[case].values
-    places = {name: word for name, word in known.items() if name in base.choices}
-    places |= _places(base.choices, asked.places, faults)
-    explored = presets.explored(asked.preset, places)
+    explored, places = _opened(presets, asked, faults)
+    cases = explored.path.cases
+    known = cases[asked.case].values if asked.case in cases else {}
     given = {
         name: value
         for name, text in asked.values.items()
@@ -153,6 +146,50 @@ def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:
     if faults:
         raise FieldFaults(faults)
     return state
+
+
+def read_path(presets: ExploredPresets, asked: AskedState) -> ExploredPath:
+    """Return the path that is asked for, its places chosen, and no values looked at.
+
+    Parameters
+    ----------
+    presets : ExploredPresets
+        What may be opened.
+    asked : AskedState
+        What is asked for.
+
+    Returns
+    -------
+    ExploredPath
+
+    Raises
+    ------
+    FieldFaults
+        With all that is wrong with the name and the places.
+    """
+    faults: list[FieldFault] = []
+    explored, _ = _opened(presets, asked, faults)
+    if faults:
+        raise FieldFaults(faults)
+    return explored
+
+
+def _opened(
+    presets: ExploredPresets, asked: AskedState, faults: list[FieldFault]
+) -> tuple[ExploredPath, dict[str, str]]:
+    """Return the path with its places, those of the case among them, as far as there are any."""
+    try:
+        base = presets.base(asked.preset)
+    except OptipathError as error:
+        raise FieldFaults(FieldFault("preset", each) for each in error.faults) from None
+    case = base.cases.get(asked.case or "")
+    if case is None and asked.case is not None:
+        wrong = unknown(f"case of '{asked.preset}'", asked.case, base.cases)
+        faults += [FieldFault("case", sentence) for sentence in wrong]
+    known = {} if case is None else case.values
+    places = {name: str(word) for name, word in known.items() if name in base.choices}
+    places |= _places(base.choices, asked.places, faults)
+    return presets.explored(asked.preset, places), places
 
 
 def _places(
@@ -246,7 +283,7 @@ def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]
     return replace(state, explored=explored, values=values, given=given, notes=tuple(notes))
 
 
-def _field(sentence: str, known: Iterable[str]) -> str | None:
+def _field(sentence: str, known: Collection[str]) -> str | None:
     """Return the first parameter that a sentence names; None where it names none."""
     words = [bare or quoted for bare, quoted in _NAMED.findall(sentence)]
     return next((word for word in words if word in known), None)

@@ -37,15 +37,15 @@ def slider_range(explored: ExploredPath, name: str) -> list[float] | None:
         return None
     unit = explored.parameters[name].unit
     low, high = sorted(in_unit(end, unit) for end in ends)
-    return [low, high, step_between(low, high)]
+    return [low, high, _step_between(low, high)]
 
 
-def step_between(low: float, high: float) -> float:
+def _step_between(low: float, high: float) -> float:
     """Return a power of ten of which there are 180 steps at least between two numbers.
 
     Examples
     --------
-    >>> step_between(0.0, 90.0), step_between(0.0, 360.0), step_between(1.0, 3.0)
+    >>> _step_between(0.0, 90.0), _step_between(0.0, 360.0), _step_between(1.0, 3.0)
     (0.1, 1.0, 0.01)
     """
     return float(f"1e{math.floor(math.log10((high - low) / _STEPS))}")

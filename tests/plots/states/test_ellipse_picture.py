@@ -159,6 +159,15 @@ def test_a_batch_has_a_curve_each_by_its_name():
     assert told == ["a", "b", "c"]
 
 
+def test_names_are_told_as_they_are():
+    names = ["_lamp", "$a_b$ and $"]
+    ax = op.plots.ellipse(dict(zip(names, [LIGHTS["linear"], LIGHTS["down"]], strict=True)))
+    assert faults_of(ax.figure) == []
+    told = [text.get_text().split(":")[0] for text in ax.get_legend().get_texts()]
+    assert told[:2] == names
+    assert op.plots.ellipse(LIGHTS["linear"], labels=names[1]).get_title().startswith(names[1])
+
+
 @pytest.mark.parametrize(
     ("light", "labels", "told"),
     [

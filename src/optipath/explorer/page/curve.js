@@ -7,8 +7,8 @@ import { typeset } from "./units.js";
 import { curveInWords } from "./words.js";
 
 const LEFT = 58;
-const TOP = 18;
-const GAP = 26;
+const TOP = 24;
+const GAP = 32;
 const BELOW = 46;
 
 /**
@@ -25,7 +25,7 @@ export function drawCurve(svg, curve, order) {
   const ends = [Math.min(...curve.x), Math.max(...curve.x)];
   const across = (x) => LEFT + ((x - ends[0]) / (ends[1] - ends[0] || 1)) * (right - LEFT);
   const inDegrees = /\(deg\)/.test(curve.x_label);
-  const marks = (inDegrees ? degreeTicks : ticks)(...ends, Math.max(3, (right - LEFT) / 80));
+  const marks = (inDegrees ? degreeTicks : ticks)(...ends, Math.max(3, (right - LEFT) / 62));
   const height = TOP + panels.length * tall + (panels.length - 1) * GAP + BELOW;
   const parts = panels.flatMap((panel, i) => {
     const top = TOP + i * (tall + GAP);

@@ -1,7 +1,7 @@
 /** The curve that the electric field runs through, as seen by an eye that the light reaches. */
 
 import { dot, head, line, segment, show, text } from "./svg.js";
-import { lightInWords } from "./words.js";
+import { isDark, lightInWords } from "./words.js";
 
 const SIZE = 300;
 const RADIUS = 104;
@@ -74,11 +74,11 @@ function senses(curve) {
 }
 
 function nothing(light) {
-  return light.stokes[0] === 0 ? "no light" : "no polarised part";
+  return isDark(light) ? "no light" : "no polarised part";
 }
 
 function caption(light) {
   const { handedness, dop } = light.ellipse;
-  if (light.ellipse.points === null) return light.stokes[0] === 0 ? "dark" : "unpolarised";
+  if (light.ellipse.points === null) return isDark(light) ? "dark" : "unpolarised";
   return dop < 0.9995 ? `${handedness}, ${Number((100 * dop).toPrecision(3))} % polarised` : handedness;
 }

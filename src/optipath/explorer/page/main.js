@@ -6,7 +6,8 @@ import { CurveChoice } from "./curve_choice.js";
 import { by, debounced, option, say } from "./dom.js";
 import { Texts, addSaving, copy } from "./export.js";
 import { Pictures } from "./pictures.js";
-import { History, fromHash, newState, toHash, withEntry } from "./state.js";
+import { History, fromHash, newState, toHash, withEntry, withoutIdle } from "./state.js";
+import { onStepKeys } from "./step_keys.js";
 import { chooseTheme } from "./theme.js";
 import { typeset } from "./units.js";
 
@@ -16,6 +17,8 @@ const pictures = new Pictures(turned);
 const texts = new Texts(() => (open.about === null ? null : question(open.history.now)));
 const refreshTexts = debounced(() => texts.refresh(), 400);
 const writeAddress = debounced(() => history.replaceState(null, "", `#${toHash(open.history.now)}`), 120);
+
+const WANTED = ["scene", "energy", "explanation"];
 
 const keyOf = (state) => JSON.stringify([state.preset, state.places]);
 
@@ -34,7 +37,15 @@ async function ask(state) {
     if (about.faults?.length) return about;
     adopt(about, key);
   }
-  return post("trace", { ...question(state), want: ["scene", "energy", "explanation"] });
+  const answer = await post("trace", { ...question(state), want: WANTED });
+  const bare = open.answer === null && answer.faults.length > 0;
+  return bare ? { ...answer, before: await defaults(state) } : answer;
+}
+
+/** What a preset shows by itself, for an address with values that cannot be. */
+async function defaults({ preset }) {
+  const answer = await post("trace", { preset, want: WANTED });
+  return answer.faults.length > 0 ? null : answer;
 }
 
 /** Take up a preset: its controls take the place of those before. */
@@ -51,6 +62,7 @@ function adopt(about, key) {
   say(by("description"), about.description);
 }
 
+/** Whether the next answer is written into a field that has the focus, too. */
 let forced = false;
 
 function show(state, answer) {
@@ -60,20 +72,33 @@ function show(state, answer) {
   say(by("curve-fault"), ofCurve.map((each) => each.sentence).join(" "));
   say(by("fault"), rest.filter((each) => !ofCurve.includes(each)).map((each) => each.sentence).join(" "));
   const stale = faults.length > 0;
+  if (answer.before) take(state, answer.before);
   document.body.classList.toggle("stale", stale && open.answer !== null);
   by("stale").hidden = !(stale && open.answer !== null);
   open.curve?.update(state);
   if (stale) {
-    open.controls?.choose(state);
+    if (isNow(state)) open.controls?.choose(state);
     return;
   }
-  open.answer = answer;
-  open.controls.update(state, answer.values, forced);
-  forced = false;
+  take(state, answer);
+  if (isNow(state)) forced = false;
   const found = open.about.cases.find((each) => each.name === state.case);
   say(by("note"), found?.note ? typeset(found.note) : "");
-  pictures.show(state, answer, open.about);
+  say(by("told"), typeset((answer.notes ?? []).join(" ")));
   refreshTexts();
+}
+
+/** Whether nothing has been set since. */
+function isNow(state) {
+  return ["preset", "case", "places", "values"].every((part) => state[part] === open.history.now[part]);
+}
+
+/** Show what an answer without faults says. */
+function take(state, answer) {
+  open.answer = answer;
+  // An answer that has been overtaken is drawn, but leaves the sliders where they are by now.
+  if (isNow(state)) open.controls.update(state, answer.values, forced);
+  pictures.show(state, answer, open.about);
 }
 
 const request = newest(ask, show);
@@ -93,7 +118,7 @@ function shown() {
 }
 
 function set(name, text, key) {
-  go(withEntry(open.history.now, "values", name, text), key);
+  go(withoutIdle(withEntry(open.history.now, "values", name, text), open.about), key);
 }
 
 function place(name, word) {
@@ -108,22 +133,15 @@ function turned(name, view) {
   writeAddress();
 }
 
-/** Show the state that undo or redo has come to. */
-function step() {
+/** @param {"undo"|"redo"} way */
+function step(way) {
   forced = true;
-  pictures.view(open.history.now);
+  pictures.view(open.history[way]());
   shown();
 }
 
-function undo() {
-  open.history.undo();
-  step();
-}
-
-function redo() {
-  open.history.redo();
-  step();
-}
+const undo = () => open.history.canUndo && step("undo");
+const redo = () => open.history.canRedo && step("redo");
 
 function listen() {
   by("preset").addEventListener("change", () => go(newState(by("preset").value), null));
@@ -142,14 +160,7 @@ function listen() {
     history.replaceState(null, "", `#${toHash(open.history.now)}`);
     copy(location.href, by("share-said"));
   });
-  document.addEventListener("keydown", (event) => {
-    if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-    const key = event.key.toLowerCase();
-    if (key === "z" && !event.shiftKey && open.history.canUndo) undo();
-    else if ((key === "y" || (key === "z" && event.shiftKey)) && open.history.canRedo) redo();
-    else return;
-    event.preventDefault();
-  });
+  onStepKeys(undo, redo);
   window.addEventListener("hashchange", () => {
     const state = fromHash(location.hash);
     if (state === null) return;

@@ -8,10 +8,13 @@ export function lightInWords(name, light) {
   return typeset(`Light at ${name}: ${stokes}; ${stateInWords(light)}.`);
 }
 
+/** Whether nothing is left but rounding, which is printed as 0. @param {object} light */
+export const isDark = (light) => light.texts[0] === "0";
+
 /** @param {object} light @returns {string} */
 export function stateInWords(light) {
   const { dop, aop, handedness } = light.ellipse;
-  if (light.stokes[0] === 0) return "dark";
+  if (isDark(light)) return "dark";
   if (light.ellipse.points === null) return "unpolarised";
   const share = dop > 0.9995 ? "fully polarised" : `polarised by ${short(100 * dop, 3)} %`;
   const axis = aop === null ? "" : `, axis at ${short(aop, 4)} deg from x`;
@@ -40,6 +43,14 @@ export function curveInWords(curve) {
   const ends = [curve.x[0], curve.x[curve.x.length - 1]].map((each) => short(each, 4));
   const at = curve.at === null ? "" : ` Now at ${short(curve.at, 6)}.`;
   return typeset(`Against ${curve.x_label} from ${ends[0]} to ${ends[1]}: ${parts.join("; ")}.${at}`);
+}
+
+/** What a material stands for, or where a value comes from; "" for a plain value. */
+export function materialInWords({ material, n, k, by }) {
+  if (by !== undefined) return `that of the material of ${by}`;
+  if (material === undefined) return "";
+  const numbers = [["n", n], ["k", k]].filter(([, each]) => typeof each === "number");
+  return [material, ...numbers.map(([name, each]) => `${name} ${short(each, 6)}`)].join(", ");
 }
 
 export const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
 
-    from optipath.plots.space.scene import Scene, SceneAngle, SceneFrame, SceneRay
+    from optipath.plots.space.scene import Scene, SceneAngle, SceneFrame, SceneNode, SceneRay
     from optipath.plots.space.view import View
 
     Array = npt.NDArray[np.float64]
@@ -34,7 +34,7 @@ _ARROW_AT, _ARROW = 0.72, (0.085, 0.028)
 """Where on a ray its arrow points to, and how long and wide it is."""
 
 
-def draw_scene(ax: Axes, scene: Scene, view: View) -> None:
+def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
     """Draw all of a scene but its names.
 
     Parameters
@@ -45,7 +45,10 @@ def draw_scene(ax: Axes, scene: Scene, view: View) -> None:
         What is drawn.
     view : View
         From where.
+    weight : float, optional
+        By how much lines are wider and marks larger than usual.
     """
+    first = len(ax.lines)
     for plane in scene.planes:
         _face(ax, view.points(plane.corners), FAINT, 0.09, 1.0)
     _faces(ax, scene, view)
@@ -60,6 +63,9 @@ def draw_scene(ax: Axes, scene: Scene, view: View) -> None:
     for node in scene.nodes:
         if node.role in _MARKS:
             ax.plot(*view.points(node.at), **_MARKS[node.role], ls="", mec=INK, mew=0.9, zorder=7)
+    for line in ax.lines[first:]:
+        line.set_linewidth(weight * line.get_linewidth())
+        line.set_markersize(weight * line.get_markersize())
 
 
 _MARKS: dict[str, dict[str, Any]] = {
@@ -90,6 +96,7 @@ def lines_of(scene: Scene, view: View) -> list[Array]:
     found += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
     found += [outline(scene, node) for node in scene.nodes if node.normal is not None]
     found += [axis_line(scene, node) for node in scene.nodes if node.axis is not None]
+    found += [_normal(scene, node) for node in scene.nodes if node.role == "surface"]
     for frame in drawn_frames(scene):
         x, y, _ = frame.at + _FRAME * scene.unit * frame.axes
         found.append(np.array([x, frame.at, y]))
@@ -152,8 +159,18 @@ def _faces(ax: Axes, scene: Scene, view: View) -> None:
         if node.axis is not None:
             _line(ax, view.points(axis_line(scene, node)), color=INK, lw=1.3, zorder=4.5)
         if node.role == "surface":
-            ends = np.array([node.at, node.at + _NORMAL * scene.unit * np.asarray(node.normal)])
-            _line(ax, view.points(ends), color=FAINT, lw=0.9, ls=(0, (4, 3)), zorder=2.2)
+            _line(
+                ax,
+                view.points(_normal(scene, node)),
+                color=FAINT,
+                lw=0.9,
+                ls=(0, (4, 3)),
+                zorder=2.2,
+            )
+
+
+def _normal(scene: Scene, node: SceneNode) -> Array:
+    return np.array([node.at, node.at + _NORMAL * scene.unit * np.asarray(node.normal)])
 
 
 def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:

@@ -30,7 +30,7 @@ _SIZE = 8.0, 6.0
 _USUAL = 620.0
 """The mean of width and height, in hundredths of an inch, at which texts are of 9 points."""
 
-_LONGEST = 0.36
+_LONGEST = 0.6
 """How long a link is drawn at most, of the height or the width."""
 
 
@@ -87,7 +87,7 @@ def geometry(
     room = Bbox.from_extents(whole.x0 + 2, below + 4, whole.x1 - 2, whole.y1 - 2)
     seen_from = seen_from or chosen_view(scene, room.width / room.height)
     _fit(ax, scene, seen_from, room)
-    draw_scene(ax, scene, seen_from)
+    draw_scene(ax, scene, seen_from, size / 9.0)
     place_labels(ax, _labels(scene, seen_from, size), lines_of(scene, seen_from), room)
     return ax
 
@@ -153,8 +153,11 @@ def _labels(scene: Scene, view: View, size: float) -> list[Label]:
     bold = {"fontsize": size * 1.1, "fontweight": "bold", "color": INK}
     found = [Label(node.name, view.points(node.at), bold) for node in scene.nodes]
     style = {"fontsize": size, "color": ANGLE_INK}
-    return found + [Label(a.text, view.points(a.at), style) for a in scene.angles]
+    return found + [Label(a.text, view.points(a.at), style, _LEADS_SOON) for a in scene.angles]
 
+
+_LEADS_SOON = 0.7
+"""From which distance on a line leads to the name of an angle, in heights of a line."""
 
 ANGLE_INK = "#8b3f71"
 """Of the names of angles: the colour of their arcs, dark enough to read."""

@@ -20,9 +20,6 @@ _DIRECTIONS = np.radians(np.arange(0.0, 360.0, 22.5))
 _STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5
 """How far from what they name texts are tried, in heights of a line."""
 
-_LEADER = 2.8
-"""From which distance on a line leads to a text, in heights of a line."""
-
 
 class Label(NamedTuple):
     """A text, and what it names.
@@ -35,11 +32,14 @@ class Label(NamedTuple):
         What it names, in the data of the axes.
     style : dict
         How Matplotlib writes it.
+    leader : float
+        From which distance on a line leads to the text, in heights of a line.
     """
 
     text: str
     at: Array
     style: dict[str, Any]
+    leader: float = 1.4
 
 
 def place_labels(ax: Axes, labels: list[Label], lines: list[Array], within: Bbox) -> None:
@@ -86,7 +86,7 @@ def _move(ax: Axes, text: Any, label: Label, offset: Array, half: Array) -> None
     text.set_position(tuple(offset * scale))
     text.set_anncoords("offset points")
     away = np.abs(offset) - half
-    if max(away) > _LEADER * half[1]:
+    if max(away) > label.leader * 2.0 * half[1]:
         # To the nearest edge of the text.
         near = offset - np.clip(offset, -half, half) * 0.92
         ax.annotate(
@@ -112,7 +112,7 @@ def _best(anchor: Array, half: Array, drawn: Array, taken: list[Bbox], within: B
                 abs(way) * 1.3, 1
             )
             box = Bbox([anchor + offset - half, anchor + offset + half])
-            cost = step + 0.4 * (way[0] < 0.0) + 0.2 * (way[1] < 0.0)
+            cost = 1.3 * step + 0.4 * (way[0] < 0.0) + 0.2 * (way[1] < 0.0)
             cost += 1e6 * _outside(box, within)
             cost += 1e4 * sum(box.padded(1.0).overlaps(other) for other in taken)
             around = box.padded(2.0)

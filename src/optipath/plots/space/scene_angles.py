@@ -137,5 +137,5 @@ def _turn(
     first, second = sides
     steps = np.linspace(0.0, angle, 2 + int(abs(angle) / 0.08))[:, np.newaxis]
     arc = at + size * (np.cos(steps) * first + np.sin(steps) * second)
-    middle = at + 1.3 * size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
+    middle = at + size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
     return SceneAngle(told.name, told.text, arc, middle, at, about)

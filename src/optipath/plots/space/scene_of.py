@@ -71,7 +71,21 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     >>> [angle.text for angle in scene.angles]
     ['filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg', 'delta = 48 deg']
     """
-    told = ToldPath(path, what, values)
+    return scene_with(ToldPath(path, what, values))
+
+
+def scene_with(told: ToldPath) -> Scene:
+    """Return a path with all its values laid out in space.
+
+    Parameters
+    ----------
+    told : ToldPath
+        The path.
+
+    Returns
+    -------
+    Scene
+    """
     placing = Placing(told)
     rays = tuple(_ray(placing, each) for each in told.lights)
     schematic = not all(posture.told for posture in placing.postures.values())

@@ -78,7 +78,7 @@ def head(ax: Axes, text: str) -> None:
         One line, or several.
     """
     size = "medium" if inches_wide(ax) > _NARROW else "small"
-    ax.set_title(fitting(ax, text, size), fontsize=size)
+    ax.set_title(fitting(ax, text, size), fontsize=size, parse_math=False)
 
 
 def inches_wide(ax: Axes) -> float:
@@ -112,9 +112,7 @@ def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
     scale = ax.figure.figure.dpi_scale_trans
     place = ax.transAxes + ScaledTranslation(0.0, -down / 72.0, scale)
     at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, bottom)}
-    at["bbox_transform"] = place
-    legend = ax.legend(handles=handles, fontsize=size, frameon=False, borderaxespad=0.0, **at)
-    legend.set_zorder(10)
+    _draw_key(ax, handles, fontsize=size, borderaxespad=0.0, bbox_transform=place, **at)
 
 
 def key_above(ax: Axes, handles: Sequence[Any]) -> None:
@@ -132,4 +130,13 @@ def key_above(ax: Axes, handles: Sequence[Any]) -> None:
         columns = 2 if wide and len(handles) > 1 else 1
         size = "small" if wide else "x-small"
         at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
-        ax.legend(handles=handles, fontsize=size, ncols=columns, frameon=False, **at)
+        _draw_key(ax, handles, fontsize=size, ncols=columns, **at)
+
+
+def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> None:
+    """Draw a legend of labels as they are, be they begun by "_" or with "$" within."""
+    blank = ["-"] * len(handles)
+    legend = ax.legend(handles, blank, frameon=False, **options)
+    for text, handle in zip(legend.get_texts(), handles, strict=True):
+        text.set(text=handle.get_label(), parse_math=False)
+    legend.set_zorder(10)

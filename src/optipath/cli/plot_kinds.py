@@ -1,0 +1,164 @@
+"""The kinds of pictures that ``optipath plot`` draws, and what each takes."""
+
+from __future__ import annotations
+
+from textwrap import wrap
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from optipath.cli.plot_request import PlotRequest
+    from optipath.values.axis_texts import AxisValues
+
+_LETTERS, _LINE = 11.0, 0.26
+"""How many letters of a title stand on an inch, and how many inches a line of it takes."""
+
+
+class PlotKind(NamedTuple):
+    """A kind of picture.
+
+    Attributes
+    ----------
+    draw : callable
+        What draws it; Axes, or an array of them.
+    takes : tuple of str
+        The options that it takes, of ``"x"``, ``"y"`` and ``"detector"``.
+    least_axes, most_axes : int
+        How many parameters vary.
+    """
+
+    draw: Callable[[PlotRequest], Any]
+    takes: tuple[str, ...] = ()
+    least_axes: int = 0
+    most_axes: int = 0
+
+
+def drawn(asked: PlotRequest) -> Any:
+    """Return the picture that is asked for, with its title.
+
+    Parameters
+    ----------
+    asked : PlotRequest
+        What is to be drawn.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    OptipathError
+        If it cannot be drawn.
+    """
+    import numpy as np  # noqa: PLC0415 - the command line starts without
+
+    first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
+    figure = first.figure
+    lines = wrap(asked.title, int(figure.get_figwidth() * _LETTERS))
+    # What is drawn keeps the room that it was given.
+    figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
+    figure.suptitle("\n".join(lines), fontsize="large", parse_math=False)
+    return figure
+
+
+def _ellipse(asked: PlotRequest) -> Any:
+    from optipath.plots import ellipse  # noqa: PLC0415 - an extra
+    from optipath.plots.own_axes import own_panel  # noqa: PLC0415 - ditto
+
+    lights, count = asked.path.trace_all(), len(asked.ends)
+    if count == 1:
+        return ellipse(lights[asked.end], labels=asked.end)
+    panel = own_panel(None, (1, count), (5.0 * count, 5.8))
+    for name, ax in zip(asked.ends, panel.flat, strict=True):
+        ellipse(lights[name], ax, labels=name)
+    return panel
+
+
+def _poincare(asked: PlotRequest) -> Any:
+    from optipath.plots import poincare, poincare_path  # noqa: PLC0415 - an extra
+
+    if not asked.axes:
+        return poincare_path(asked.path)
+    from optipath.plots.curves.light_at_detector import axis_of, varied  # noqa: PLC0415 - ditto
+
+    ((name, values),) = asked.axes.items()
+    (parameter,) = varied(asked.path, [name], {})
+    along, given = axis_of(asked.path, parameter, _texts(values), _TRAIL)
+    light = asked.path.trace_all(**{name: given})[asked.end]
+    return poincare(light, by=along.numbers, label=along.labels[-1])
+
+
+def _stokes(asked: PlotRequest) -> Any:
+    from optipath.plots import stokes  # noqa: PLC0415 - an extra
+
+    lights = asked.path.trace_all()
+    published = {name: asked.published[name] for name in asked.ends if name in asked.published}
+    return stokes({name: lights[name] for name in asked.ends}, published=published or None)
+
+
+def _mueller(asked: PlotRequest) -> Any:
+    from optipath.plots import mueller  # noqa: PLC0415 - an extra
+    from optipath.plots.own_axes import own_panel  # noqa: PLC0415 - ditto
+
+    program = asked.path.compose().program
+    ways = [(source, end) for end in asked.ends for source in program.sources]
+    if len(ways) == 1:
+        return mueller(asked.path.mueller(*ways[0]))
+    panel = own_panel(None, (1, len(ways)), (5.6 * len(ways), 5.4))
+    for (source, end), ax in zip(ways, panel.flat, strict=True):
+        mueller(asked.path.mueller(source, end), ax)
+        ax.set_title(f"{source} to {end}\n{ax.get_title()}", parse_math=False)
+    return panel
+
+
+def _curve(asked: PlotRequest) -> Any:
+    from optipath.plots import curve, quantity_map  # noqa: PLC0415 - an extra
+
+    (x, values), *other = asked.axes.items()
+    if not other:
+        return curve(asked.path, x, asked.quantities, values=_texts(values), detector=asked.end)
+    ((y, y_values),) = other
+    (quantity,) = asked.quantities
+    given: Any = {"x_values": _texts(values), "y_values": _texts(y_values)}
+    return quantity_map(asked.path, x, y, quantity, detector=asked.end, **given)
+
+
+def _texts(values: AxisValues | None) -> Any:
+    """Return the values of an axis as they were given, with their unit."""
+    if values is None or not values.unit:
+        return None if values is None else values.given
+    return [f"{number} {values.unit}" for number in values.shown.tolist()]
+
+
+def _geometry(asked: PlotRequest) -> Any:
+    from optipath.plots import geometry  # noqa: PLC0415 - an extra
+
+    return geometry(asked.path)
+
+
+def _bench(asked: PlotRequest) -> Any:
+    from optipath.plots import bench  # noqa: PLC0415 - an extra
+
+    return bench(asked.path)
+
+
+def _energy(asked: PlotRequest) -> Any:
+    from optipath.plots import energy  # noqa: PLC0415 - an extra
+
+    return energy(asked.path)
+
+
+_TRAIL = 721
+"""How many points a trail has over the usual range of a parameter."""
+
+KINDS = {
+    "ellipse": PlotKind(_ellipse, ("detector",)),
+    "poincare": PlotKind(_poincare, ("x", "detector"), most_axes=1),
+    "stokes": PlotKind(_stokes, ("detector",)),
+    "geometry": PlotKind(_geometry),
+    "bench": PlotKind(_bench),
+    "curve": PlotKind(_curve, ("x", "y", "detector"), least_axes=1, most_axes=2),
+    "mueller": PlotKind(_mueller, ("detector",)),
+    "energy": PlotKind(_energy),
+}

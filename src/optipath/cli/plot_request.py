@@ -1,0 +1,210 @@
+"""What ``optipath plot`` is asked for: a path, what varies, and where its light is looked at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from optipath.cli.given_axes import refuse_arrays
+from optipath.errors import ParameterError, listed, unknown
+from optipath.paths.presets.loader import preset_of_case
+from optipath.values.displayed import displayed
+from optipath.values.named_materials import WAVELENGTH, materials_among
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Mapping, Sequence
+
+    from optipath.cli.chosen import Chosen
+    from optipath.cli.plot_kinds import PlotKind
+    from optipath.paths.path_graph import PathGraph
+    from optipath.plan.plan import Plan
+    from optipath.values.axis_texts import AxisValues
+
+
+@dataclass(frozen=True)
+class PlotRequest:
+    """What is to be drawn.
+
+    Attributes
+    ----------
+    kind : str
+        One of the kinds that there are.
+    title : str
+        What stands above: the preset, the case and what was changed.
+    path : PathGraph
+        The path; the values of the case are its defaults.
+    axes : dict of str to AxisValues or None
+        What varies, in order; None over its usual range.
+    quantities : tuple of str
+        What goes up along a curve.
+    ends : tuple of str
+        Where the light is looked at.
+    published : mapping of str to tuple of float
+        What was published for an end, where these are the values it belongs to.
+    """
+
+    kind: str
+    title: str
+    path: PathGraph
+    axes: dict[str, AxisValues | None]
+    quantities: tuple[str, ...]
+    ends: tuple[str, ...]
+    published: Mapping[str, tuple[float, ...]]
+
+    @property
+    def end(self) -> str:
+        """The only end at which the light is looked at.
+
+        Raises
+        ------
+        ParameterError
+            If there are several.
+        """
+        if len(self.ends) > 1:
+            raise ParameterError(
+                f"the path has the detectors {listed(self.ends)}, of which this picture has one; "
+                f"add --detector {self.ends[0]}"
+            )
+        return self.ends[0]
+
+
+def request_of(
+    chosen: Chosen,
+    kind: str,
+    limits: PlotKind,
+    *,
+    x: Sequence[str],
+    y: str | None,
+    detector: str | None,
+    reads: str | None,
+) -> PlotRequest:
+    """Return what a command line asks for.
+
+    Parameters
+    ----------
+    chosen : Chosen
+        The preset, and what is given for it.
+    kind : str
+        What is drawn.
+    limits : PlotKind
+        What it takes.
+    x : sequence of str
+        What varies.
+    y : str or None
+        What goes up, with commas between.
+    detector : str or None
+        Where the light is looked at.
+    reads : str or None
+        What all detectors read.
+
+    Returns
+    -------
+    PlotRequest
+
+    Raises
+    ------
+    OptipathError
+        With what does not fit.
+    """
+    names = [name.strip().lstrip("-").replace("-", "_") for name in x]
+    axes = {name: chosen.axes.get(name) for name in [*names, *chosen.axes]}
+    quantities = tuple(["S0"] if y is None else [name.strip() for name in y.split(",")])
+    path = _opened(chosen, reads)
+    refuse_arrays(path, axes)
+    plan = path.compose()
+    ends, faults = _ends(plan, detector)
+    faults += _name_faults(chosen, names, [*plan.inputs.open])
+    faults += _count_faults(kind, limits, axes, [*plan.inputs.open])
+    if len(axes) > 1 and len(quantities) > 1:
+        faults.append(f"a map is of one quantity, and --y names {len(quantities)}; give one")
+    if detector is not None and kind == "poincare" and not axes:
+        faults.append(
+            "--detector is of a trail along --x, and without it the trail goes along the whole "
+            "path; add --x NAME, or leave --detector out"
+        )
+    if faults:
+        raise ParameterError(*faults)
+    changed = bool(chosen.values or chosen.axes or reads)
+    published = {} if changed or chosen.case is None else path.cases[chosen.case].published
+    title = ", ".join([chosen.title, *_told(chosen, reads=reads, at=detector)])
+    return PlotRequest(kind, title, path, axes, quantities, ends, published)
+
+
+def _opened(chosen: Chosen, reads: str | None) -> PathGraph:
+    """Return the path, in which all that nobody has given stays open."""
+    opened = chosen.opened
+    if chosen.case is not None:
+        opened = preset_of_case(opened, chosen.preset, chosen.case)
+    return replace(chosen, opened=opened, case=None).path(reads)
+
+
+def _ends(plan: Plan, detector: str | None) -> tuple[tuple[str, ...], list[str]]:
+    detectors, dumps = ([*names] for names in (plan.program.detectors, plan.program.dumps))
+    if detector is None:
+        return (*(detectors or dumps),), []
+    return (detector,), unknown("detector", detector, [*detectors, *dumps])
+
+
+def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
+    """Return what is wrong with the names of what varies, a sentence each."""
+    faults = []
+    for name in dict.fromkeys(names):
+        flag = f"--{name.replace('_', '-')}"
+        if names.count(name) > 1:
+            faults.append(f"--x {name} is given {names.count(name)} times; give it once")
+        if name in chosen.opened.choices:
+            faults.append(f"--x {name} is a place, of which no axis has several; give {flag} WORD")
+        elif name in chosen.values:
+            faults.append(f"--x {name} varies what {flag} gives one value; leave one of them out")
+        else:
+            faults += unknown("--x", name, known)
+    for name in chosen.axes:
+        if name not in known:
+            flag = f"--{name.replace('_', '-')}"
+            faults.append(
+                f"{flag} is given several values, and nothing depends on it; leave it out"
+            )
+    return faults
+
+
+def _count_faults(
+    kind: str, limits: PlotKind, axes: Collection[str], known: Sequence[str]
+) -> list[str]:
+    """Return what is wrong with how many parameters vary, a sentence each."""
+    faults = []
+    flags = [f"--{name.replace('_', '-')}" for name in axes]
+    if len(axes) > limits.most_axes:
+        if not limits.most_axes:
+            faults.append(
+                f"{listed(flags)} {'is' if len(flags) == 1 else 'are'} given several values, and "
+                f"--kind {kind} is of one; give one, or write --kind curve or poincare"
+            )
+            return faults
+        most = "two parameters" if limits.most_axes > 1 else "one parameter"
+        faults.append(
+            f"--kind {kind} is along {most} at most, and {listed(flags)} vary; give one value of "
+            f"the others"
+        )
+    if len(axes) < limits.least_axes:
+        example = next(iter(known), "NAME").replace("_", "-")
+        faults.append(
+            f"--kind {kind} is along a parameter; name it, --x {example}, or give it several "
+            f"values, --{example} START:STOP:COUNT"
+        )
+    return faults
+
+
+def _told(chosen: Chosen, **others: str | None) -> list[str]:
+    """Return what is given besides the case, each value with its name."""
+    labels = {name: label for name, label, _ in materials_among(chosen.values)}
+    told = []
+    for name, value in chosen.values.items():
+        parameter = chosen.opened.parameters.get(name, WAVELENGTH)
+        if isinstance(value, float):
+            text = displayed(value, parameter.unit)
+        elif name in labels or isinstance(value, str):
+            text = labels.get(name, value)
+        else:
+            text = parameter.text(value)
+        told.append(f"{name} {text}")
+    return told + [f"{name} {text}" for name, text in others.items() if text]

@@ -1,0 +1,73 @@
+"""What the page gives to take along."""
+
+import contextlib
+import io
+
+import pytest
+
+import optipath as op
+
+expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'").expect
+
+PICTURES = ("ellipse", "sphere", "scene", "curve", "energy")
+
+
+def text_of(page, form, part):
+    page.locator("#export-forms").get_by_role("button", name=form).click()
+    expect(page.locator("#export-text")).to_contain_text(part)
+    return page.locator("#export-text").inner_text()
+
+
+def test_python_lines_print_the_numbers_of_the_page(visited):
+    page = visited.open("preset=npgr026&case=8&value.delta=30+deg")
+    lines = text_of(page, "Python", "load_preset")
+    said = io.StringIO()
+    with contextlib.redirect_stdout(said):
+        exec(compile(lines, "lines", "exec"), {})  # noqa: S102 - the lines are for running
+    assert said.getvalue().split() == ["E", *visited.stokes()]
+
+
+def test_toml_is_a_preset_with_the_values_of_the_page(visited, saved, tmp_path):
+    page = visited.open("preset=npgr026&case=8&value.delta=30+deg")
+    text_of(page, "TOML", "parameters")
+    name, content = saved(page, page.locator("#export-save").click)
+    file = tmp_path / "mine.toml"
+    file.write_bytes(content)
+    assert name.endswith(".toml")
+    there = op.load_preset("npgr026", case="8").trace(delta="30 deg")
+    assert op.load_preset(file).trace().stokes == pytest.approx(there.stokes, rel=1e-12)
+
+
+def test_csv_has_the_curve(visited):
+    page = visited.open("preset=malus&y=S0&to=90")
+    rows = text_of(page, "CSV", "angle").strip().splitlines()
+    assert len(rows) > 100
+    assert rows[0].startswith("angle")
+    assert "S0" in rows[0]
+
+
+@pytest.mark.parametrize("picture", PICTURES)
+def test_pictures_are_saved_with_their_looks_and_texts(stayed, saved, picture):
+    if stayed.page.url == "about:blank":
+        stayed.open("preset=npgr026&case=8")
+    figure = stayed.page.locator(f"[data-picture={picture}]")
+    name, content = saved(stayed.page, figure.get_by_role("button", name="SVG").click)
+    text = content.decode()
+    assert name == f"npgr026-case-8-{picture}.svg"
+    assert "<text" in text
+    assert "var(" not in text
+    assert "class=" not in text
+    assert "<title>" in text
+    name, content = saved(stayed.page, figure.get_by_role("button", name="PNG").click)
+    assert name.endswith(".png")
+    assert content.startswith(b"\x89PNG")
+    assert len(content) > 5000
+
+
+def test_the_lines_are_copied(visited_with):
+    visited = visited_with(permissions=["clipboard-read", "clipboard-write"])
+    page = visited.open("preset=malus")
+    lines = text_of(page, "Python", "load_preset('malus'")
+    page.locator("#export-copy").click()
+    expect(page.locator("#export-said")).to_have_text("copied")
+    assert page.evaluate("navigator.clipboard.readText()").strip() == lines.strip()

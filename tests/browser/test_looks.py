@@ -1,0 +1,173 @@
+"""The page for every window, eye and hand."""
+
+import re
+
+import pytest
+
+expect = pytest.importorskip("playwright.sync_api", reason="needs the extra 'browser'").expect
+
+SIZES = {"phone": (400, 800), "desk": (1280, 900), "wall": (3840, 2160)}
+
+UNNAMED = """() => [...document.querySelectorAll('button, input, select, [tabindex="0"], svg')]
+  .filter((each) => each.checkVisibility())
+  .filter((each) => !(each.ariaLabel || each.labels?.length || each.textContent.trim()))
+  .map((each) => each.outerHTML.slice(0, 120))"""
+
+CONTRASTS = """() => {
+  const parts = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const ground = (each) => {
+    for (let at = each; at; at = at.parentElement) {
+      const found = parts(getComputedStyle(at).backgroundColor);
+      if (found.length < 4 || found[3] > 0.99) return found;
+    }
+    return [255, 255, 255];
+  };
+  const light = ([r, g, b]) => [r, g, b]
+    .map((each) => each / 255)
+    .map((each) => (each <= 0.04045 ? each / 12.92 : ((each + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, each, i) => sum + each * [0.2126, 0.7152, 0.0722][i], 0);
+  return [...document.querySelectorAll('body *')]
+    .filter((each) => each.checkVisibility() && !each.matches(':disabled, .unseen, option'))
+    .filter((each) => [...each.childNodes].some((child) => child.nodeType === 3 && child.data.trim()))
+    .map((each) => {
+      const colour = each.matches('svg text') ? getComputedStyle(each).fill : getComputedStyle(each).color;
+      const [one, other] = [light(parts(colour)), light(ground(each))].sort((a, b) => b - a);
+      return [(one + 0.05) / (other + 0.05), each.textContent.trim().slice(0, 40)];
+    })
+    .filter(([contrast]) => contrast < 4.5);
+}"""
+
+CUT = """() => [...document.querySelectorAll('svg[role=img]')].flatMap((svg) => {
+  const room = svg.getBoundingClientRect();
+  return [...svg.querySelectorAll('text')].filter((each) => {
+    const box = each.getBoundingClientRect();
+    return box.left < room.left - 1 || box.right > room.right + 1 || box.top < room.top - 1 || box.bottom > room.bottom + 1;
+  }).map((each) => each.textContent);
+})"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", SIZES)
+def test_nothing_is_cut_or_faint_in_a_window(visited_with, size, scheme):
+    width, height = SIZES[size]
+    visited = visited_with(viewport={"width": width, "height": height}, color_scheme=scheme)
+    page = visited.open("preset=npgr026&case=8&y=S0,S1,S2,S3,DoP,AoP")
+    wide = page.evaluate("document.documentElement.scrollWidth")
+    assert wide <= width
+    assert page.evaluate(CONTRASTS) == []
+    assert page.evaluate(CUT) == []
+    ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    brightness = sum(map(int, re.findall(r"\d+", ground)[:3]))
+    assert (brightness > 600) is (scheme == "light")
+
+
+def test_pictures_and_texts_grow_with_the_window(visited_with):
+    sizes = []
+    for width, height in (SIZES["desk"], SIZES["wall"]):
+        visited = visited_with(viewport={"width": width, "height": height})
+        page = visited.open("preset=npgr026&case=8")
+        box = page.locator("[data-picture=ellipse] svg").bounding_box()
+        text = page.evaluate("parseFloat(getComputedStyle(document.body).fontSize)")
+        sizes.append((box["width"], text))
+    assert sizes[1][0] > 2.5 * sizes[0][0]
+    assert sizes[1][1] > 1.4 * sizes[0][1]
+
+
+def test_the_light_stands_above_the_controls_on_a_phone_and_beside_them_at_a_desk(visited_with):
+    for size in ("phone", "desk"):
+        width, height = SIZES[size]
+        page = visited_with(viewport={"width": width, "height": height}).open()
+        light = page.locator("#light").bounding_box()
+        controls = page.locator("#controls").bounding_box()
+        if size == "phone":
+            assert light["y"] + light["height"] <= controls["y"]
+        else:
+            assert controls["x"] + controls["width"] <= light["x"]
+
+
+def test_every_control_and_picture_has_a_name(visited):
+    page = visited.open("preset=npgr026&case=8")
+    assert page.evaluate(UNNAMED) == []
+    ids = page.evaluate("[...document.querySelectorAll('[id]')].map((each) => each.id)")
+    assert len(ids) == len(set(ids))
+    told = "[...document.querySelectorAll('[aria-describedby]')].flatMap((each) => each.getAttribute('aria-describedby').split(' '))"
+    assert set(page.evaluate(told)) <= set(ids)
+    levels = page.evaluate("[...document.querySelectorAll('h1, h2, h3')].map((each) => +each.tagName[1])")
+    assert levels[0] == 1
+    assert all(after - before <= 1 for before, after in zip(levels, levels[1:], strict=False))
+
+
+def test_pictures_say_in_words_and_numbers_what_they_show(visited):
+    page = visited.open("preset=npgr026&case=8")
+    label = "[data-picture={}] svg"
+    for picture, words in {
+        "ellipse": "left-handed, axis at \N{MINUS SIGN}24.91",
+        "sphere": "X2.reflected",
+        "scene": "delta = 48",
+        "curve": "Against delta (deg) from 0 to 90",
+        "energy": "19.1245",
+    }.items():
+        said = page.locator(label.format(picture)).get_attribute("aria-label")
+        assert words in said, picture
+
+
+def test_results_are_announced_once_they_rest(visited):
+    page = visited.open("preset=npgr026&case=8")
+    expect(page.locator("#said")).to_contain_text("S0 19.1245")
+    assert page.locator("#said").get_attribute("aria-live") == "polite"
+
+
+def test_keys_alone_reach_and_change_everything(visited):
+    page = visited.open("preset=npgr026&case=8")
+    reached = set()
+    for _ in range(80):
+        page.keyboard.press("Tab")
+        reached.add(page.evaluate("document.activeElement.id || document.activeElement.ariaLabel || document.activeElement.textContent"))
+    assert {"preset", "case", "reset", "theme", "parameter-delta", "delta, slider", "place-place", "export-copy"} <= reached
+    assert any("arrow keys turn it" in each for each in reached)
+    outline = page.evaluate("getComputedStyle(document.activeElement).outlineStyle")
+    assert outline != "none"
+
+
+@pytest.mark.parametrize("picture", ["sphere", "scene"])
+def test_pictures_in_space_are_turned_by_keys_and_by_dragging(visited, picture):
+    page = visited.open("preset=npgr026&case=8")
+    svg = f"[data-picture={picture}] svg"
+    first = page.inner_html(svg)
+    canvas = page.locator(f"[data-picture={picture}] .canvas")
+    canvas.press("ArrowUp")
+    assert page.inner_html(svg) != first
+    canvas.press("Home")
+    assert page.inner_html(svg) == first
+    canvas.scroll_into_view_if_needed()
+    box = canvas.bounding_box()
+    page.mouse.move(box["x"] + 60, box["y"] + 60)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 130, box["y"] + 80, steps=3)
+    page.mouse.up()
+    assert page.inner_html(svg) != first
+    assert f"view.{picture}" in unescaped(page)
+
+
+def unescaped(page):
+    page.wait_for_url(lambda url: "view." in url)
+    return page.url
+
+
+def test_dark_and_light_are_switched_and_remembered(visited):
+    page = visited.open()
+    ground = "getComputedStyle(document.body).backgroundColor"
+    light = page.evaluate(ground)
+    page.get_by_role("button", name="Dark").click()
+    dark = page.evaluate(ground)
+    assert dark != light
+    expect(page.get_by_role("button", name="Dark")).to_have_attribute("aria-pressed", "true")
+    page.reload()
+    assert page.evaluate(ground) == dark
+
+
+def test_nothing_moves_where_motion_is_not_wanted(visited_with):
+    page = visited_with(reduced_motion="reduce").open()
+    moving = """[...document.querySelectorAll('*')].map((each) => getComputedStyle(each))
+      .filter((each) => each.transitionDuration !== '0s' || each.animationName !== 'none').length"""
+    assert page.evaluate(moving) == 0

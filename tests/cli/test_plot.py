@@ -1,0 +1,266 @@
+"""``optipath plot``: pictures of presets and their light."""
+
+import os
+import re
+import subprocess
+import sys
+import warnings
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import optipath as op
+from optipath.cli import main
+from optipath.cli.chosen import Chosen
+from optipath.cli.command import cli
+from optipath.cli.plot_kinds import KINDS, drawn
+from optipath.cli.plot_request import request_of
+from optipath.values.axis_texts import AxisValues
+from pictures import faults_of, texts_of
+
+pytest.importorskip("matplotlib")
+
+WHOLE = "OPTIPATH_PICTURES" in os.environ
+"""Whether all is drawn: each kind of each case of each preset, which takes minutes."""
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def chosen(preset, case=None, **values):
+    return Chosen(preset, op.load_preset(preset), case, values)
+
+
+def picture(preset, kind, case=None, *, x=(), y=None, detector=None, reads=None, **values):
+    about = chosen(preset, case, **values)
+    given = {"x": x, "y": y, "detector": detector, "reads": reads}
+    return drawn(request_of(about, kind, KINDS[kind], **given))
+
+
+def words(figure):
+    return [text.get_text() for text in texts_of(figure)]
+
+
+def open_parameter(path):
+    """A parameter whose values are numbers."""
+    return next(iter(path.compose().inputs.open))
+
+
+def pictures_of(preset):
+    """Each kind with what it needs."""
+    x = open_parameter(op.load_preset(preset))
+    yield from ((kind, {}) for kind in KINDS if KINDS[kind].least_axes == 0)
+    yield "curve", {"x": (x,), "y": "S0,AoP"}
+
+
+def some_of(preset, case):
+    """Each third picture: all kinds are drawn of some presets, and all presets in some kinds."""
+    place = op.preset_names().index(preset)
+    return [
+        (preset, case, kind, given)
+        for number, (kind, given) in enumerate(pictures_of(preset))
+        if WHOLE or (place + number) % 3 == 0
+    ]
+
+
+EVERY = [each for preset in op.preset_names() for each in some_of(preset, None)]
+if WHOLE:
+    CASES = [
+        (preset, case) for preset in op.preset_names() for case in op.load_preset(preset).cases
+    ]
+    EVERY += [each for preset, case in CASES for each in some_of(preset, case)]
+
+
+@pytest.mark.parametrize(("preset", "case", "kind", "given"), EVERY)
+def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, given):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figure = picture(preset, kind, case, **given)
+        assert faults_of(figure) == []
+    assert preset in figure.get_suptitle()
+    labels = {axis.get_label_text() for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)}
+    assert labels - {""} or kind in {"geometry", "bench", "energy", "poincare"}
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["--kind", "ellipse", "--case", "8"],
+        ["--kind", "poincare", "--x", "delta"],
+        ["--kind", "poincare", "--delta", "20:40:5"],
+        ["--kind", "curve", "--x", "delta", "--y", "s0,dolp", "--rho", "10"],
+        ["--kind", "curve", "--delta", "0:90:10"],
+        ["--kind", "curve", "--delta", "0:90:5", "--x", "phi", "--y", "dop"],
+        ["--kind", "stokes", "--filter", "none", "--place", "eye"],
+        ["--kind", "mueller", "--detector", "E"],
+        ["--kind", "geometry", "--n1", "1.5"],
+    ],
+)
+@pytest.mark.parametrize("ending", ["svg"])
+def test_a_picture_is_drawn_into_a_file(arguments, ending, capsys):
+    assert main(["plot", "npgr026", *arguments, "--out", f"a.{ending}"]) == 0
+    told = capsys.readouterr()
+    assert told.out == f"wrote a.{ending}\n"
+    assert told.err == ""
+
+
+def test_the_title_says_preset_case_and_what_was_changed():
+    figure = picture("npgr026", "stokes", "8", delta=0.5235987755982988, filter="none")
+    assert figure.get_suptitle() == "npgr026, case 8, delta 30 deg, filter none"
+
+
+def test_values_along_an_axis_keep_the_unit_they_are_given_in():
+    values = AxisValues(np.array([1.7, 2.0]), "eV", np.array([729e-9, 620e-9]))
+    path = op.load_preset("quartz-quarter-wave")
+    about = Chosen("quartz-quarter-wave", path, None, {}, {"wavelength": values})
+    given = {"x": (), "y": "S3", "detector": None, "reads": None}
+    figure = drawn(request_of(about, "curve", KINDS["curve"], **given))
+    assert figure.axes[0].get_xlabel().endswith("(eV)")
+    assert figure.axes[0].lines[0].get_xdata() == pytest.approx([1.7, 2.0])
+
+
+def test_each_source_has_a_matrix_of_its_own():
+    told = words(picture("sky-and-window", "mueller"))
+    assert sum(text.startswith("heaven to camera") for text in told) == 1
+    assert sum(text.startswith("lamp to camera") for text in told) == 1
+
+
+def two_detectors(tmp_path):
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add(
+        "glass", op.Interface(1.5, op.Parameter("theta", 0.9))
+    )
+    for port in ("reflected", "transmitted"):
+        path.add(f"eye-{port}", op.Detector())
+        path.connect(f"glass.{port}", f"eye-{port}.in")
+    (tmp_path / "two.toml").write_text(path.to_toml(), "utf-8")
+    return tmp_path / "two.toml"
+
+
+def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, capsys):
+    file = two_detectors(tmp_path)
+    for kind in ("ellipse", "stokes", "mueller"):
+        assert main(["plot", str(file), "--kind", kind, "--out", f"{kind}.svg"]) == 0
+        drawn_texts = (tmp_path / f"{kind}.svg").read_text("utf-8")
+        assert "eye-reflected" in drawn_texts
+        assert "eye-transmitted" in drawn_texts
+    capsys.readouterr()
+    for kind in ("curve", "poincare"):
+        asked = ["plot", str(file), "--kind", kind, "--x", "theta", "--out", "a.svg"]
+        assert main(asked) == 2
+        told = "the detectors eye-reflected and eye-transmitted, of which this picture has one"
+        assert told in capsys.readouterr().err
+        assert main([*asked, "--detector", "eye-reflected"]) == 0
+
+
+def test_a_long_title_goes_on_in_the_next_line():
+    path = op.load_preset("npgr026")
+    many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)
+    figure = picture("npgr026", "stokes", "8", **many)
+    assert "\n" in figure.get_suptitle()
+    assert faults_of(figure) == []
+    assert path.parameters.keys() >= many.keys()
+
+
+def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
+    def told(case, reads=None, **values):
+        given = {"x": (), "y": None, "detector": None, "reads": reads}
+        about = chosen("npgr026", case, **values)
+        return request_of(about, "stokes", KINDS["stokes"], **given).published
+
+    assert told("8") == op.load_preset("npgr026").cases["8"].published
+    assert told(None) == {}
+    assert told("8", delta=0.5) == {}
+    assert told("8", reads="intensity") == {}
+
+
+def test_the_line_by_default_is_that_of_the_case():
+    given = {"x": ("delta",), "y": None, "detector": None, "reads": None}
+    asked = request_of(chosen("npgr026", "8"), "curve", KINDS["curve"], **given)
+    case = op.load_preset("npgr026", case="8")
+    assert asked.path.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
+    assert float(asked.path.parameters["delta"].default) == float(case.parameters["delta"].default)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ([], "--kind is missing; say what is drawn, one of ellipse, poincare"),
+        (["--kind", "ellipse", "--out", ""], "is no name of a file"),
+        (["--kind", "ellipse", "--out", "a.jpg"], "cannot be drawn; use one of: .png, .svg, .pdf"),
+        (["--kind", "ellipse", "--out", "none/a.png"], "there is no such folder"),
+        (["--kind", "elipse"], "'elipse' is not one of"),
+        (["--kind", "ellipse", "--x", "delta"], "--x is of poincare or curve, and --kind ellipse"),
+        (["--kind", "stokes", "--y", "S0"], "--y is of curve, and --kind stokes has none"),
+        (["--kind", "energy", "--detector", "E"], "--detector is of ellipse or"),
+        (["--kind", "poincare", "--detector", "E"], "add --x NAME, or leave --detector out"),
+        (["--kind", "ellipse", "--detector", "X1"], "detector 'X1' is unknown"),
+        (["--kind", "curve"], "name it, --x delta, or give it several values"),
+        (["--kind", "curve", "--x", "delt"], "'delt' is unknown; did you mean 'delta'"),
+        (["--kind", "curve", "--x", "place"], "is a place, of which no axis has several"),
+        (["--kind", "curve", "--x", "delta", "--x", "delta"], "--x delta is given 2 times"),
+        (
+            ["--kind", "curve", "--x", "delta", "--delta", "30"],
+            "--x delta varies what --delta gives one value; leave one of them out",
+        ),
+        (["--kind", "curve", "--x", "delta", "--y", "S9"], "'S9' is unknown"),
+        (["--kind", "curve", "--x", "delta", "--y", ""], "unknown"),
+        (
+            ["--kind", "curve", "--x", "delta", "--x", "rho", "--y", "S0,S1"],
+            "a map is of one quantity, and --y names 2; give one",
+        ),
+        (
+            ["--kind", "curve", "--x", "delta", "--x", "rho", "--x", "phi"],
+            "--kind curve is along two parameters at most",
+        ),
+        (["--kind", "poincare", "--x", "delta", "--x", "rho"], "one parameter at most"),
+        (["--kind", "ellipse", "--delta", "0:90:4"], "--delta is given several values"),
+        (["--kind", "ellipse", "--case", "8", "--case", "7"], "plot takes one case"),
+        (["--kind", "ellipse", "--case", "77"], "'77'"),
+        (["--kind", "ellipse", "--delta", "north"], "north"),
+        (["--kind", "ellipse", "--json"], "--json"),
+    ],
+)
+def test_what_cannot_be_drawn_is_refused_in_a_line(arguments, sentence, capsys, tmp_path):
+    out = [] if "--out" in arguments else ["--out", "a.png"]
+    assert main(["plot", "npgr026", *arguments, *out]) == 2
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert told.err.count("\n") == 1
+    assert sentence in told.err
+    assert not [*tmp_path.iterdir()]
+
+
+def test_all_that_is_wrong_is_told_at_once(capsys):
+    assert main(["plot", "npgr026", "--delta", "north"]) == 2
+    told = capsys.readouterr().err
+    assert "3 faults:" in told
+    assert "--kind is missing" in told
+    assert "--out is missing, and a picture is drawn into a file; add --out plot.png" in told
+
+
+def test_without_the_extra_it_says_which(monkeypatch, capsys):
+    monkeypatch.delattr("optipath.plots.save", raising=False)
+    monkeypatch.setattr("optipath.plots.find_spec", lambda _: None)
+    assert main(["plot", "npgr026", "--kind", "ellipse", "--out", "a.png"]) == 2
+    assert "pip install 'optipath[plot]'" in capsys.readouterr().err
+
+
+def test_kinds_are_completed_by_a_shell():
+    line = {"COMP_WORDS": "optipath plot npgr026 --kind po", "COMP_CWORD": "4"}
+    found = subprocess.run(
+        [sys.executable, "-c", "from optipath.cli import main; main()"],
+        env={**os.environ, **line, "_OPTIPATH_COMPLETE": "bash_complete"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert found.stdout == "plain,poincare\n"
+
+
+def test_help_tells_the_kinds():
+    told = CliRunner().invoke(cli, ["plot", "npgr026", "--help"]).output
+    assert re.search(r"--kind \[" + r"\|".join(KINDS), told)

@@ -1,0 +1,279 @@
+"""The server: whom it answers, with what, and what it never does."""
+
+import json
+import socket
+import time
+
+import pytest
+
+from explorer.served import asked, page_server, posted, raw
+from optipath.errors import OptipathError
+from optipath.explorer import page_handler
+from optipath.explorer.page_server import HOST
+
+FORBIDDEN = {"error": "this is not the address that optipath explore has printed"}
+
+
+@pytest.fixture(scope="module")
+def server():
+    with page_server() as found:
+        yield found
+
+
+def test_it_listens_to_this_machine_alone(server):
+    assert server.socket.getsockname()[0] == HOST == "127.0.0.1"
+    assert server.address == f"http://127.0.0.1:{server.server_port}/{server.token}/"
+    assert len(server.token) == 32
+
+
+def test_the_page_comes_with_headers_that_let_nothing_else_in(server):
+    status, headers, page = asked(server, "GET", "")
+    assert status == 200
+    assert page.startswith(b"<!doctype html>")
+    assert headers["Content-Security-Policy"].startswith("default-src 'self'; style-src 'self'")
+    assert "unsafe" not in headers["Content-Security-Policy"]
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    assert headers["Referrer-Policy"] == "no-referrer"
+    assert headers["Cache-Control"] == "no-store"
+    assert headers["Server"] == "optipath"
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("main.js", "text/javascript"), ("style.css", "text/css"), ("icon.svg", "image/svg+xml")],
+)
+def test_its_files_have_their_types(server, name, kind):
+    status, headers, content = asked(server, "GET", f"page/{name}")
+    assert (status, headers.get_content_type()) == (200, kind)
+    assert len(content) == int(headers["Content-Length"])
+
+
+def test_what_there_is_is_listed(server):
+    status, _, answer = asked(server, "GET", "api/presets")
+    found = json.loads(answer)
+    assert (status, found["opened"]) == (200, "malus")
+    assert {"name", "description", "file"} == {*found["presets"][0]}
+
+
+def test_a_question_is_answered(server):
+    status, found = posted(server, "api/trace", {"preset": "malus", "values": {"angle": "60"}})
+    assert (status, found["detectors"]["eye"]["texts"][0]) == (200, "0.125")
+    assert posted(server, "api/open", {"preset": "malus"})[1]["detectors"] == ["eye"]
+
+
+def test_a_head_has_no_body(server):
+    status, headers, content = asked(server, "HEAD", "api/presets")
+    assert (status, content) == (200, b"")
+    assert int(headers["Content-Length"]) > 100
+
+
+def test_one_connection_serves_many_questions(server):
+    question = (
+        f"GET /{server.token}/api/presets HTTP/1.1\r\nHost: 127.0.0.1:{server.server_port}\r\n\r\n"
+    ).encode()
+    last = question.replace(b"\r\n\r\n", b"\r\nConnection: close\r\n\r\n")
+    assert raw(server, question * 3 + last).count(b"HTTP/1.1 200 OK") == 4
+
+
+@pytest.mark.parametrize("below", ["/", "", "/favicon.ico", "/{token}", "/{token}x/", "/{other}/"])
+def test_nothing_is_told_without_the_token(server, below):
+    other = server.token[:-1] + ("A" if server.token[-1] != "A" else "B")
+    below = below.format(token=server.token, other=other)
+    for method in ("GET", "POST", "HEAD", "DELETE"):
+        status, headers, answer = asked(server, method, "", below=below or "*")
+        assert status == 403
+        assert "Access-Control-Allow-Origin" not in headers
+        assert method == "HEAD" or json.loads(answer) == FORBIDDEN
+
+
+@pytest.mark.parametrize(
+    "headers",
+    [
+        {"Host": "evil.example"},
+        {"Host": "127.0.0.1"},
+        {"Host": "127.0.0.1:1"},
+        {"Host": "127.0.0.1.evil.example"},
+        {"Origin": "http://evil.example"},
+        {"Origin": "null"},
+        {"Origin": "https://127.0.0.1"},
+        {"Sec_Fetch_Site": "cross-site"},
+    ],
+)
+def test_other_pages_are_refused_even_with_the_token(server, headers):
+    assert asked(server, "GET", "", **headers)[0] == 403
+    assert posted(server, "api/trace", {"preset": "malus"}, **headers) == (403, FORBIDDEN)
+
+
+def test_its_own_page_is_answered_by_both_names(server):
+    for name in ("127.0.0.1", "localhost"):
+        host = f"{name}:{server.server_port}"
+        assert asked(server, "GET", "", Host=host, Origin=f"http://{host}")[0] == 200
+    both = {"Host": f"localhost:{server.server_port}", "Origin": server.address.rpartition("/")[0]}
+    assert asked(server, "GET", "", **both)[0] == 403
+
+
+@pytest.mark.parametrize(
+    "place",
+    [
+        "page/../request_guards.py",
+        "page/%2e%2e/request_guards.py",
+        "page//etc/passwd",
+        "../../etc/passwd",
+        "page/index.html",
+        "page/",
+        "api",
+        "api/trace/",
+        "api/open?preset=malus",
+        "?x=1",
+        "page/main.js\\..",
+    ],
+)
+def test_no_other_file_is_sent(server, place):
+    status, _, answer = asked(server, "GET", place)
+    assert (status, json.loads(answer)) == (404, {"error": "there is nothing at this address"})
+
+
+@pytest.mark.parametrize("method", ["PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "FOO"])
+def test_other_methods_are_refused(server, method):
+    status, headers, _ = asked(server, method, "")
+    assert (status, headers["Allow"]) == (405, "GET, HEAD, POST")
+
+
+def test_questions_are_posted_and_files_are_not(server):
+    assert asked(server, "GET", "api/trace")[0] == 405
+    assert posted(server, "page/main.js", {})[0] == 405
+    assert posted(server, "page/none.js", {})[0] == 404
+
+
+@pytest.mark.parametrize(
+    ("headers", "body", "status", "told"),
+    [
+        ({}, b"x" * (64 * 1024 + 1), 413, "65536 are the most"),
+        ({"Content_Type": "text/plain"}, b"{}", 400, "Content-Type: application/json"),
+        ({"Content_Type": "application/jsonx"}, b"{}", 400, "Content-Type: application/json"),
+        ({"Content_Length": "-5"}, b"{}", 400, "Content-Length"),
+        ({"Content_Length": "+2"}, b"{}", 400, "Content-Length"),
+        ({"Content_Length": "1e3"}, b"{}", 400, "Content-Length"),
+        ({"Content_Length": "\u0662".encode().decode("latin-1")}, b"{}", 400, "Content-Length"),
+        ({"Content_Length": "99999999999"}, b"{}", 413, "65536 are the most"),
+        ({"Transfer_Encoding": "chunked"}, b"0\r\n\r\n", 400, "in parts"),
+        ({"Content_Encoding": "gzip"}, b"{}", 400, "packed"),
+        ({}, b"{", 400, "no JSON"),
+        ({}, b"[]", 400, "a request is an object"),
+        ({}, b'{"preset": "malus", "path": "/etc"}', 400, "name 'path' is unknown"),
+    ],
+)
+def test_what_is_malformed_is_refused_in_a_sentence(server, headers, body, status, told):
+    found = posted(server, "api/trace", body, **headers)
+    assert found[0] == status
+    assert told in found[1]["error"]
+    assert [*found[1]] == ["error"]
+
+
+def test_a_length_that_is_given_twice_is_refused(server):
+    head = (
+        f"POST /{server.token}/api/trace HTTP/1.1\r\nHost: 127.0.0.1:{server.server_port}\r\n"
+        "Content-Type: application/json\r\nContent-Length: 2\r\nContent-Length: 30\r\n\r\n{}"
+    )
+    assert raw(server, head.encode()).startswith(b"HTTP/1.1 400 ")
+
+
+@pytest.mark.parametrize(
+    ("sent", "status"),
+    [
+        (b"\r\n", b""),
+        (b"GET\r\n\r\n", b"400"),
+        (b"GET / HTTP/9.9\r\n\r\n", b"505"),
+        (b"GET / HTTP/x\r\n\r\n", b"400"),
+        (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", b"400"),
+        (b"GET /" + b"a" * 70000 + b" HTTP/1.1\r\n\r\n", b"414"),
+        (b"GET / HTTP/1.1\r\nA: " + b"a" * 70000 + b"\r\n\r\n", b"431"),
+        (b"GET / HTTP/1.1\r\n" + b"A: b\r\n" * 200 + b"\r\n", b"431"),
+        (b"GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", b"403"),
+        (b"GET /\r\n", b"403"),
+    ],
+)
+def test_what_is_no_request_gets_a_status_and_nothing_of_it_back(server, sent, status):
+    found = raw(server, sent, close=True)
+    assert found[9:12] == status
+    assert b"Traceback" not in found
+    assert b"aaaa" not in found
+
+
+def test_a_fault_of_its_own_is_a_sentence_there_and_a_line_here(server, monkeypatch, capsys):
+    def broken(_):
+        raise ZeroDivisionError("secret /home/me\nmore")
+
+    monkeypatch.setattr(server.answers, "trace", broken)
+    status, found = posted(server, "api/trace", {"preset": "malus"})
+    assert status == 500
+    assert "secret" not in found["error"]
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def is_hung_up_on_while_it_sends(server):
+    """Send a byte now and then, which does not help."""
+    with socket.create_connection((HOST, server.server_port), 10) as slow:
+        for _ in range(200):
+            try:
+                slow.sendall(b"G")
+                if not slow.recv(1, socket.MSG_DONTWAIT):
+                    return True
+            except BlockingIOError:
+                time.sleep(0.02)
+            except ConnectionError:
+                return True
+    return False
+
+
+def test_who_says_nothing_is_hung_up_on(monkeypatch):
+    monkeypatch.setattr(page_handler, "_FIRST", 0.2)
+    with page_server() as server:
+        begin = time.monotonic()
+        assert raw(server, b"GET / HT") == b""
+        assert is_hung_up_on_while_it_sends(server)
+        assert time.monotonic() - begin < 8.0
+
+
+def test_a_body_that_never_comes_is_not_waited_for(monkeypatch):
+    monkeypatch.setattr(page_handler, "_FIRST", 0.2)
+    with page_server() as server:
+        head = (
+            f"POST /{server.token}/api/trace HTTP/1.1\r\nHost: 127.0.0.1:{server.server_port}\r\n"
+            "Content-Type: application/json\r\nContent-Length: 30\r\n\r\n{}"
+        )
+        assert raw(server, head.encode()) == b""
+
+
+def test_too_many_connections_are_hung_up_on_and_their_places_are_free_again():
+    with page_server() as server:
+        held = [socket.create_connection((HOST, server.server_port), 10) for _ in range(60)]
+        try:
+            time.sleep(0.1)
+            assert raw(server, b"GET / HTTP/1.0\r\n\r\n") == b""
+        finally:
+            for each in held:
+                each.close()
+        for _ in range(100):
+            if raw(server, b"GET / HTTP/1.0\r\n\r\n"):
+                break
+            time.sleep(0.02)
+        assert asked(server, "GET", "")[0] == 200
+
+
+def test_a_port_that_is_taken_is_told(server):
+    with (
+        pytest.raises(OptipathError, match=r"cannot be listened at.*give another"),
+        page_server(port=server.server_port),
+    ):
+        pass
+
+
+def test_nothing_is_answered_after_it_has_closed():
+    with page_server() as server:
+        held = socket.create_connection((HOST, server.server_port), 10)
+        time.sleep(0.05)
+    with held:
+        assert held.recv(1) == b""
+    with pytest.raises(ConnectionRefusedError):
+        asked(server, "GET", "")

