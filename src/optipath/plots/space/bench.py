@@ -11,22 +11,21 @@ from matplotlib.transforms import Bbox
 
 from optipath.plots.line_colours import FAINT, INK
 from optipath.plots.own_axes import own_axes
-from optipath.plots.space.bench_symbols import ELLIPSE, dial, draw_symbol
+from optipath.plots.space.bench_symbols import ELLIPSE, HIGH, dial, draw_symbol
 from optipath.plots.space.bench_texts import values_below
 from optipath.plots.space.flat_sheet import direction_at, flat_sheet, in_rows
 from optipath.plots.space.placed_labels import Label, place_labels
-from optipath.plots.space.scene_of import scene_with
+from optipath.plots.space.scene_of import LARGEST_ELLIPSE, scene_with
+from optipath.plots.space.solids import outline
 from optipath.plots.space.told_values import ToldPath
-from optipath.plots.states.ellipse_points import ellipse_points
 
 if TYPE_CHECKING:
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
-    from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
     from optipath.plots.space.flat_sheet import FlatRay, FlatSheet
-    from optipath.plots.space.scene import Scene, SceneRay
+    from optipath.plots.space.scene import Scene, SceneNode, SceneRay
 
     Array = npt.NDArray[np.float64]
 
@@ -37,10 +36,16 @@ _POINTS = 8.5
 _LETTER = 0.6
 """How wide a letter is about, in heights of a line."""
 
-_ABOVE, _BELOW = 0.45, 0.38
-"""What is free above the beam and between the beam and the names, in lengths of a link."""
+_ABOVE, _BELOW, _BESIDE = 0.4, 0.38, np.array([0.8, 0.45])
+"""What is free above a beam, between it and names below, and around a plane, in links."""
 
-_DIALS = "dials show what is seen when one looks at the source: x of the frame to the right, y up"
+_ROOMY, _LONGEST = 1.3, 0.45
+"""The height of a row at most, and the length of a link in a plane, of the height."""
+
+_DIALS = (
+    "dials show what is seen when one looks at the source: to the right, what stands across this "
+    "sheet; up, what lies in it"
+)
 _STAR = np.array([[np.cos(a), np.sin(a)] for a in np.radians([0.0, 60.0, 120.0])])
 
 
@@ -82,21 +87,21 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
         for node in scene.nodes
     }
     widest = max(len(line) for lines in texts.values() for line in lines)
-    if ax is None:
-        rows = in_rows(flat, scene, _most(widest, _WIDTH, _POINTS))
-        count = len({float(at[1]) for at in rows.at.values()})
-        ax = own_axes(None, (_WIDTH, _ROW * count + 0.4 if flat.straight else _PLANE))
-    ax = own_axes(ax, (_WIDTH, _ROW))
+    rows = -(-len(flat.at) // _most(widest, _WIDTH, _POINTS))
+    ax = own_axes(ax, (_WIDTH, _ROW * rows + 0.4 if flat.straight else _PLANE))
     ax.set_axis_off()
     figure: Any = ax.get_figure(root=True)
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.
     whole, inch = ax.get_window_extent(), figure.dpi
     size = _POINTS * float(np.clip(whole.width / inch / _WIDTH, 0.66, 1.1))
-    flat = in_rows(flat, scene, _most(widest, whole.width / inch, size))
     below = _note(ax, scene, size)
     room = Bbox.from_extents(whole.x0 + 2, below + 3, whole.x1 - 2, whole.y1 - 2)
-    lines = max(map(len, texts.values())) * 1.3 * size * inch / 72.0 if flat.straight else 0.0
-    _fit(ax, flat, room, lines)
+    if flat.straight:
+        lines = max(map(len, texts.values())) * 1.3 * size * inch / 72.0
+        most = _most(widest, whole.width / inch, size)
+        flat = _fit_rows(ax, scene, flat, most, (room, lines))
+    else:
+        _fit_plane(ax, flat, room)
     _draw(ax, scene, flat)
     if flat.straight:
         _write_below(ax, flat, texts, size)
@@ -121,18 +126,40 @@ def _note(ax: Axes, scene: Scene, size: float) -> float:
     return float(text.get_window_extent().y1)
 
 
-def _fit(ax: Axes, flat: FlatSheet, room: Bbox, lines: float) -> None:
-    """Set limits by which a sheet fills a part of the axes; texts below take so many pixels."""
+def _fit_rows(
+    ax: Axes, scene: Scene, flat: FlatSheet, most: int, where: tuple[Bbox, float]
+) -> FlatSheet:
+    """Return a straight set-up in rows of so many nodes at most, which fill a part of the axes.
+
+    Below each row there is room for texts, so many pixels high.
+    """
+    room, lines = where
+    rows = -(-len(flat.at) // most)
+    each = -(-len(flat.at) // rows)
+    step, row = room.width / each, room.height / rows
+    per_unit = max(min(step, (row - lines) / (_ABOVE + _BELOW)), 1.0)
+    row = min(row, lines + _ROOMY * per_unit)
+    found = in_rows(flat, scene, each, (step / per_unit, row / per_unit))
+    spare = (room.height - rows * row) / 2.0
+    first = np.array([room.x0 + step / 2.0, room.y1 - spare - _ABOVE * per_unit])
+    _set_limits(ax, np.zeros(2), first, per_unit)
+    return found
+
+
+def _fit_plane(ax: Axes, flat: FlatSheet, room: Bbox) -> None:
+    """Set limits by which a sheet fills a part of the axes, with room for texts beside it."""
     points = np.array([*flat.at.values(), *(p for ray in flat.rays for p in np.vstack(ray.pieces))])
     low, high = points.min(axis=0), points.max(axis=0)
-    side = 0.5 if flat.straight else 0.8
-    wide, tall = high - low + [2.0 * side, _ABOVE + (_BELOW if flat.straight else _ABOVE)]
-    per_unit = min(room.width / wide, (room.height - lines) / tall)
+    wide, tall = high - low + 2.0 * _BESIDE
+    per_unit = min(room.width / wide, room.height / tall, _LONGEST * room.height)
+    middle = np.array([room.x0 + room.x1, room.y0 + room.y1]) / 2.0
+    _set_limits(ax, (low + high) / 2.0, middle, per_unit)
+
+
+def _set_limits(ax: Axes, point: Array, pixel: Array, per_unit: float) -> None:
+    """Set limits by which a point lies on a pixel."""
     whole = ax.get_window_extent()
-    middle = np.array([(room.x0 + room.x1) / 2.0, (room.y0 + lines + room.y1) / 2.0])
-    down = (_ABOVE - _BELOW) / 2.0 if flat.straight else 0.0
-    centre = (low + high) / 2.0 + [0.0, down]
-    left, bottom = centre - (middle - [whole.x0, whole.y0]) / per_unit
+    left, bottom = point - (pixel - [whole.x0, whole.y0]) / per_unit
     ax.set_aspect("equal", adjustable="box")
     ax.set_xlim(left, left + whole.width / per_unit)
     ax.set_ylim(bottom, bottom + whole.height / per_unit)
@@ -140,18 +167,27 @@ def _fit(ax: Axes, flat: FlatSheet, room: Bbox, lines: float) -> None:
 
 def _draw(ax: Axes, scene: Scene, flat: FlatSheet) -> None:
     for ray, drawn in zip(scene.rays, flat.rays, strict=True):
-        _beam(ax, ray, drawn)
+        _beam(ax, ray, flat, drawn)
     for node in scene.nodes:
-        normal = None if node.normal is None else flat.sheet @ node.normal
         at, way = flat.at[node.name], direction_at(node, scene, flat)
-        draw_symbol(ax, node, at, way, normal)
+        draw_symbol(ax, node, at, way, _face(scene, flat, node))
         if node.axis is not None:
-            frames = [frame for frame in scene.frames if frame.port == f"{node.name}.in"]
-            turned = frames[0].axes[:2] @ node.axis
-            dial(ax, at, np.array([-turned, turned]), INK)
+            axes = next(frame.axes for frame in scene.frames if frame.port == f"{node.name}.in")
+            dial(ax, at, flat.in_dial(axes, np.array([-node.axis, node.axis])), INK)
 
 
-def _beam(ax: Axes, ray: SceneRay, drawn: FlatRay) -> None:
+def _face(scene: Scene, flat: FlatSheet, node: SceneNode) -> Array | None:
+    """Return the normal of a surface on the sheet, and its two ends."""
+    if node.normal is None or node.role == "plate":
+        return None
+    normal = flat.sheet @ node.normal
+    across = np.array([-normal[1], normal[0]])
+    corners = (outline(scene, node) - node.at) @ flat.sheet.T @ across / scene.unit
+    at = flat.at[node.name]
+    return np.array([normal, at + corners.min() * across, at + corners.max() * across])
+
+
+def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
     colour, width = (FAINT, 0.8) if ray.leaves else (INK, 1.2)
     for tail, head in drawn.pieces:
         style = (0, (4, 2)) if ray.tap else "-"
@@ -161,14 +197,14 @@ def _beam(ax: Axes, ray: SceneRay, drawn: FlatRay) -> None:
         aside = 0.025 * np.array([-along[1], along[0]])
         foot = tip - 0.08 * along
         ax.add_patch(Polygon([tip, foot + aside, foot - aside], fc=colour, ec="none", zorder=3.1))
-    if not ray.leaves and ray.light.intensity > 0.0:
-        _polarisation(ax, ray.light, drawn.middle)
+    if not ray.leaves and not np.isnan(ray.light.dop):  # Dark light has none.
+        _polarisation(ax, ray, flat, drawn.middle)
 
 
-def _polarisation(ax: Axes, light: Light, at: Array) -> None:
+def _polarisation(ax: Axes, ray: SceneRay, flat: FlatSheet, at: Array) -> None:
     """Draw the ellipse of light in a dial, and a star for light that has none."""
-    if light.dop > 1e-9:
-        points = ellipse_points(light, 49) * min(float(light.dop), 1.0)
+    if ray.ellipse is not None:
+        points = flat.in_dial(ray.axes, ray.ellipse) / (LARGEST_ELLIPSE * flat.unit)
         dial(ax, at, points, ELLIPSE)
         return
     dial(ax, at, np.zeros((0, 2)), FAINT)
@@ -196,10 +232,20 @@ def _write_beside(
     turn = np.linspace(0.0, 2.0 * np.pi, 25)
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
     lines = [piece for ray in flat.rays for piece in ray.pieces]
-    lines += [ray.middle + r * circle for ray in flat.rays for r in (0.08, 0.16)]
+    solids = [ray.middle + 0.16 * circle for ray in flat.rays]
     for node in scene.nodes:
-        reach = 0.3 if node.normal is not None else 0.18
-        lines += [flat.at[node.name] + r * reach * circle for r in (0.4, 0.7, 1.0)]
+        at, face = flat.at[node.name], _face(scene, flat, node)
+        if face is None:
+            way = direction_at(node, scene, flat)
+            sides = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
+            halves = [0.11, HIGH] if node.role == "plate" else [0.2, 0.2]
+            solids.append(at + (sides * halves) @ np.array([way, [-way[1], way[0]]]))
+        else:
+            lines += [face[1:], face[1:] - 0.05 * face[0], face[1:] - 0.1 * face[0]]
+            solids.append(at + 0.12 * circle)
     style = {"fontsize": size, "color": INK, "linespacing": 1.15}
-    labels = [Label("\n".join(told), flat.at[name], style, 1.0) for name, told in texts.items()]
-    place_labels(ax, labels, lines, room)
+    labels = [
+        Label("\n".join(texts[n.name]), flat.at[n.name], style, 2.0 if n.normal is None else 0.8)
+        for n in scene.nodes
+    ]
+    place_labels(ax, labels, lines, room, solids)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     Array = npt.NDArray[np.float64]
 
 BLUE, ELLIPSE, _, _, FACE, LAMP = LINES
-_HIGH = 0.30
+HIGH = 0.26
 """Half the height of a plate or the length of a surface."""
 
 DIAL = 0.15
@@ -31,7 +31,7 @@ _TURNING = ("rotator", "faraday-rotator")
 _SPLITTING = ("beam-splitter", "polarizing-beam-splitter")
 
 
-def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, normal: Array | None) -> None:
+def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | None) -> None:
     """Draw the symbol of an element.
 
     Parameters
@@ -44,8 +44,8 @@ def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, normal: Array 
         The place on the sheet.
     way : ndarray of shape (2,)
         The direction of the light that arrives.
-    normal : ndarray of shape (2,), or None
-        That of its surface, on the sheet.
+    face : ndarray of shape (3, 2), or None
+        The normal of its surface on the sheet, and its two ends.
     """
     if node.role == "source":
         _lamp(ax, at)
@@ -56,9 +56,12 @@ def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, normal: Array 
         _box(ax, at + 0.1 * way, way, (0.1, 0.14), fc="white", ec=INK)
     elif node.kind in _SPLITTING:
         _box(ax, at, way, (0.2, 0.2), fc=_pale(FACE), ec=BLUE)
-        _surface(ax, at, normal, BLUE, 0.27)
+        if face is not None:
+            middle = (face[1] + face[2]) / 2.0
+            ends = middle + 0.45 * (face[1:] - middle)
+            ax.plot(*ends.T, color=BLUE, lw=1.6, zorder=5)
     elif node.role in ("surface", "mirror"):
-        _boundary(ax, node, at, normal)
+        _boundary(ax, node, at, face)
     elif node.role == "plate":
         _plate(ax, node, at, way)
     else:
@@ -102,30 +105,26 @@ def _lamp(ax: Axes, at: Array) -> None:
 
 def _plate(ax: Axes, node: SceneNode, at: Array, way: Array) -> None:
     if node.kind in _RETARDING:
-        _box(ax, at, way, (0.11, _HIGH), fc=_pale(FACE), ec=BLUE)
+        _box(ax, at, way, (0.11, HIGH), fc=_pale(FACE), ec=BLUE)
     elif node.kind in _TURNING:
         _box(ax, at, way, (0.2, 0.2), fc="#f7ecd0", ec=INK)
     else:
-        _box(ax, at, way, (0.045, _HIGH), fc="#bbbbbb", ec=INK)
+        _box(ax, at, way, (0.045, HIGH), fc="#bbbbbb", ec=INK)
 
 
-def _boundary(ax: Axes, node: SceneNode, at: Array, normal: Array | None) -> None:
-    if normal is None or np.linalg.norm(normal) < 0.5:
+def _boundary(ax: Axes, node: SceneNode, at: Array, face: Array | None) -> None:
+    if face is None or np.linalg.norm(face[0]) < 0.5:
         _add(ax, Circle(tuple(at), 0.07, fc="white", ec=INK))
         return
-    if node.role == "mirror":
-        _box(ax, at - 0.045 * normal, normal, (0.045, _HIGH), fc="#9a9a9a", ec=INK)
-        return
-    for layer in range(_LAYERS.get(node.kind, 1)):
-        _surface(ax, at - 0.05 * layer * normal, normal, BLUE, _HIGH)
-    depth = 0.05 * (_LAYERS.get(node.kind, 1) - 1) or 0.09
-    _box(ax, at - 0.5 * depth * normal, normal, (0.5 * depth, _HIGH), fc=_pale(FACE), ec="none")
-
-
-def _surface(ax: Axes, at: Array, normal: Array | None, colour: str, half: float) -> None:
-    across = np.array([0.0, 1.0]) if normal is None else np.array([-normal[1], normal[0]])
-    ends = np.array([at - half * across, at + half * across])
-    ax.plot(*ends.T, color=colour, lw=1.6, zorder=5)
+    normal, *ends = face
+    layers = _LAYERS.get(node.kind, 1)
+    depth = max(0.05 * (layers - 1), 0.09) * normal
+    corners = np.array([ends[0], ends[1], ends[1] - depth, ends[0] - depth])
+    is_mirror = node.role == "mirror"
+    _add(ax, Polygon(corners, fc="#9a9a9a" if is_mirror else _pale(FACE), ec="none"), 4.0)
+    for layer in range(layers):
+        line = np.array(ends) - 0.05 * layer * normal
+        ax.plot(*line.T, color=INK if is_mirror else BLUE, lw=1.6, zorder=5)
 
 
 def _box(ax: Axes, at: Array, way: Array, halves: tuple[float, float], **style: Any) -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from optipath.elements.boundary_frames import BoundaryElement
+from optipath.elements.medium import Medium
+from optipath.plots.space.posture import has_axis
 from optipath.plots.space.told_values import number, told_angle
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
@@ -23,6 +25,7 @@ _FIELDS = (
     "verdet",
     "field",
     "dichroic_angle",
+    "azimuth",
 )
 """What is told of an element, in this order."""
 
@@ -53,6 +56,8 @@ def values_below(element: Element) -> list[str]:
         value: Any = getattr(element, name, None)
         if name not in domains or not isinstance(value, Parameter | float | int):
             continue
+        if name == "angle" and isinstance(element, Medium) and not has_axis(element):
+            continue
         if isinstance(value, Parameter) or value != 0.0 or name in _ALWAYS:
             found.append(_text(element, name, value, domains[name].unit))
     return found
@@ -67,4 +72,5 @@ def _text(element: Element, name: str, value: Any, unit: str) -> str:
     if name == "incidence" and isinstance(element, BoundaryElement):
         return told_angle(value).text
     unit = value.unit or unit
-    return f"{value.formula} = {in_unit(number(value), unit):.5g} {unit}".strip()
+    said = f"{value.formula} = {in_unit(number(value), unit):.5g} {unit}".strip()
+    return f"azimuth {said}" if name == "azimuth" else said

@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 _IN_PLANE = 1e-7
 """The sine of an angle out of the plane that is rounding."""
 
-_ROWS_APART = 1.5
-"""In lengths of a link."""
-
 
 class FlatRay(NamedTuple):
     """A ray on a sheet.
@@ -50,12 +47,33 @@ class FlatSheet(NamedTuple):
         Those of the scene.
     straight : bool
         Whether all light goes to the right.
+    unit : float
+        How long a link is in space.
     """
 
     sheet: Array
     at: dict[str, Array]
     rays: tuple[FlatRay, ...]
     straight: bool
+    unit: float
+
+    def in_dial(self, axes: Array, vectors: Array) -> Array:
+        """Return what lies across light as who looks at the source sees it.
+
+        Parameters
+        ----------
+        axes : ndarray of shape (3, 3)
+            x, y and z of the light, a row each.
+        vectors : ndarray of shape (..., 3)
+            In space.
+
+        Returns
+        -------
+        ndarray of shape (..., 2)
+            To the right, what stands across the sheet; up, what lies in it.
+        """
+        right = np.cross(self.sheet[1], self.sheet[0])
+        return np.asarray(vectors @ np.array([right, np.cross(axes[2], right)]).T)
 
 
 def flat_sheet(scene: Scene) -> FlatSheet:
@@ -99,11 +117,11 @@ def flat_sheet(scene: Scene) -> FlatSheet:
     ]
     flat = tuple(FlatRay((both,), both.mean(axis=0)) for both in ends)
     back = any(way @ right < 0.0 for way in ways)
-    return FlatSheet(sheet, at, flat, straight and not back)
+    return FlatSheet(sheet, at, flat, straight and not back, scene.unit)
 
 
-def in_rows(flat: FlatSheet, scene: Scene, most: int) -> FlatSheet:
-    """Return a straight set-up in rows of so many nodes at most.
+def in_rows(flat: FlatSheet, scene: Scene, each: int, apart: tuple[float, float]) -> FlatSheet:
+    """Return a straight set-up in rows.
 
     Parameters
     ----------
@@ -111,31 +129,30 @@ def in_rows(flat: FlatSheet, scene: Scene, most: int) -> FlatSheet:
         One row.
     scene : Scene
         What is drawn.
-    most : int
-        How many nodes a row may have; 2 at least.
+    each : int
+        How many nodes a row has.
+    apart : tuple of float
+        How far nodes are apart in a row, and rows from one another.
 
     Returns
     -------
     FlatSheet
     """
-    if not flat.straight or len(flat.at) <= most:
-        return flat
+    step, down = apart
     order = sorted(flat.at, key=lambda name: float(flat.at[name][0]))
-    rows = -(-len(order) // most)
-    each = -(-len(order) // rows)
     at = {
-        name: np.array([float(place % each), -_ROWS_APART * (place // each)])
+        name: np.array([step * (place % each), -down * (place // each)])
         for place, name in enumerate(order)
     }
-    rays = []
+    rays, half = [], np.array([step / 2.0, 0.0])
     for ray in scene.rays:
         tail = at[ray.start]
-        head = at[ray.end] if ray.end else tail + np.array([0.5, 0.0])
+        head = at[ray.end] if ray.end else tail + half
         if tail[1] == head[1]:
             rays.append(FlatRay((np.array([tail, head]),), (tail + head) / 2.0))
             continue
-        half = np.array([0.5, 0.0])
-        pieces = np.array([tail, tail + 1.1 * half]), np.array([head - 1.1 * half, head])
+        # What goes on in the next row goes as far as the middle between two nodes.
+        pieces = np.array([tail, tail + half]), np.array([head - half, head])
         rays.append(FlatRay(pieces, head - half))
     return flat._replace(at=at, rays=tuple(rays))
 

@@ -11,6 +11,8 @@ from matplotlib.transforms import Bbox
 from optipath.plots.line_colours import FAINT
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy.typing as npt
     from matplotlib.axes import Axes
 
@@ -42,7 +44,9 @@ class Label(NamedTuple):
     leader: float = 1.4
 
 
-def place_labels(ax: Axes, labels: list[Label], lines: list[Array], within: Bbox) -> None:
+def place_labels(
+    ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Array] = ()
+) -> None:
     """Write each text near what it names, over no other text and over few lines.
 
     Parameters
@@ -55,7 +59,11 @@ def place_labels(ax: Axes, labels: list[Label], lines: list[Array], within: Bbox
         What should not be covered, in data.
     within : Bbox
         What texts must not leave, in pixels.
+    solids : sequence of ndarray of shape (points, 2), optional
+        What texts should not even touch, in data.
     """
+    shapes = [ax.transData.transform(solid) for solid in solids]
+    filled = [Bbox([shape.min(axis=0), shape.max(axis=0)]) for shape in shapes]
     crowd = [_dense(ax.transData.transform(line)) for line in lines if len(line)]
     drawn = np.concatenate(crowd) if crowd else np.zeros((0, 2))
     anchors = ax.transData.transform(np.array([label.at for label in labels]).reshape(-1, 2))
@@ -75,7 +83,7 @@ def place_labels(ax: Axes, labels: list[Label], lines: list[Array], within: Bbox
         )
         box = text.get_window_extent()
         half = np.array([box.width, box.height]) / 2.0
-        offset = _best(anchor, half, drawn, taken, within)
+        offset = _best(anchor, half, drawn, (taken, filled), within)
         middle = anchor + offset
         taken.append(Bbox([middle - half, middle + half]).padded(2.0))
         _move(ax, text, label, offset, half)
@@ -100,10 +108,12 @@ def _move(ax: Axes, text: Any, label: Label, offset: Array, half: Array) -> None
         )
 
 
-def _best(anchor: Array, half: Array, drawn: Array, taken: list[Bbox], within: Bbox) -> Array:
+def _best(
+    anchor: Array, half: Array, drawn: Array, boxes: tuple[list[Bbox], list[Bbox]], within: Bbox
+) -> Array:
     """Return the offset at which a text of so many pixels covers least."""
     found: list[tuple[float, tuple[float, float]]] = []
-    line = 2.0 * half[1]
+    line, (taken, filled) = 2.0 * half[1], boxes
     for step in _STEPS:
         for direction in _DIRECTIONS:
             way = np.array([np.cos(direction), np.sin(direction)])
@@ -115,6 +125,7 @@ def _best(anchor: Array, half: Array, drawn: Array, taken: list[Bbox], within: B
             cost = 1.3 * step + 0.4 * (way[0] < 0.0) + 0.2 * (way[1] < 0.0)
             cost += 1e6 * _outside(box, within)
             cost += 1e4 * sum(box.padded(1.0).overlaps(other) for other in taken)
+            cost += 20.0 * sum(box.overlaps(other) for other in filled)
             around = box.padded(2.0)
             covered = (
                 (drawn[:, 0] > around.x0)

@@ -8,10 +8,14 @@ import numpy as np
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.chain_vertex import ChainVertex
+from optipath.elements.faraday_rotator import FaradayRotator
+from optipath.elements.medium import Medium
 from optipath.elements.mirror import Mirror
+from optipath.elements.rotator import Rotator
 from optipath.elements.splitter import Splitter
 from optipath.elements.terminal import Detector, Terminal
 from optipath.elements.world_angle import angles_of, operands_of
+from optipath.plots.space.told_values import number
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -96,6 +100,31 @@ def angles_at(element: Any) -> tuple[float, float]:
     """Return the angles of light in front of a boundary and behind it, in radians."""
     front, behind = angles_of(np, *(operand.numbers() for operand in operands_of(element)))
     return float(front), float(behind)
+
+
+def has_axis(element: Any) -> bool:
+    """Tell whether the angle of an element is that of an axis, and no turn of the light.
+
+    Parameters
+    ----------
+    element : Element
+        All its values are numbers.
+
+    Returns
+    -------
+    bool
+        False of a medium that is the same along all directions.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> has_axis(op.Polarizer(0.3)), has_axis(op.Rotator(0.3)), has_axis(op.Medium(1.0))
+    (True, False, False)
+    """
+    if getattr(element, "angle", None) is None or isinstance(element, Rotator | FaradayRotator):
+        return False
+    along = (element.retardance, element.dichroism) if isinstance(element, Medium) else (1.0,)
+    return any(number(value) != 0.0 for value in along)
 
 
 def _surface(ports: tuple[str, ...], front: float, behind: float, role: str) -> Posture:

@@ -8,8 +8,8 @@ import numpy as np
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.chain_vertex import ChainVertex
-from optipath.elements.medium import Medium
 from optipath.plots.space.placing import DrawnLink, Placing
+from optipath.plots.space.posture import has_axis
 from optipath.plots.space.scene import Scene, SceneFrame, SceneNode, ScenePlane, SceneRay
 from optipath.plots.space.scene_angles import scene_angles
 from optipath.plots.space.told_values import ToldPath, number, told_angle
@@ -28,9 +28,6 @@ LARGEST_ELLIPSE = 0.18
 
 _LEAVING = 0.5
 """How long light that leaves the path is drawn, of the length of a link."""
-
-_TURNING = "rotator", "faraday-rotator"
-"""What has an angle by which light is turned, and no axis."""
 
 _NO_PLANE, _NARROWEST = 1e-6, 0.3
 """The sine of an incidence that has no plane, and how far a plane reaches at least."""
@@ -117,13 +114,9 @@ def _nodes(told: ToldPath, placing: Placing) -> list[SceneNode]:
 def _axis(placing: Placing, name: str) -> Array | None:
     """Return the axis of a plate that has one."""
     posture, element = placing.postures[name], placing.wiring.elements[name]
-    angle = getattr(element, "angle", None)
-    if posture.role != "plate" or angle is None or element.kind in _TURNING:
+    if posture.role != "plate" or not has_axis(element):
         return None
-    if isinstance(element, Medium) and not any(
-        map(number, (element.retardance, element.dichroism))
-    ):
-        return None
+    angle = element.angle  # type: ignore[attr-defined]
     told = told_angle(angle)
     if not told.there:
         return None
