@@ -35,6 +35,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "mathml",
     "plain_types",
+    "root_pages",
 ]
 exclude_patterns = ["_*", "api/generated/README*", "gallery", "**/cache"]
 templates_path = ["_templates"]
