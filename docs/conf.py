@@ -77,6 +77,7 @@ sphinx_gallery_conf = {
     ),
     "within_subsection_order": "ExampleTitleSortKey",
     "remove_config_comments": True,
+    "first_notebook_cell": "%matplotlib inline",  # or a figure is shown as its name
     "abort_on_example_error": True,
     "show_signature": False,
     "write_computation_times": False,
