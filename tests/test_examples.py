@@ -103,3 +103,11 @@ def test_the_virtual_ellipsometer_tells_the_polarisation_that_smooth_facets_make
     facets = example["of_smooth_facets"](45, np.array([55.0]))
     np.testing.assert_allclose(found, facets, rtol=0, atol=1e-11)
     assert found[0, 1, 0] == pytest.approx(np.hypot(expected[1], expected[2]) / expected[0])
+
+
+def test_no_text_in_the_pictures_of_curves_is_over_another_or_cut():
+    pytest.importorskip("matplotlib")
+    example = runpy.run_path(EXAMPLES / "pictures_of_curves.py")
+    for name, figure in example["pictures"]():
+        assert faults_of(figure) == [], name
+        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()

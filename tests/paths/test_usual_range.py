@@ -45,6 +45,22 @@ def test_a_narrow_range_is_taken_as_it_is():
     assert of(op.Parameter("a", 0.2, minimum=0.1, maximum=0.4)) == (0.1, 0.4)
 
 
+def test_a_range_far_from_the_usual_one_is_taken_itself():
+    def of_index(**limits):
+        path = op.PathGraph()
+        path.add("lamp", op.Source()) >> path.add(
+            "metal", op.Interface(op.Parameter("n", **limits), 0.3)
+        )
+        path.add("eye", op.Detector())
+        path.connect("metal.reflected", "eye")
+        return usual_range(path, "n")
+
+    assert of_index(minimum=5.0, maximum=6.0) == (5.0, 6.0)
+    assert of_index(minimum=5.0) == (5.0, 10.0)
+    with pytest.raises(ParameterError, match="'n' has one value alone"):
+        of_index(minimum=1.5, maximum=1.5)
+
+
 def test_an_index_goes_from_one_to_three_and_a_thickness_to_twice_its_default():
     slab = op.load_preset("glass-slab")
     assert usual_range(slab, "n") == (1.0, 3.0)

@@ -53,7 +53,8 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
     Raises
     ------
     ParameterError
-        If the path has no such open parameter, or its values are no single real numbers.
+        If the path has no such open parameter, or its values are no single real numbers, or one
+        number alone.
 
     Examples
     --------
@@ -71,7 +72,18 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
     uses = [use for use in inputs.uses if use.value.name == name]
     seen = [*_seen(path, parameter, uses)]
     low, high = _around(seen, parameter, limits, uses)
-    return max(low, limits[0]), min(high, limits[1])
+    low, high = max(low, limits[0]), min(high, limits[1])
+    return (low, high) if low < high else _between(name, limits)
+
+
+def _between(name: str, limits: tuple[float, float]) -> tuple[float, float]:
+    """Return the limits themselves where nothing usual lies between them, as far as they go."""
+    low, high = limits
+    if low == high:
+        raise ParameterError(f"parameter '{name}' has one value alone, and no range")
+    if math.isinf(low):
+        low = high - max(1.0, abs(high))
+    return low, high if math.isfinite(high) else low + max(1.0, abs(low))
 
 
 def _seen(path: PathGraph, parameter: Parameter, uses: list[Use]) -> Iterable[float]:

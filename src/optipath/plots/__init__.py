@@ -71,6 +71,13 @@ _HOMES = {
 
 
 def check_matplotlib() -> None:
+    """Raise where Matplotlib is not installed.
+
+    Raises
+    ------
+    MissingExtraError
+        Which says what to install.
+    """
     if find_spec("matplotlib") is None:
         raise MissingExtraError("pictures", "matplotlib", "plot")
 

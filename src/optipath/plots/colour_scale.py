@@ -88,7 +88,17 @@ class ColourScale(NamedTuple):
 
     @classmethod
     def between(cls, least: float, largest: float) -> ColourScale:
-        """Return that of numbers between any two."""
+        """Return that of numbers between any two.
+
+        Parameters
+        ----------
+        least, largest : float
+            The two, which are apart.
+
+        Returns
+        -------
+        ColourScale
+        """
         return cls("viridis", Normalize(least, largest))
 
     def bar(self, image: Any, axes: Any, label: str, **options: Any) -> Colorbar:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import product
+from math import ceil
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -9,8 +11,14 @@ if TYPE_CHECKING:
 
     from matplotlib.axes import Axes
 
-_LARGEST = 0.6
-"""The share of the axes that a legend takes at most."""
+_APART = 1.6
+"""How far ticks are apart at least, of the height of a line of the legend."""
+
+_SIZES = 8.5, 7.5, 6.5, 5.5
+"""Of letters in points, from which the first is taken that leaves curves enough room."""
+
+_ENOUGH = 0.36
+"""The share of the axes that a legend takes at most, if a smaller one can help it."""
 
 
 def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
@@ -25,7 +33,9 @@ def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
     """
     on_top = sides[-1]
     figure: Any = on_top.figure
-    for columns in range(len(lines), 0, -1):
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    whole = on_top.get_window_extent()
+    for size, columns in product(_SIZES, range(len(lines), 0, -1)):
         legend = on_top.legend(
             handles=[*lines],
             ncols=columns,
@@ -34,18 +44,19 @@ def legend_above(sides: Sequence[Axes], lines: Sequence[Any]) -> None:
             edgecolor="none",
             framealpha=1.0,
             borderaxespad=0.2,
-            columnspacing=1.4,
+            columnspacing=1.2,
             handlelength=2.6,
-            fontsize="small",
+            fontsize=size,
         )
         legend.set_in_layout(False)  # It is within the axes, which need no more room for it.
-        figure.draw_without_rendering()
-        box, whole = legend.get_window_extent(), on_top.get_window_extent()
-        if box.width <= whole.width:
+        box = legend.get_window_extent()
+        if box.width <= 0.96 * whole.width and box.height <= _ENOUGH * whole.height:
             break
-    share = min(box.height / whole.height, _LARGEST)
+    line = legend.get_texts()[0].get_window_extent().height
+    share = min(1.04 * box.height / whole.height, 0.8)
     for side in sides:
         low, high = side.get_ylim()
         ticks = [tick for tick in side.get_yticks() if low <= tick <= high]
-        side.set_yticks(ticks)
+        room = whole.height * (1.0 - share) / max(len(ticks), 1)
+        side.set_yticks(ticks[:: ceil(_APART * line / room)])
         side.set_ylim(low, low + (high - low) / (1.0 - share))

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from pictures import faults_of, texts_of
 
 import optipath as op
 from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve
+from pictures import faults_of, texts_of
 
 WAVEPLATE = (
     op.Source(stokes=[1, 1, 0, 0]) >> op.Retarder(np.pi, op.Parameter("turn")) >> op.Detector()
@@ -73,7 +73,9 @@ def test_quantities_of_three_units_are_refused():
 def test_lines_differ_by_colour_and_by_dash():
     names = ("S0", "S1", "S2", "S3", "DoP", "DoLP", "ellipticity")
     ax = curve(op.load_preset("glass-slab"), "theta", names)
-    drawn = [line for side in ax.figure.axes for line in side.get_lines() if line.get_gid() in names]
+    drawn = [
+        line for side in ax.figure.axes for line in side.get_lines() if line.get_gid() in names
+    ]
     assert len({(line.get_color(), str(line._dash_pattern)) for line in drawn}) == 7
 
 
@@ -110,10 +112,12 @@ def test_a_default_beyond_the_values_or_a_word_is_not_marked():
 
 
 def test_the_curve_is_open_where_the_path_refuses_values_that_nobody_gave():
-    path = op.load_preset("malus")
-    path = op.Source() >> op.Interface(1.5, op.Parameter("a", 0.5), 2.0) >> op.Detector()
-    x, y = lines(curve(path, "a"))["S0"].T
-    assert np.isfinite(y[x < 48.0]).all()  # The critical angle, asin(1.5 / 2), is 48.59 deg.
+    # No dye is stronger than the mean absorption, which is 0.1 / um.
+    path = op.load_preset("dichroic-sheet")
+    x, y = lines(curve(path, "dichroism"))["S0"].T
+    np.testing.assert_array_equal(np.isfinite(y), np.abs(x) <= 0.1)
+    with pytest.raises(OptipathError, match="dichroi"):
+        curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
 @pytest.mark.parametrize("size", [(6.4, 4.2), (3.2, 2.1)])

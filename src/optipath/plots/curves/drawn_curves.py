@@ -70,6 +70,7 @@ def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
     colours = dict(zip((q.name for q, _ in curves), range(len(curves)), strict=True))
     sides = [ax, *(ax.twinx() for _ in groups[1:])]
     lines: list[Any] = []
+    ax.set_xlim(numbers[0], numbers[-1])
     for side, group in zip(sides, groups, strict=True):
         members = [(q, values[order]) for q, values in curves if q in group]
         for quantity, values in members:
@@ -79,7 +80,6 @@ def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
         if len(group) == 1:
             texts.insert(0, group[0].label)
         label_axes(side, along.labels, texts)
-    ax.set_xlim(numbers[0], numbers[-1])
     ax.grid(visible=True, alpha=0.3)
     mark_default(ax, along)
     tell_missing(ax, [(q.name, values) for q, values in curves])
@@ -120,7 +120,15 @@ def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
 
 
 def mark_default(ax: Axes, along: AlongAxis) -> None:
-    """Mark the value by default by a thin vertical line, with its text above."""
+    """Mark the value by default by a thin vertical line, with its text above.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where.
+    along : AlongAxis
+        What goes along x, with its default or without one.
+    """
     if along.default is None:
         return
     ax.axvline(along.default, color=FAINT, linewidth=0.8, zorder=0.5, gid="default")
@@ -130,7 +138,15 @@ def mark_default(ax: Axes, along: AlongAxis) -> None:
 
 
 def tell_missing(ax: Axes, curves: Sequence[tuple[str, npt.NDArray[np.float64]]]) -> None:
-    """Say which quantities have no value anywhere, where curves are missing."""
+    """Say which quantities have no value anywhere, where curves are missing.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where.
+    curves : sequence of (str, ndarray)
+        The names of quantities, and their numbers.
+    """
     missing = [name for name, values in curves if not np.isfinite(values).any()]
     if not missing:
         return

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _SIZE = 6.4, 4.4
 _COUNT = 901
-_NAMES = "$R_s$", "$R_p$", "$R$ unpolarised", "DoLP reflected"
+_NAMES = "$R_s$", "$R_p$", "$R$ unpolarised", "DoLP"
 
 
 def reflection(
@@ -106,7 +106,10 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
     at = {}
     if depending:
         parameter = Wavelength()
-        length = float(parameter.resolve(wavelength).value)
+        resolved = parameter.resolve(wavelength).value
+        if np.ndim(resolved):
+            raise OptipathError(f"wavelength is {shown(wavelength)}; a picture is of one")
+        length = float(resolved)
         media = {name: one.at(length) for name, one in media.items()}
         at = {name: f" at {parameter.text(length)}" for name in depending}
     numbers = {name: np.asarray(one.refractive_index) for name, one in media.items()}

@@ -1,0 +1,92 @@
+"""Maps of the light of a path over two of its parameters."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import optipath as op
+from optipath.errors import OptipathError
+from optipath.plots import quantity_map
+from pictures import faults_of
+
+FEW = {"x_values": "0 deg:180 deg:19", "y_values": "0.5, 1, 2"}
+
+
+def image(ax):
+    (mesh,) = ax.collections
+    return mesh
+
+
+def test_a_map_has_malus_law_along_x_and_the_power_along_y():
+    ax = quantity_map(op.load_preset("malus"), "angle", "intensity", **FEW)
+    numbers = image(ax).get_array()
+    law = 0.5 * np.cos(np.radians(np.linspace(0, 180, 19))) ** 2
+    np.testing.assert_allclose(numbers, np.outer([0.5, 1.0, 2.0], law), atol=1e-12)
+
+
+def test_values_in_any_order_are_put_in_order():
+    given = FEW | {"y_values": "2, 0.5, 1"}
+    path = op.load_preset("malus")
+    one, other = (quantity_map(path, "angle", "intensity", **each) for each in (FEW, given))
+    np.testing.assert_array_equal(image(one).get_array(), image(other).get_array())
+
+
+@pytest.mark.parametrize(
+    ("quantity", "colours", "low", "high"),
+    [
+        ("S0", "viridis", 0.0, 1.0),
+        ("dolp", "viridis", 0.0, 1.0),
+        ("S1", "RdBu_r", -1.0, 1.0),
+        ("ellipticity", "RdBu_r", -1.0, 1.0),
+        ("AoP", "twilight", -90.0, 90.0),
+        ("delta", "twilight", -180.0, 180.0),
+    ],
+)
+def test_colours_are_in_order_apart_from_zero_or_round(quantity, colours, low, high):
+    mesh = image(quantity_map(op.load_preset("malus"), "angle", "intensity", quantity, **FEW))
+    assert mesh.cmap.name == colours
+    assert (mesh.norm.vmin, mesh.norm.vmax) == (low, high)
+
+
+def test_places_without_the_quantity_are_grey_and_the_bar_says_so():
+    path = op.load_preset("senarmont")
+    ax = quantity_map(
+        path, "analyzer", "retardance", "aop", x_values="0 deg, 90 deg", y_values="0 deg, 180 deg"
+    )
+    assert image(ax).get_array().mask.any()
+    (bar,) = [side for side in ax.figure.axes if side is not ax]
+    assert bar.get_ylabel().endswith("(grey: none)")
+
+
+def test_a_cross_marks_the_values_by_default():
+    ax = quantity_map(op.load_preset("malus"), "angle", "intensity", **FEW)
+    assert ax.get_lines()[-1].get_xydata().tolist() == [pytest.approx([30.0, 1.0])]
+    assert ax.get_title() == "+ by default: angle 30°, intensity 1"
+
+
+def test_what_the_path_refuses_is_grey_where_nobody_gave_it(monkeypatch):
+    monkeypatch.setattr("optipath.plots.curves.quantity_map._COUNT", 13)
+    # No dye is stronger than the mean absorption.
+    path = op.load_preset("dichroic-sheet")
+    numbers = image(quantity_map(path, "absorption", "dichroism")).get_array()
+    assert numbers.mask.any()
+    assert not numbers.mask.all()
+    with pytest.raises(OptipathError, match="dichroism"):
+        quantity_map(path, "absorption", "dichroism", y_values="-2 1/um:2 1/um:5")
+
+
+@pytest.mark.parametrize("size", [(6.4, 4.8), (3.2, 2.4)])
+def test_no_text_is_over_another_or_cut_at_either_size(size):
+    figure = Figure(figsize=size, layout="constrained")
+    path = op.load_preset("copper-gold-spectrum")
+    given = {"x_values": "400 nm:700 nm:9", "y_values": "0 deg:90 deg:9"}
+    quantity_map(path, "wavelength", "delta", "AoP", figure.add_subplot(), **given)
+    assert faults_of(figure) == []
+
+
+def test_one_parameter_twice_and_several_quantities_are_told():
+    path = op.load_preset("malus")
+    with pytest.raises(OptipathError, match="both axes are 'angle'; give two parameters"):
+        quantity_map(path, "angle", "angle")
+    with pytest.raises(OptipathError, match="give one name, such as 'S0'"):
+        quantity_map(path, "angle", "intensity", ("S0", "S1"))
