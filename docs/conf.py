@@ -6,6 +6,8 @@ import sys
 from importlib.metadata import version as installed_version
 from pathlib import Path
 
+from sphinx_gallery.sorting import ExplicitOrder
+
 from optipath import Element
 
 DOCS = Path(__file__).parent
@@ -33,6 +35,7 @@ extensions = [
     "sphinx_gallery.gen_gallery",
     "mathml",
     "plain_types",
+    "root_pages",
 ]
 exclude_patterns = ["_*", "api/generated/README*", "gallery", "**/cache"]
 templates_path = ["_templates"]
@@ -69,11 +72,12 @@ sphinx_gallery_conf = {
     "image_scrapers": ("shown_figure.scraper",),
     "reset_modules": (),
     "capture_repr": (),
-    "subsection_order": [
-        f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")
-    ],
+    "subsection_order": ExplicitOrder(
+        [f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")]
+    ),
     "within_subsection_order": "ExampleTitleSortKey",
     "remove_config_comments": True,
+    "first_notebook_cell": "%matplotlib inline",  # or a figure is shown as its name
     "abort_on_example_error": True,
     "show_signature": False,
     "write_computation_times": False,

@@ -19,3 +19,9 @@ points = np.array([[0, 0, 2], [0, 0, 0], [0, 2, 0], [1, 2, 1]])
 path = op.path_from_vertices(points, materials=[1.5, 0.18 + 3.4j])
 ax = op.plots.geometry(path)
 ax.figure
+
+# %%
+# A set-up that lies in one plane is drawn as on an optical bench.
+
+ax = op.plots.bench(op.load_preset("senarmont"))
+ax.figure

@@ -18,7 +18,8 @@ def sphere(width, height):
 
 def points_of(ax):
     """The places of points in space, of all that are drawn."""
-    return np.concatenate([np.transpose(drawn._offsets3d) for drawn in ax.collections[1:]])
+    drawn = [each for each in ax.collections if hasattr(each, "_offsets3d")]
+    return np.concatenate([np.transpose(each._offsets3d) for each in drawn])
 
 
 def words_of(ax):
@@ -71,10 +72,17 @@ def test_points_behind_are_hollow_and_the_key_says_so():
     light = op.Light([[1.0, 1.0, 0.0, 0.0], [1.0, -1.0, 0.0, 0.0]])
     ax = op.plots.poincare(light)
     # Matplotlib has them in the order of their depth.
-    white = (ax.collections[1].get_facecolors() == 1.0).all(axis=1)
+    white = (ax.collections[-1].get_facecolors() == 1.0).all(axis=1)
     assert sorted(white) == [False, True]
     assert "hollow: far half" in words_of(ax)
     assert is_near(np.array([0.0, 0.0, 1.0]))
+
+
+def test_neighbours_are_joined_by_straight_lines_but_for_gaps():
+    rows = [[1.0, 1.0, 0.0, 0.0], [1.0, 0.0, 1.0, 0.0], [0.0] * 4, [1.0, 0.0, 0.0, 1.0]]
+    ax = op.plots.poincare(op.Light(rows))
+    (lines,) = (each for each in ax.collections if hasattr(each, "_segments3d"))
+    np.testing.assert_allclose(lines._segments3d, [[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]])
 
 
 def test_the_colour_bar_is_labelled_and_goes_from_the_least_to_the_largest():
@@ -105,6 +113,7 @@ def test_one_light_without_a_point_says_why(numbers):
 def test_a_second_trail_is_drawn_on_the_sphere_that_is_there():
     ax = op.plots.poincare(TRAIL[:3])
     lines = len(ax.get_lines())
+    assert lines
     assert op.plots.poincare(TRAIL[7], ax) is ax
     assert len(ax.get_lines()) == lines
 

@@ -40,7 +40,7 @@ def test_points_are_those_of_the_light_at_the_detector():
     path = op.load_preset("npgr026", case="8")
     ax = op.plots.poincare_path(path)
     expected = path.trace().normalized[1:]
-    drawn = np.transpose(ax.collections[1]._offsets3d)
+    drawn = np.transpose(ax.collections[-1]._offsets3d)
     assert np.linalg.norm(drawn - expected, axis=1).min() < 1e-12
 
 
@@ -63,7 +63,7 @@ def test_the_key_says_that_lines_are_straight():
 def test_values_are_those_of_parameters():
     path = op.load_preset("malus")
     first, second = (
-        op.plots.poincare_path(path, angle=angle).collections[1]._offsets3d
+        op.plots.poincare_path(path, angle=angle).collections[-1]._offsets3d
         for angle in ("0 deg", "30 deg")
     )
     assert len(first[0]) < len(second[0])

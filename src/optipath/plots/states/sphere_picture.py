@@ -93,7 +93,7 @@ def poincare(
     ax = sphere_axes(ax, (5.4, 5.6) if values is None else (6.4, 5.6))
     points = np.atleast_2d(sphere_point(light))
     colours, middles = _coloured(ax, values, label, len(points))
-    draw_steps(ax, points[:-1], points[1:], middles, linewidth=1.4)
+    draw_steps(ax, points[:-1], points[1:], middles, linewidths=1.4)
     there = np.asarray(np.isfinite(points).all(axis=1))
     size = 5.5 if len(points) <= _FEW else 3.5
     draw_points(ax, points[there], colours[there], size)

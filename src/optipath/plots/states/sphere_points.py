@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.lines import Line2D
+from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from optipath.plots.line_colours import INK
 from optipath.plots.states.poincare_sphere import is_near
@@ -78,12 +79,17 @@ def draw_steps(
     colours : array_like, shape (n, 4)
         Of each.
     **line
-        How they are drawn, as `Axes3D.plot` takes it.
+        How they are drawn, as `Line3DCollection` takes it.
     """
-    for start, end, colour in zip(starts, ends, np.array(colours, float), strict=True):
-        if np.isfinite([start, end]).all() and (start != end).any():
-            alpha = 1.0 if is_near(0.5 * (start + end)) else _FAR
-            ax.plot(*np.transpose([start, end]), color=colour, alpha=alpha, zorder=6, **line)
+    there = np.isfinite(starts + ends).all(axis=1) & (starts != ends).any(axis=1)
+    near = is_near(np.where(there[:, np.newaxis], starts + ends, 0.0))
+    for side, alpha in ((there & near, 1.0), (there & ~near, _FAR)):
+        if side.any():
+            pairs = np.stack([starts[side], ends[side]], axis=1)
+            shades = np.array(colours, float)[side]
+            ax.add_collection3d(
+                Line3DCollection(pairs, colors=shades, alpha=alpha, zorder=6, **line)
+            )
 
 
 def side_keys(points: npt.NDArray[np.float64], colour: str = INK) -> list[Line2D]:

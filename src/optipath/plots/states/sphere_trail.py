@@ -114,7 +114,9 @@ def _draw_links(ax: Axes3D, links: Sequence[LightOnLink], points: npt.NDArray[np
     if pairs:
         starts, ends = np.transpose(pairs)
         colours = np.tile(to_rgba(FAINT), (len(pairs), 1))
-        draw_steps(ax, points[starts], points[ends], colours, linewidth=1.2, linestyle=(0, (4, 2)))
+        draw_steps(
+            ax, points[starts], points[ends], colours, linewidths=1.2, linestyles=[(0, (4, 2))]
+        )
 
 
 def _states(points: npt.NDArray[np.float64]) -> list[_State]:
