@@ -1,14 +1,24 @@
-"""The site of documentation: pip install ".[docs]" && sphinx-build -W --keep-going -b html docs site."""
+"""The site of documentation; README.md has the command that builds it."""
 
 import os
+import shutil
 import sys
 from importlib.metadata import version as installed_version
 from pathlib import Path
+
+from optipath import Element
 
 DOCS = Path(__file__).parent
 sys.path.insert(0, str(DOCS / "_ext"))
 # Examples compile code, which is kept beside the site and not in the user's folder.
 os.environ.setdefault("OPTIPATH_CACHE", str(DOCS / "gallery-pages" / "cache"))
+
+# A name or an example that is gone would leave the page that an earlier build made of it.
+shutil.rmtree(DOCS / "api" / "generated", ignore_errors=True)
+for page in DOCS.glob("gallery-pages/**/plot_*.rst"):
+    script = DOCS / "gallery" / page.relative_to(DOCS / "gallery-pages").with_suffix(".py")
+    if not script.exists():
+        page.unlink()
 
 project = "optipath"
 author = "the authors of optipath"
@@ -36,6 +46,7 @@ default_role = "py:obj"
 
 autosummary_generate = True
 autosummary_imported_members = True
+autosummary_context = {"of_every_element": ", ".join(dir(Element))}
 autodoc_typehints = "none"
 autodoc_member_order = "groupwise"
 autodoc_default_options = {"members": True}
@@ -58,6 +69,9 @@ sphinx_gallery_conf = {
     "image_scrapers": ("shown_figure.scraper",),
     "reset_modules": (),
     "capture_repr": (),
+    "subsection_order": [
+        f"gallery/{section}" for section in ("experiments", "instruments", "colours", "space")
+    ],
     "within_subsection_order": "ExampleTitleSortKey",
     "remove_config_comments": True,
     "abort_on_example_error": True,

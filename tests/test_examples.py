@@ -85,6 +85,14 @@ def test_no_text_in_the_pictures_of_hemispheres_is_over_another_or_cut():
         assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
 
 
+def test_no_text_in_the_pictures_of_light_is_over_another_or_cut():
+    pytest.importorskip("matplotlib")
+    example = runpy.run_path(EXAMPLES / "pictures_of_light.py")
+    for name, drawn in example["pictures"]():
+        assert faults_of(drawn.figure) == [], name
+        assert (EXAMPLES.parent / "docs" / f"{name}.png").exists()
+
+
 def test_the_virtual_ellipsometer_tells_the_polarisation_that_smooth_facets_make():
     pytest.importorskip("matplotlib")
     pytest.importorskip("xarray")

@@ -15,7 +15,7 @@ import click
 
 from contest import contest
 from report import BEGIN, END, has_place, machine, markdown, put
-from work import MATERIALS
+from work import FILTER, MATERIALS, PRESET
 
 
 @click.command(help=__doc__)
@@ -46,11 +46,16 @@ def tick(what):
 
 
 def as_json(contests):
+    """Return what `optipath chart --peers` reads."""
     found = {
-        name: {"results": [result._asdict() for result in results], "left out": absent}
+        name: {
+            "path": {**FILTER, **MATERIALS[name]._asdict()},
+            "results": [result._asdict() for result in results],
+            "left out": absent,
+        }
         for name, (results, absent) in contests.items()
     }
-    return {**found, **machine()}
+    return {"path": {"preset": PRESET}, "contests": found, **machine()}
 
 
 if __name__ == "__main__":

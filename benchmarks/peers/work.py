@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+PRESET = "npgr026"
+FILTER = {"filter": "horizontal"}
 INTENSITY = 100.0
 
 

@@ -1,4 +1,4 @@
-"""The pictures of the gallery: the figure that a block of an example ends with, as in a notebook."""
+"""The pictures of the gallery: a block shows the figure that it ends with, as in a notebook."""
 
 from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst

@@ -162,6 +162,15 @@ def of_pictures(found: op.Hemisphere) -> None:
     op.plots.save(op.plots.differences(found, wavelength="550 nm"), titles[0], dots_per_inch=80)
 
 
+def of_light(light: op.Light) -> list[str]:
+    beside = op.plots.stokes({"eye": light}, published={"eye": [1, 0, 0, 0]})
+    drawn = op.plots.ellipse(light, beside, labels=["a", "b"])
+    sphere = op.plots.poincare(light, by=[0.0, 1.0], label="delta (deg)")
+    op.plots.poincare_path(path, sphere, theta="45 deg")
+    op.plots.save(op.plots.mueller(op.Mueller(np.eye(4))), "a.png")
+    return [drawn.get_title(), light.plot("stokes", published=[1, 0, 0, 0]).get_title()]
+
+
 def of_files() -> op.Hemisphere:
     found = op.load_hemisphere("a.nc", sample=varnished)
     found.save("a.exr", source=[1.0, 1.0, 0.0, 0.0], side="reflected")

@@ -2,70 +2,96 @@
 
 from __future__ import annotations
 
-from pathlib import Path
+import warnings
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
+from optipath.cli.chart_options import (
+    AT,
+    DATA,
+    ENGINE,
+    INTERFACE,
+    OUT,
+    PEERS,
+    QUICK,
+    REDRAW,
+    option_faults,
+    places_near,
+)
 from optipath.cli.console import say
+from optipath.cli.plain_progress import told_progress
 from optipath.cli.preset_command import PresetGroup
-from optipath.cli.progress_bar import progress_bar
-from optipath.cli.text_files import NewFile, check_place, read_text, told_of, write
+from optipath.cli.text_files import check_place, read_text, told_of, write
 from optipath.paths.presets.loader import preset_names
 from optipath.values.picture_files import check_form
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
+    from pathlib import Path
 
     from optipath.cli.chosen import Chosen
 
-    Tell: TypeAlias = Callable[[str, float], object]
     Chart: TypeAlias = Mapping[str, Any]
+    Tell: TypeAlias = Callable[[str, float], object]
+    Keep: TypeAlias = Callable[[dict[str, Any]], object]
+    Measure: TypeAlias = Callable[[Tell, Keep], Chart]
 
-OUT = click.Option(
-    ["--out"],
-    type=NewFile(),
-    default="chart.png",
-    help="Draw into this file; its ending says in which form (png, svg, pdf).",
-)
-DATA = click.Option(
-    ["--data"], type=NewFile(), help="Write what was measured into this file, as JSON."
-)
-ENGINE = click.Option(
-    ["--engine", "engines"],
-    type=click.Choice(["numpy", "numba"]),
-    multiple=True,
-    help="Measure this engine; may be given twice. By default all that are installed.",
-)
-INTERFACE = click.Option(
-    ["--interface"], is_flag=True, help="Measure one interface instead of a path."
-)
-REDRAW = click.Option(
-    ["--from", "source"],
-    type=click.Path(dir_okay=False, exists=True, path_type=Path),
-    help="Draw what was measured before: a file that --data wrote.",
-)
+_DOTS = 120.0
 
 
-def _chart(chosen: Chosen, *, out: Path, data: Path | None, engines: tuple[str, ...]) -> None:
+def _chart(
+    chosen: Chosen,
+    *,
+    out: Path,
+    data: Path | None,
+    engines: tuple[str, ...],
+    quick: bool,
+    near: tuple[str, ...],
+    peers: Path | None,
+) -> None:
     """Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it."""
     path = chosen.path()
 
-    def measure(progress: Tell) -> Chart:
-        from optipath.lab.accuracy.chart import Effort, path_chart  # noqa: PLC0415 - an extra
+    def measure(tell: Tell, keep: Keep) -> Chart:
+        # The extra 'chart'.
+        from optipath.lab.accuracy.chart import path_chart  # noqa: PLC0415
+        from optipath.lab.accuracy.chart_effort import FULL, expected  # noqa: PLC0415
+        from optipath.lab.accuracy.chart_effort import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab.accuracy.critical_chart import critical_chart  # noqa: PLC0415
+        from optipath.lab.accuracy.peer_times import check_race  # noqa: PLC0415
 
-        effort = Effort(engines=engines) if engines else Effort()
-        return path_chart(path, chosen.title, effort, progress)
+        if near:
+            return critical_chart(path, chosen.title, places_near(near), progress=tell, keep=keep)
+        if peers is not None:
+            check_race(read_text(peers), str(peers))
+        effort = LITTLE if quick else FULL
+        effort = effort._replace(engines=engines) if engines else effort
+        click.echo(expected(effort), err=True)
+        return path_chart(path, chosen.title, effort, tell, keep)
 
-    _measure_and_draw(measure, out, data)
+    _measure_and_draw(measure, out, data, peers)
 
 
-def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Path | None) -> None:
+def _faults(**options: Any) -> list[str]:
+    return option_faults(**{name: options[name] for name in ("near", "engines", "quick", "peers")})
+
+
+def _without_preset(
+    *,
+    interface: bool,
+    source: Path | None,
+    out: Path,
+    data: Path | None,
+    quick: bool,
+    near: tuple[str, ...],
+    peers: Path | None,
+) -> None:
     context = click.get_current_context()
     if context.invoked_subcommand is not None:
         if interface or source:
             raise click.UsageError("--interface and --from stand for the preset; leave it out")
-        for name in ("out", "data"):
+        for name in ("out", "data", "quick", "near", "peers"):
             if context.get_parameter_source(name) is not click.core.ParameterSource.DEFAULT:
                 raise click.UsageError(f"--{name} stands behind the preset; move it there")
         return
@@ -76,43 +102,72 @@ def _without_preset(*, interface: bool, source: Path | None, out: Path, data: Pa
         raise click.UsageError(
             f"PRESET is missing; give a file, one of {names}, --interface, or --from"
         )
+    if source and (quick or near):
+        raise click.UsageError("--quick and --near say what is measured; leave them out of --from")
+    if interface and peers:
+        raise click.UsageError("--peers stand beside a path; leave them out of --interface")
+    if faults := option_faults(near=near, quick=quick, peers=peers):
+        raise click.UsageError("; ".join(faults))
 
-    def measure(progress: Tell) -> Chart:
-        from optipath.lab.accuracy.chart import interface_chart  # noqa: PLC0415 - ditto
-        from optipath.lab.accuracy.chart_file import read_chart  # noqa: PLC0415 - ditto
-
+    def measure(tell: Tell, keep: Keep) -> Chart:
         if source:
+            from optipath.lab.accuracy.chart_file import read_chart  # noqa: PLC0415
+
             return read_chart(read_text(source), str(source))
-        return interface_chart(progress=progress)
+        from optipath.lab.accuracy.chart import interface_chart  # noqa: PLC0415 - an extra
+        from optipath.lab.accuracy.chart_effort import FULL  # noqa: PLC0415
+        from optipath.lab.accuracy.chart_effort import QUICK as LITTLE  # noqa: PLC0415
+        from optipath.lab.accuracy.critical_chart import critical_chart  # noqa: PLC0415 - ditto
 
-    _measure_and_draw(measure, out, data)
+        if near:
+            return critical_chart(
+                None, "one interface", places_near(near), progress=tell, keep=keep
+            )
+        return interface_chart(LITTLE if quick else FULL, tell, keep)
+
+    _measure_and_draw(measure, out, data, peers)
 
 
-def _measure_and_draw(measure: Callable[[Tell], Chart], out: Path, data: Path | None) -> None:
-    from optipath.lab.accuracy.chart_drawing import draw  # noqa: PLC0415 - ditto
-    from optipath.lab.accuracy.chart_file import chart_text  # noqa: PLC0415 - an extra
-
+def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Path | None) -> None:
     check_form(out)
     if data is not None and data.absolute() == out.absolute():
         raise click.UsageError(f"--out and --data both write '{out}'; give two files")
     for file in (out, data):
         if file is not None:
             check_place(file)
-    with progress_bar(1.0) as tell:
-        chart = measure(lambda what, done: tell(what, completed=done))
+    from optipath import plots  # noqa: PLC0415 - an extra
+    from optipath.lab.accuracy.chart_file import chart_text  # noqa: PLC0415
+
+    draw, save, interrupted = plots.chart, plots.save, False
+    kept: dict[str, Any] = {}
+    try:
+        with told_progress() as tell:
+            kept.update(measure(tell, kept.update))
+    except KeyboardInterrupt:
+        if not kept:
+            raise
+        interrupted = True
+        done = kept["regions"]
+        say(f"interrupted: {done['measured']} of {done['of']} steps are measured, and are kept")
     if data is not None:
-        write(data, chart_text(chart).encode())
+        write(data, chart_text(kept).encode())
         say(f"wrote {data}")
-    with told_of(out):
-        draw(chart, out)
+    picture = draw(kept, peers=peers)
+    with told_of(out), warnings.catch_warnings():
+        # A title may have letters that the font lacks; they are drawn as boxes.
+        warnings.filterwarnings("ignore", message="Glyph")
+        save(picture, out, _DOTS)
     say(f"wrote {out}")
+    if interrupted:
+        raise KeyboardInterrupt
 
 
 chart = PresetGroup(
     "chart",
     _chart,
-    (OUT, DATA, ENGINE),
+    (OUT, DATA, ENGINE, QUICK, AT, PEERS),
     callback=_without_preset,
-    params=[INTERFACE, REDRAW, OUT, DATA],
+    faults=_faults,
+    params=[INTERFACE, REDRAW, OUT, DATA, QUICK, AT, PEERS],
     subcommand_metavar="[PRESET] [OPTIONS]",
 )

@@ -37,6 +37,7 @@ _COMMANDS = (
     "cache",
     "chart",
     "explain",
+    "explore",
     "materials",
     "plot",
     "polarization",

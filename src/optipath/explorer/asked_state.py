@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optipath.errors import ParameterError, listed, shown, unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
 
 WANTED = ("scene", "energy", "explanation")
 """What is answered only where it is asked for."""
@@ -167,7 +169,7 @@ def _curve(name: str, given: Any) -> AskedCurve:
         )
     faults = [s for key in given for s in unknown(f"name in {name}", key, [*readers])]
     faults += [f"{name}.{key} is missing; give it" for key in readers if key not in given]
-    read = []
+    read: list[Any] = []
     for key, reader in readers.items():
         try:
             read.append(reader(f"{name}.{key}", given[key]) if key in given else None)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optipath.errors import OptipathError, shown, unknown
-from optipath.explorer.light_as_json import unit_shown
 from optipath.explorer.read_values import FieldFault, FieldFaults, single_text
 from optipath.sweeps.axes.sweep_axis import sweep_axis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
@@ -18,9 +17,11 @@ from optipath.values.plain_json import plain
 from optipath.values.units import in_unit, unit_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from optipath.explorer.asked_state import AskedCurve
     from optipath.explorer.read_values import ReadState
-    from optipath.light.light import Light
+    from optipath.plan.plan import Plan
     from optipath.sweeps.axes.sweep_axis import SweepAxis
     from optipath.values.parameters import Parameter
 
@@ -52,17 +53,16 @@ def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[st
     """
     try:
         grid = curve_grid(state, asked)
-        plan, axis = state.explored.plan, grid.axes[0]
-        light = plan.run_all(**grid.given())[detector]
+        axis, explored = grid.axes[0], state.explored
+        key = detector, asked, *sorted(grid.fixed.items())
+        lines = explored.kept_curve(key, lambda: _lines(explored.plan, grid, asked.y, detector))
     except OptipathError as error:
         raise FieldFaults(FieldFault("curve", each) for each in error.faults) from None
-    if light.stokes.ndim > 2:
-        raise FieldFaults([FieldFault("curve", f"'{asked.x}' has other values beside it")])
     return {
         "x": axis.shown.tolist(),
         "x_label": heading(axis.name, axis.unit),
         "at": _at(state, axis),
-        "lines": [_line(name, light, len(axis)) for name in asked.y],
+        "lines": lines,
     }
 
 
@@ -125,9 +125,15 @@ def _at(state: ReadState, axis: SweepAxis) -> float | None:
     return in_unit(float(number), axis.unit)
 
 
-def _line(name: str, light: Light, count: int) -> dict[str, Any]:
-    quantity = _NAMES[name]
-    unit = unit_shown(quantity)
-    numbers = np.broadcast_to(np.asarray(quantity.of(light), float), (count,))
-    found = np.degrees(numbers) if unit == "deg" else numbers
-    return {"name": name, "label": quantity.name, "unit": unit, "values": plain(found)}
+def _lines(
+    plan: Plan, grid: SweepGrid, names: Sequence[str], detector: str
+) -> list[dict[str, Any]]:
+    light = plan.run_all(**grid.given())[detector]
+    lines = []
+    for quantity in (_NAMES[name] for name in names):
+        unit = quantity.shown_unit
+        numbers = np.broadcast_to(np.asarray(quantity.of(light), float), grid.shape)
+        found = plain(np.degrees(numbers) if unit == "deg" else numbers)
+        told = {"name": quantity.variable, "label": quantity.name, "unit": unit}
+        lines.append({**told, "values": found})
+    return lines

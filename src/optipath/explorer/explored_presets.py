@@ -124,5 +124,3 @@ class ExploredPresets:
                 self._paths.popitem(last=False)
         self._paths.move_to_end(key)
         return self._paths[key]
-
-

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.errors import OptipathError
 from optipath.explorer.curve_as_json import curve_grid
-from optipath.explorer.light_as_json import unit_shown
 from optipath.explorer.python_lines import python_lines
 from optipath.explorer.read_values import FieldFault, FieldFaults, read_state
 from optipath.explorer.traced_state import curve_detector, traced
-from optipath.sweeps.labels.light_quantities import QUANTITIES
-from optipath.sweeps.labels.table_texts import heading, regions, table_columns, table_heads
+from optipath.sweeps.axes.sweep_grid import SweepGrid
+from optipath.sweeps.labels.table_texts import regions, table_columns, table_heads
 
 if TYPE_CHECKING:
     from optipath.explorer.asked_state import AskedCurve, AskedState
@@ -51,7 +50,7 @@ def exported_as_json(presets: ExploredPresets, asked: AskedState) -> dict[str, A
     elif asked.form == "python":
         text = python_lines(state, presets.source(asked.preset))
     else:
-        text = _stokes_table(state) if asked.curve is None else _curve_table(state, asked.curve)
+        text = _table(state, asked.curve)
     name = "-".join([asked.preset.removesuffix(".toml"), *_case_words(asked)])
     return {"faults": [], "name": f"{_ODD.sub('-', name)}.{_ENDINGS[asked.form]}", "text": text}
 
@@ -60,27 +59,16 @@ def _case_words(asked: AskedState) -> list[str]:
     return [] if asked.case is None else ["case", asked.case]
 
 
-def _curve_table(state: ReadState, curve: AskedCurve) -> str:
-    """Return what `optipath sweep --out` writes of the curve."""
+def _table(state: ReadState, curve: AskedCurve | None) -> str:
+    """Return what `optipath sweep --out` writes of the curve; without one, the light as a row."""
     plan = state.explored.plan
     try:
-        grid = curve_grid(state, curve)
+        grid = SweepGrid((), state.values) if curve is None else curve_grid(state, curve)
         rows = [",".join(table_heads(plan, grid))]
         for region in regions(grid.shape):
             rows += map(",".join, zip(*table_columns(plan, grid, region), strict=True))
     except OptipathError as error:
         raise FieldFaults(FieldFault("curve", each) for each in error.faults) from None
-    return "".join(f"{row}\n" for row in rows)
-
-
-def _stokes_table(state: ReadState) -> str:
-    """Return a row for each detector, with all that light is told of."""
-    lights = traced(state)
-    heads = ["detector", *(heading(each.variable, unit_shown(each)) for each in QUANTITIES)]
-    rows = [",".join(heads)]
-    for name in state.explored.detectors:
-        numbers = [numbers_of(each, lights[name]) for each in QUANTITIES]
-        rows.append(",".join([quoted(name), *map(repr, numbers)]))
     return "".join(f"{row}\n" for row in rows)
 
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from optipath.light.light import Light
-    from optipath.sweeps.labels.light_quantities import LightQuantity
 
 PRINTED = Numbers(6)
 """How `optipath run` prints numbers where nobody says otherwise."""
@@ -26,21 +25,10 @@ _HANDS = {1: "right-handed", -1: "left-handed", 0: "linear"}
 _UNPOLARISED = "unpolarised"
 
 
-def unit_shown(quantity: LightQuantity) -> str:
-    """Return the unit in which the page has a quantity of light.
-
-    Examples
-    --------
-    >>> [unit_shown(each) for each in QUANTITIES if each.variable in ("S0", "DoP", "AoP")]
-    ['', '', 'deg']
-    """
-    return {"rad": "deg", "1": ""}.get(quantity.unit, quantity.unit)
-
-
 def quantities_as_json() -> list[dict[str, str]]:
     """Return what light is told of, with labels and units."""
     return [
-        {"name": each.variable, "label": each.name, "unit": unit_shown(each)} for each in QUANTITIES
+        {"name": each.variable, "label": each.name, "unit": each.shown_unit} for each in QUANTITIES
     ]
 
 
@@ -112,7 +100,7 @@ def poincare(light: Light) -> list[float] | None:
 def _quantities(light: Light, stokes: Sequence[str]) -> list[dict[str, Any]]:
     found = []
     for quantity in QUANTITIES:
-        unit, component = unit_shown(quantity), quantity.attribute
+        unit, component = quantity.shown_unit, quantity.attribute
         number = plain(np.asarray(quantity.of(light), float), unit)
         state = PRINTED.state(math.nan if number is None else number)
         text = stokes[int(component)] if component.isdigit() else state

@@ -15,7 +15,7 @@ from optipath.explorer.path_as_json import path_as_json
 from optipath.explorer.read_values import FieldFaults, read_state
 from optipath.explorer.traced_state import traced_as_json
 from optipath.spelling import few_suggestions
-from optipath.values.cures import of_files
+from optipath.values.cures import of_fields, of_files
 from optipath.values.written_units import units_are_written
 
 if TYPE_CHECKING:
@@ -112,6 +112,7 @@ class PageAnswers:
             self._lock,
             few_suggestions(),
             of_files(),
+            of_fields(),
             units_are_written(),
             warnings.catch_warnings(record=True) as heard,
         ):

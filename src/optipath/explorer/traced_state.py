@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from optipath.errors import OptipathError, unknown
 from optipath.explorer.curve_as_json import curve_as_json
+from optipath.explorer.energy_as_json import energy_as_flows
 from optipath.explorer.light_as_json import PRINTED, end_as_json, link_as_json
 from optipath.explorer.read_values import FieldFault, FieldFaults
+from optipath.explorer.traced_once import TracedOnce
 from optipath.paths.bound_materials import given_by_materials
 from optipath.paths.lights_along import lights_along
+from optipath.plots.space.scene_of import scene_of
 from optipath.values.named_materials import WAVELENGTH, material_as_json, materials_among
 from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
     from optipath.explorer.read_values import ReadState
     from optipath.light.light import Light
+    from optipath.paths.path_graph import PathGraph
 
 
 def traced_as_json(state: ReadState) -> dict[str, Any]:
@@ -49,16 +53,29 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
             for name in explored.detectors
         },
     }
-    along = lights_along(explored.path, **state.values)
+    # It stands for the path wherever pictures ask for the light on its links.
+    path = cast("PathGraph", TracedOnce(explored.path, state.values))
+    along = lights_along(path, **state.values)
     found["along"] = [link_as_json(e.name, e.start, e.end, e.light) for e in along]
     plan = explored.plan
     found |= {"model": plan.model, "method": plan.method}
     found["engine"] = " and ".join(plan.answers.ran_by)
     curve = asked.curve
     found["curve"] = None if curve is None else curve_as_json(state, curve, detector)
-    found |= {"scene": None, "energy": None}
-    found["explanation"] = explored.explanation if "explanation" in asked.want else None
+    want = asked.want
+    found["scene"] = _scene(path, state, found["notes"]) if "scene" in want else None
+    found["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
+    found["explanation"] = explored.explanation if "explanation" in want else None
     return found
+
+
+def _scene(path: PathGraph, state: ReadState, notes: list[str]) -> dict[str, Any] | None:
+    """Return the path in space; a note where it cannot be laid out."""
+    try:
+        return scene_of(path, **state.values).as_json()
+    except OptipathError as error:
+        notes += error.faults
+        return None
 
 
 def traced(state: ReadState) -> dict[str, Light]:
@@ -146,6 +163,8 @@ def values_as_json(state: ReadState) -> dict[str, dict[str, Any]]:
         text = "" if value is None else parameter.text(_single(value))
         shown = None if number is None else in_unit(number, parameter.unit)
         found[name] = {"text": text, "number": shown, "unit": parameter.unit, "word": word}
+    if state.base.offers_wavelength and WAVELENGTH.name not in found:
+        found[WAVELENGTH.name] = {"text": "", "number": None, "unit": WAVELENGTH.unit, "word": None}
     if given := state.materials:
         found |= _materials(state, given)
     return found

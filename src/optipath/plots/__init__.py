@@ -7,6 +7,7 @@ from optipath.errors import MissingExtraError
 from optipath.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from optipath.plots.charts.drawn_chart import chart
     from optipath.plots.curves.parameter_curve import curve
     from optipath.plots.curves.quantity_map import quantity_map
     from optipath.plots.curves.reflection_curves import reflection
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
     from optipath.plots.hemispheres.mueller_map import mueller_hemisphere
     from optipath.plots.hemispheres.plane_curves import in_plane
     from optipath.plots.saved_picture import save
+    from optipath.plots.space.bench import bench
+    from optipath.plots.space.geometry import geometry
     from optipath.plots.states.ellipse_picture import ellipse
     from optipath.plots.states.mueller_picture import mueller
     from optipath.plots.states.sphere_picture import poincare
@@ -24,11 +27,14 @@ if TYPE_CHECKING:
     from optipath.plots.states.stokes_bars import stokes
 
 __all__ = [
+    "bench",
     "beside_facets",
+    "chart",
     "curve",
     "differences",
     "ellipse",
     "energy",
+    "geometry",
     "hemisphere",
     "in_plane",
     "mueller",
@@ -42,6 +48,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "charts.drawn_chart": ["chart"],
     "curves.parameter_curve": ["curve"],
     "curves.quantity_map": ["quantity_map"],
     "curves.reflection_curves": ["reflection"],
@@ -52,6 +59,8 @@ _HOMES = {
     "hemispheres.mueller_map": ["mueller_hemisphere"],
     "hemispheres.plane_curves": ["in_plane"],
     "saved_picture": ["save"],
+    "space.bench": ["bench"],
+    "space.geometry": ["geometry"],
     "states.ellipse_picture": ["ellipse"],
     "states.mueller_picture": ["mueller"],
     "states.sphere_picture": ["poincare"],
@@ -61,10 +70,10 @@ _HOMES = {
 """Where the names are from; each is imported when it is used (PEP 562)."""
 
 
-def _check_matplotlib() -> None:
+def check_matplotlib() -> None:
     if find_spec("matplotlib") is None:
         raise MissingExtraError("pictures", "matplotlib", "plot")
 
 
 if not TYPE_CHECKING:  # Else any name would do for who checks types.
-    __getattr__, __dir__ = lazy_names(__name__, _HOMES, needs=_check_matplotlib)
+    __getattr__, __dir__ = lazy_names(__name__, _HOMES, needs=check_matplotlib)

@@ -62,7 +62,17 @@ class ColourScale(NamedTuple):
 
     @classmethod
     def ordered(cls, least: float, largest: float) -> ColourScale:
-        """Return that of numbers in an order; of one number, with some room about it."""
+        """Return that of numbers in an order; of one number, with some room about it.
+
+        Parameters
+        ----------
+        least, largest : float
+            The numbers at its ends.
+
+        Returns
+        -------
+        ColourScale
+        """
         room = 0.5 * max(abs(least), 1.0) if least == largest else 0.0
         return cls("viridis", Normalize(least - room, largest + room))
 

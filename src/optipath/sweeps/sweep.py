@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import optipath.sweeps.sweep_pictures  # noqa: F401 - a Dataset has pictures by it
 from optipath.composer.composer import Composer
 from optipath.composer.wiring import KEPT
 from optipath.errors import ParameterError, shown

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
 _IN_FILE: ContextVar[bool] = ContextVar("_IN_FILE", default=False)
+_IN_FIELDS: ContextVar[bool] = ContextVar("_IN_FIELDS", default=False)
 _OPTIONS: ContextVar[Mapping[str, str] | None] = ContextVar("_OPTIONS", default=None)
 
 
@@ -21,6 +22,16 @@ def of_files() -> Iterator[None]:
         yield
     finally:
         _IN_FILE.reset(token)
+
+
+@contextmanager
+def of_fields() -> Iterator[None]:
+    """Let all values inside be given in fields of their own, as on a page."""
+    token = _IN_FIELDS.set(True)
+    try:
+        yield
+    finally:
+        _IN_FIELDS.reset(token)
 
 
 @contextmanager
@@ -98,7 +109,12 @@ def how_to_give(name: str) -> str:
     >>> with of_files():
     ...     print(how_to_give("n_1"))
     --n-1 ...
+    >>> with of_fields():
+    ...     print(how_to_give("n_1"))
+    in its field
     """
+    if _IN_FIELDS.get():
+        return "in its field"
     return cure(f"{name}=...", f"--{name.replace('_', '-')} ...")
 
 

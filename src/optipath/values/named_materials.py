@@ -42,7 +42,24 @@ def is_material(parameter: Parameter, text: str, uses: Sequence[Use]) -> bool:
     is_range = ":" in text  # Of which an end may be no number.
     if not text[:1].isalpha() or is_range or text in (*parameter.all_words, "inf", "nan"):
         return False
-    places = places_of(uses, parameter.name)
+    return stands_for_index(uses, parameter.name)
+
+
+def stands_for_index(uses: Sequence[Use], name: str) -> bool:
+    """Tell whether a parameter stands as an index of refraction, wherever it stands.
+
+    Parameters
+    ----------
+    uses : sequence of Use
+        The numbers of the path.
+    name : str
+        The parameter.
+
+    Returns
+    -------
+    bool
+    """
+    places = places_of(uses, name)
     return bool(places) and all(use.domain.takes_materials for use in places)
 
 

@@ -7,10 +7,11 @@ import pytest
 
 import optipath as op
 from optipath.kernels.catalogue import REFLECTION
-from optipath.lab.accuracy.chart import Effort, interface_chart, path_chart
-from optipath.lab.accuracy.chart_drawing import draw
-from optipath.lab.accuracy.chart_file import chart_text, read_chart
+from optipath.lab.accuracy.chart import interface_chart, path_chart
+from optipath.lab.accuracy.chart_effort import FULL, QUICK, Effort, expected
+from optipath.lab.accuracy.chart_file import KINDS, chart_text, read_chart
 from optipath.lab.accuracy.contenders import contenders
+from optipath.lab.accuracy.error_measures import Errors
 from optipath.lab.accuracy.many_paths import many_paths
 from optipath.lab.accuracy.path_errors import AS_GIVEN, path_errors, trials
 from optipath.lab.accuracy.region_path import in_region
@@ -23,10 +24,16 @@ LITTLE = Effort(samples=2, rounds=1, engines=("numpy",))
 
 @pytest.fixture(scope="module")
 def chart():
-    steps = []
+    steps, kept = [], []
     path = op.load_preset("npgr026", case="8")
-    found = path_chart(path, "npgr026", LITTLE, lambda *step: steps.append(step))
-    return found, steps
+    found = path_chart(
+        path,
+        "npgr026",
+        LITTLE,
+        lambda *step: steps.append(step),
+        lambda so_far: kept.append(json.loads(chart_text(so_far))),
+    )
+    return found, steps, kept
 
 
 def worst(contender, kind="componentwise"):
@@ -58,9 +65,38 @@ def test_stable_holds_and_textbook_fails_on_the_path(chart):
 def test_progress_is_told_from_the_beginning_to_the_end(chart):
     shares = [share for _, share in chart[1]]
     assert shares == sorted(shares)
-    assert {what for what, _ in chart[1]} == {"50-digit references", "errors", "times"}
-    assert 0 < shares[0] < 0.1
-    assert shares[-1] <= 1
+    told = {what.partition(",")[0] for what, _ in chart[1]}
+    assert told == {"composing and compiling", "times", "errors"}
+    assert 0 <= shares[0] < 0.1
+    assert 0.9 < shares[-1] <= 1
+
+
+def test_what_is_measured_so_far_is_a_whole_chart_after_every_region(chart):
+    found, _, kept = chart
+    assert len(kept) == 1 + len(REGIONS)
+    for number, so_far in enumerate(kept, start=1):
+        assert so_far["regions"] == {"measured": number, "of": len(kept)}
+        (errors, *_) = read_chart(json.dumps(so_far), "x.json")["contenders"]
+        assert len(errors["errors"]["normwise"]) == number
+    assert json.loads(chart_text(found)) == kept[-1]
+
+
+def test_longdouble_has_its_digits_on_a_path(chart):
+    assert worst(by_words(chart[0], "stable", "longdouble", "stokes"), "normwise") <= 30
+
+
+def test_a_quick_chart_measures_less_and_says_what_it_leaves_out():
+    assert QUICK.samples < FULL.samples
+    assert FULL.told()["left_out"] == ""
+    assert "Numba" in QUICK.told()["left_out"]
+    measured = [runner for runner in contenders() if QUICK.measures(runner)]
+    assert {runner.engine for runner in measured} == {runner.engine for runner in contenders()}
+    assert sum(runner.engine == "numba" for runner in measured) <= 1
+    assert "--quick" in expected(FULL)
+
+
+def test_the_kinds_of_errors_in_files_are_those_that_are_measured():
+    assert Errors._fields == KINDS
 
 
 def test_the_limits_of_the_machine_are_below_what_was_measured(chart):
@@ -76,18 +112,17 @@ def test_json_can_be_drawn_again_without_measuring(chart, tmp_path):
     assert json.loads(text)["title"] == "npgr026"
     again = read_chart(text, "chart.json")
     for name, found in (("a.svg", chart[0]), ("b.svg", again)):
-        draw(found, tmp_path / name)
+        op.plots.save(op.plots.chart(found), tmp_path / name)
     a, b = ((tmp_path / name).read_text("utf-8") for name in ("a.svg", "b.svg"))
     assert len(a) > 10_000
     assert a.count("<path") == b.count("<path")
 
 
-def test_the_chart_of_one_interface_has_all_methods(tmp_path):
+def test_the_chart_of_one_interface_has_all_methods():
     found = interface_chart(LITTLE)
     assert {c["method"] for c in found["contenders"]} == set(REFLECTION.methods)
     assert worst(by_words(found, "compensated", "float64", "stokes")) <= 1.5
-    draw(found, tmp_path / "chart.png")
-    assert (tmp_path / "chart.png").read_bytes().startswith(b"\x89PNG")
+    assert len(op.plots.chart(found)) == 2
 
 
 # npgr026 is charted above, and those that are like it, or take long, are left out.
@@ -202,8 +237,10 @@ def test_a_chart_that_lacks_something_is_refused(chart, spoil):
         read_chart(json.dumps(text), "x.json")
 
 
+@pytest.mark.filterwarnings("ignore:Glyph")
 def test_an_engine_of_a_later_version_and_letters_without_glyphs_are_drawn(chart, tmp_path):
     later = json.loads(chart_text(chart[0]))
     later["contenders"][0].update(engine="quantum", dtype="float128")
     later["title"] = r"光路 $\frac{$"
-    draw(read_chart(json.dumps(later), "x.json"), tmp_path / "later.svg")
+    panel = op.plots.chart(read_chart(json.dumps(later), "x.json"))
+    op.plots.save(panel, tmp_path / "later.svg")

@@ -2,6 +2,7 @@
 
 import { by, element, option, say } from "./dom.js";
 import { ParameterRow } from "./parameter.js";
+import { takesPart } from "./state.js";
 
 export class Controls {
   /** @param {HTMLElement} root @param {object} about of the preset @param {object} actions */
@@ -29,6 +30,7 @@ export class Controls {
   choose(state) {
     for (const [name, { select, preset }] of this.places) select.value = state.places[name] ?? preset;
     by("case").value = state.case ?? "";
+    for (const row of this.rows.values()) row.root.hidden = !takesPart(row.about, state, this.about);
     for (const [name, text] of Object.entries(state.values)) this.rows.get(name)?.keep(text);
   }
 

@@ -1,6 +1,7 @@
 /** Which curve is drawn: against what, from where to where, and of what. */
 
 import { by, chip, element, option } from "./dom.js";
+import { takesPart } from "./state.js";
 
 const field = (words, made) => element("label", { className: "named" }, `${words} `, made);
 
@@ -34,12 +35,13 @@ export class CurveChoice {
   /** The curve to ask for, with what is left open filled in; null where there is none. */
   asked(state) {
     const { x, from, to, y } = state.curve;
-    const first = this.able.find((each) => each.name === "wavelength") ?? this.able[0];
+    const having = this.able.filter((each) => takesPart(each, state, this.about));
+    const first = having.find((each) => each.name === "wavelength") ?? having[0];
     const name = x ?? first?.name;
     const parameter = this.able.find((each) => each.name === name);
     if (name === undefined || y.length === 0) return null;
     const [low, high] = parameter?.slider ?? [0, 1];
-    return { x: name, from: from || String(low), to: to || String(high), count: 181, y };
+    return { x: name, from: from || String(low), to: to || String(high), count: 361, y };
   }
 
   /** @param {object} state */
@@ -47,6 +49,7 @@ export class CurveChoice {
     this.now = state.curve.y;
     const asked = this.asked({ ...state, curve: { ...state.curve, y: ["S0"] } });
     if (asked === null) return;
+    [...this.x.options].forEach((each, i) => (each.hidden = !takesPart(this.able[i], state, this.about)));
     this.x.value = asked.x;
     for (const [field, text] of [[this.from, asked.from], [this.to, asked.to]]) {
       if (document.activeElement !== field) field.value = text;

@@ -6,7 +6,7 @@ import { CurveChoice } from "./curve_choice.js";
 import { by, debounced, option, say } from "./dom.js";
 import { Texts, addSaving, copy } from "./export.js";
 import { Pictures } from "./pictures.js";
-import { History, fromHash, newState, toHash, withEntry } from "./state.js";
+import { History, fromHash, newState, toHash, withEntry, withoutIdle } from "./state.js";
 import { chooseTheme } from "./theme.js";
 import { typeset } from "./units.js";
 
@@ -16,6 +16,8 @@ const pictures = new Pictures(turned);
 const texts = new Texts(() => (open.about === null ? null : question(open.history.now)));
 const refreshTexts = debounced(() => texts.refresh(), 400);
 const writeAddress = debounced(() => history.replaceState(null, "", `#${toHash(open.history.now)}`), 120);
+
+const WANTED = ["scene", "energy", "explanation"];
 
 const keyOf = (state) => JSON.stringify([state.preset, state.places]);
 
@@ -34,7 +36,15 @@ async function ask(state) {
     if (about.faults?.length) return about;
     adopt(about, key);
   }
-  return post("trace", { ...question(state), want: ["scene", "energy", "explanation"] });
+  const answer = await post("trace", { ...question(state), want: WANTED });
+  const bare = open.answer === null && answer.faults.length > 0;
+  return bare ? { ...answer, before: await defaults(state) } : answer;
+}
+
+/** What a preset shows by itself, for an address with values that cannot be. */
+async function defaults({ preset }) {
+  const answer = await post("trace", { preset, want: WANTED });
+  return answer.faults.length > 0 ? null : answer;
 }
 
 /** Take up a preset: its controls take the place of those before. */
@@ -60,6 +70,7 @@ function show(state, answer) {
   say(by("curve-fault"), ofCurve.map((each) => each.sentence).join(" "));
   say(by("fault"), rest.filter((each) => !ofCurve.includes(each)).map((each) => each.sentence).join(" "));
   const stale = faults.length > 0;
+  if (answer.before) take(state, answer.before);
   document.body.classList.toggle("stale", stale && open.answer !== null);
   by("stale").hidden = !(stale && open.answer !== null);
   open.curve?.update(state);
@@ -67,13 +78,19 @@ function show(state, answer) {
     open.controls?.choose(state);
     return;
   }
-  open.answer = answer;
-  open.controls.update(state, answer.values, forced);
+  take(state, answer);
   forced = false;
   const found = open.about.cases.find((each) => each.name === state.case);
   say(by("note"), found?.note ? typeset(found.note) : "");
-  pictures.show(state, answer, open.about);
+  say(by("told"), typeset((answer.notes ?? []).join(" ")));
   refreshTexts();
+}
+
+/** Show what an answer without faults says. */
+function take(state, answer) {
+  open.answer = answer;
+  open.controls.update(state, answer.values, forced);
+  pictures.show(state, answer, open.about);
 }
 
 const request = newest(ask, show);
@@ -93,7 +110,7 @@ function shown() {
 }
 
 function set(name, text, key) {
-  go(withEntry(open.history.now, "values", name, text), key);
+  go(withoutIdle(withEntry(open.history.now, "values", name, text), open.about), key);
 }
 
 function place(name, word) {

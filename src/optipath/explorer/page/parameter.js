@@ -2,6 +2,7 @@
 
 import { chip, debounced, element, option, say } from "./dom.js";
 import { converted, short, stepped, taken } from "./units.js";
+import { materialInWords } from "./words.js";
 
 /**
  * @typedef {{set: (name: string, text: string|null, key: string|null) => void,
@@ -43,7 +44,8 @@ export class ParameterRow {
       parts.push(element("div", { className: "words", role: "group", "aria-label": `Words for ${name}` }, ...this.words));
     }
     const said = this.about.materials ? `${help}${help ? "; " : ""}a number or the name of a material` : help;
-    parts.push(element("p", { className: "help", id: `${id}-help` }, said), this.fault);
+    this.material = element("p", { className: "help", hidden: true });
+    parts.push(element("p", { className: "help", id: `${id}-help` }, said), this.material, this.fault);
     return element("div", { className: "parameter", role: "group", "aria-label": name }, ...parts);
   }
 
@@ -111,6 +113,7 @@ export class ParameterRow {
     this.back.hidden = !changed || this.about.bound;
     if (forced || document.activeElement !== this.field) this.write();
     this.slide();
+    say(this.material, materialInWords(value));
     for (const each of this.words) each.setAttribute("aria-pressed", String(each.textContent === value.word));
   }
 

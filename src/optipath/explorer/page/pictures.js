@@ -85,8 +85,9 @@ export class Pictures {
     this.drawTurnable("scene");
     canvasOf("curve").hidden = !curve;
     if (curve) this.across = drawCurve(svgOf("curve"), curve, this.about.quantities.map((each) => each.name));
-    canvasOf("energy").hidden = !energy;
-    if (energy) drawEnergy(svgOf("energy"), energy);
+    canvasOf("energy").hidden = !energy?.links.length;
+    say(by("energy-notes"), typeset([energy?.text ?? "", ...(energy?.notes ?? [])].filter(Boolean).join(" ")));
+    if (energy?.links.length) drawEnergy(svgOf("energy"), energy);
   }
 
   drawTurnable(name) {

@@ -7,7 +7,7 @@ import { head, line, segment, show, text, widthOf } from "./svg.js";
 import { typeset } from "./units.js";
 import { sceneInWords } from "./words.js";
 
-export const SCENE_VIEW = [-62, 22, 1];
+export const SCENE_VIEW = [-55, 24, 1];
 
 /**
  * @param {SVGElement} svg
@@ -17,7 +17,7 @@ export const SCENE_VIEW = [-62, 22, 1];
  */
 export function drawScene(svg, scene, view, parts) {
   const width = widthOf(svg);
-  const height = Math.round(Math.max(300, Math.min(560, width * 0.62)));
+  const height = heightOf(scene, width);
   const at = fitted(scene, view, width, height);
   const size = sizeOf(scene);
   const things = [];
@@ -38,7 +38,7 @@ export function drawScene(svg, scene, view, parts) {
   if (parts.has("angles")) {
     for (const each of scene.angles) {
       const arc = each.arc.map(at);
-      add(arc, line(arc, "angle"));
+      if (arc.length > 1) add(arc, line(arc, "angle"));
       labels.push({ at: at(each.at), words: typeset(each.text), look: "angle-name" });
     }
   }
@@ -55,17 +55,28 @@ function sizeOf(scene) {
   return lengths[Math.floor(lengths.length / 2)] ?? 1;
 }
 
-/** A projection that brings all that is drawn into the picture. */
-function fitted(scene, view, width, height) {
-  const project = projected(view);
+/** As tall as the scene is when seen as at first, so that turning it changes nothing. */
+function heightOf(scene, width) {
+  const [left, top, right, bottom] = extent(scene, SCENE_VIEW);
+  const wanted = 90 + ((width - 120) * (bottom - top)) / Math.max(right - left, 1e-9);
+  return Math.round(Math.max(Math.min(260, width), Math.min(0.62 * width, wanted, 640)));
+}
+
+/** @returns {number[]} left, top, right and bottom of all that is drawn */
+function extent(scene, view) {
   const points = [
     ...scene.rays.flatMap(({ from, to }) => [from, to]),
     ...scene.nodes.map((each) => each.at),
     ...scene.planes.flatMap((each) => each.corners),
-  ].map(project);
+  ].map(projected(view));
   const side = (k) => points.map((each) => each[k]);
-  const [left, right] = [Math.min(...side(0)), Math.max(...side(0))];
-  const [top, bottom] = [Math.min(...side(1)), Math.max(...side(1))];
+  return [Math.min(...side(0)), Math.min(...side(1)), Math.max(...side(0)), Math.max(...side(1))];
+}
+
+/** A projection that brings all that is drawn into the picture. */
+function fitted(scene, view, width, height) {
+  const project = projected(view);
+  const [left, top, right, bottom] = extent(scene, view);
   const size = sizeOf(scene);
   const room = [width - 110, height - 80];
   const scale = view[2] * Math.min(room[0] / Math.max(right - left, size), room[1] / Math.max(bottom - top, size));

@@ -30,6 +30,26 @@ export function withEntry(state, part, name, entry) {
   return { ...state, [part]: entries };
 }
 
+const WAVELENGTH = "wavelength";
+
+/** Whether materials are given by name, which have n and k at a wavelength only. */
+function asksWavelength(state, about) {
+  const given = about.parameters.filter((each) => each.materials && each.name in state.values);
+  return given.some((each) => !/^[\s(]*[-+]?\.?\d/.test(state.values[each.name]));
+}
+
+/** Whether a parameter has a part in a state: a wavelength without a default has it with materials. */
+export function takesPart(parameter, state, about) {
+  const own = parameter.name !== WAVELENGTH || parameter.default !== "";
+  return own || parameter.name in state.values || asksWavelength(state, about);
+}
+
+/** A state without a wavelength that nothing asks for. */
+export function withoutIdle(state, about) {
+  const idle = about.parameters.some((each) => each.name === WAVELENGTH && each.default === "");
+  return idle && !asksWavelength(state, about) ? withEntry(state, "values", WAVELENGTH, null) : state;
+}
+
 /** @param {State} state @returns {string} the part of an address behind its "#" */
 export function toHash(state) {
   const words = new URLSearchParams({ preset: state.preset });

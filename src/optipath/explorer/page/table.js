@@ -33,7 +33,8 @@ export function fillQuantities(table, name, light) {
     .filter((each) => !/^S[0-3]$/.test(each.name))
     .map((each) => {
       const unit = each.unit && !each.text.endsWith(each.unit) && each.number !== null ? ` ${each.unit}` : "";
-      return element("tr", { title: each.label ?? "" }, element("th", { scope: "row" }, each.name), cell(each.text + unit, { className: "value" }));
+      const said = each.label && each.label !== each.name ? [element("small", {}, each.label)] : [];
+      return element("tr", {}, element("th", { scope: "row" }, each.name, ...said), cell(each.text + unit, { className: "value" }));
     });
   table.replaceChildren(caption, element("tbody", {}, ...rows));
 }

@@ -42,6 +42,14 @@ export function curveInWords(curve) {
   return typeset(`Against ${curve.x_label} from ${ends[0]} to ${ends[1]}: ${parts.join("; ")}.${at}`);
 }
 
+/** What a material stands for, or where a value comes from; "" for a plain value. */
+export function materialInWords({ material, n, k, by }) {
+  if (by !== undefined) return `that of the material of ${by}`;
+  if (material === undefined) return "";
+  const numbers = [["n", n], ["k", k]].filter(([, each]) => typeof each === "number");
+  return [material, ...numbers.map(([name, each]) => `${name} ${short(each, 6)}`)].join(", ");
+}
+
 export const least = (numbers) => numbers.reduce((a, b) => Math.min(a, b), Infinity);
 export const most = (numbers) => numbers.reduce((a, b) => Math.max(a, b), -Infinity);
 

@@ -14,7 +14,7 @@ from optipath.errors import ComposerError, ParameterError
 from optipath.kernels.catalogue import REFLECTION
 from optipath.lab.accuracy.chart_effort import FULL, Effort
 from optipath.lab.accuracy.chart_file import FORMAT, KINDS
-from optipath.lab.accuracy.contenders import WORDS, available_dtypes, contenders
+from optipath.lab.accuracy.contenders import WORDS, contenders
 from optipath.lab.accuracy.error_measures import LIMIT, Errors
 from optipath.lab.accuracy.interface_errors import interface_errors, matrix_numbers
 from optipath.lab.accuracy.machine import limits, processor

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.lab.accuracy.contenders import contenders
+
 if TYPE_CHECKING:
     from optipath.composer.composer import Composer
 
@@ -42,8 +44,8 @@ class Effort(NamedTuple):
         bool
         """
         default = runner.method == "stable" and runner.composing == "stokes"
-        return runner.engine == "numpy" or self.compiles_all or (
-            default and runner.dtype == "float64"
+        return (
+            runner.engine == "numpy" or self.compiles_all or (default and runner.dtype == "float64")
         )
 
     def told(self) -> dict[str, Any]:
@@ -57,3 +59,38 @@ class Effort(NamedTuple):
 FULL = Effort()
 QUICK = Effort(samples=3, rounds=3, compiles_all=False)
 """Less than a minute for a path of some elements."""
+
+_COMPILED = 40.0
+"""About how many seconds a contender of Numba takes to be compiled for all regions."""
+
+
+def expected(effort: Effort) -> str:
+    """Return about how long a chart of a path of some elements takes, before it is measured.
+
+    Parameters
+    ----------
+    effort : Effort
+        How much is measured.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> expected(QUICK)
+    'this takes less than a minute, more on a busy machine'
+    >>> print(expected(FULL._replace(engines=("numpy",))))
+    this takes about 2 minutes; --quick takes less than one
+    """
+    compiled = [
+        runner
+        for runner in contenders(engines=effort.engines)
+        if runner.engine != "numpy" and effort.measures(runner)
+    ]
+    seconds = 20.0 + 4.0 * effort.samples + _COMPILED * len(compiled)
+    minutes = round(seconds / 60)
+    if not effort.compiles_all:
+        return "this takes less than a minute, more on a busy machine"
+    wait = " where Numba must compile, for which it keeps what is compiled" if compiled else ""
+    return f"this takes about {minutes} minutes{wait}; --quick takes less than one"

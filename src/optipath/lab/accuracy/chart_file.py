@@ -20,6 +20,9 @@ KINDS = ("componentwise", "normwise")
 """Of errors: the fields of `Errors`, which needs mpmath; a picture is drawn without."""
 
 
+_CURE = "give a file that 'optipath chart --data' wrote"
+
+
 def chart_text(chart: Mapping[str, Any]) -> str:
     """Return a chart as JSON, which has no infinity: an infinite error is null."""
     return json.dumps(_written(chart), indent=1, allow_nan=False) + "\n"
@@ -45,13 +48,34 @@ def read_chart(text: str, name: str) -> dict[str, Any]:
     OptipathError
         If it is none, or one of another form.
     """
-    cure = "give a file that 'optipath chart --data' wrote"
     try:
         chart = json.loads(text, object_hook=_read)
     except (ValueError, RecursionError):
-        raise OptipathError(f"'{name}' is no JSON; {cure}") from None
+        raise OptipathError(f"'{name}' is no JSON; {_CURE}") from None
+    return checked_chart(chart, f"'{name}'")
+
+
+def checked_chart(chart: Any, name: str) -> dict[str, Any]:
+    """Return a chart in which everything is there that is drawn.
+
+    Parameters
+    ----------
+    chart : mapping
+        As `read_chart` returns it.
+    name : str
+        What it is called where it is refused.
+
+    Returns
+    -------
+    dict
+
+    Raises
+    ------
+    OptipathError
+        If it is none, or one of another form.
+    """
     if not _is_whole(chart):
-        raise OptipathError(f"'{name}' is no whole chart of this version; {cure}")
+        raise OptipathError(f"{name} is no whole chart of this version; {_CURE}")
     return chart  # type: ignore[no-any-return]
 
 

@@ -54,7 +54,8 @@ class CriticalPlace:
         >>> samples.cos
         array([0.001, 0.001])
         """
-        return Region(f"{self.name}, {distance:.3g}", lambda dice: self.draw(dice, distance))
+        # Of one name, and so with the same media at every distance.
+        return Region(self.name, lambda dice: self.draw(dice, distance))
 
 
 def _brewster(dice: Dice, distance: float) -> tuple[Floats, ...]:
@@ -63,8 +64,8 @@ def _brewster(dice: Dice, distance: float) -> tuple[Floats, ...]:
 
 
 def _critical(dice: Dice, distance: float) -> tuple[Floats, ...]:
-    n = dice.even(0.2, 0.95)
-    return n, np.zeros(1), *beside(n / np.sqrt((1 - n) * (1 + n)), dice.sign() * distance)
+    n, k = dice.even(0.2, 0.95), dice.some(dice.decades(1e-20, 1e-3))
+    return n, k, *beside(n / np.sqrt((1 - n) * (1 + n)), dice.sign() * distance)
 
 
 def _medium(dice: Dice) -> tuple[Floats, Floats]:

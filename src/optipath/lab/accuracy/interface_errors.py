@@ -31,6 +31,8 @@ def interface_errors(
     dtype: str = "float64",
     count: int = SAMPLES,
     what: str = "reflection",
+    *,
+    against_first: bool = False,
 ) -> Errors:
     """Return the errors of (A, B, C, S) by a method in a region.
 
@@ -46,6 +48,8 @@ def interface_errors(
         How many samples.
     what : {"reflection", "transmission"}, optional
         Which Mueller matrix.
+    against_first : bool, optional
+        As for `errors`.
 
     Returns
     -------
@@ -60,7 +64,8 @@ def interface_errors(
     """
     kernel = FAMILIES[what].by_method(method)
     found = matrix_numbers(kernel, region.samples(count, dtype))
-    return errors(found, _references(region, dtype, count, what), dtype)
+    exact = _references(region, dtype, count, what)
+    return errors(found, exact, dtype, against_first=against_first)
 
 
 def matrix_numbers(kernel: Kernel, samples: Samples) -> npt.NDArray[Any]:

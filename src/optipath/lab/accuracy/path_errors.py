@@ -141,7 +141,9 @@ def _comparable(light: ExactLight, power: int, read: list[bool]) -> ExactLight:
     A component that a detector does not read is 0, and has no error.
     """
     parts = zip(light.stokes, read, strict=True)
-    return light._replace(stokes=tuple(mpmath.ldexp(part, -power) * seen for part, seen in parts))
+    # A product would be rounded to the digits that mpmath works with outside of references.
+    scaled = (mpmath.ldexp(part, -power) if seen else mpmath.mpf(0) for part, seen in parts)
+    return light._replace(stokes=tuple(scaled))
 
 
 def worst_and_median(numbers: Any) -> dict[str, float]:

@@ -101,6 +101,14 @@ class Frame(NamedTuple):
         powers = np.arange(np.ceil(low), np.floor(high) + 1)
         return [float(10.0**power) for power in powers[:: len(powers) // 7 + 1]]
 
+    @property
+    def ticks(self) -> list[float]:
+        """The times that are written at the axis: at most five powers of 10, none at an end."""
+        first, last = np.log10(self.times)
+        aside = 0.25 * (last - first) / panel_width()
+        powers = np.arange(np.ceil(first + aside), np.floor(last - aside) + 1)
+        return [float(10.0**power) for power in powers[:: (len(powers) - 1) // 5 + 1]]
+
     def share(self, inches: float) -> float:
         """Return a height over that of a panel."""
         return inches / self.height

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 EDGE = 0.25
 """Between words and the edge of a picture, in inches."""
 
-_HANDLE = 0.62
-_WAYS = {"stokes": "large: Stokes vectors", "jones": "small: Jones columns"}
+_HANDLE = 0.6
+_WAYS = {"stokes": "large: Stokes", "jones": "small: Jones"}
 _FACES = {"numba": "filled: ", "numpy": "open: "}
 
 
@@ -43,11 +43,26 @@ def legend_rows(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
     -------
     list of list of Artist
     """
+    return flowing(_groups(chart, looks))
+
+
+def flowing(groups: list[list[Artist]]) -> list[list[Artist]]:
+    """Return groups of what is explained in rows that fit the width of a picture.
+
+    Parameters
+    ----------
+    groups : list of list of Artist
+        Each begins a row.
+
+    Returns
+    -------
+    list of list of Artist
+    """
     rows: list[list[Artist]] = []
-    for group in _groups(chart, looks):
+    for group in groups:
         reached = WIDTH
         for handle in group:
-            needed = _HANDLE + 1.05 * width_of(str(handle.get_label()), POINTS)
+            needed = _HANDLE + 1.03 * width_of(str(handle.get_label()), POINTS)
             if reached + needed > WIDTH - 2 * EDGE:
                 rows.append([])
                 reached = 0.0
@@ -58,7 +73,7 @@ def legend_rows(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
 
 def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
     marker: dict[str, Any] = {"color": INK, "linewidth": 0, "markersize": 11}
-    fails = f"fails: off by more than {chart['fails_above']:g} ulp* in so many regions"
+    fails = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
     methods: list[Artist] = [
         Line2D([], [], color=looks.colour(name), lw=7, label=_short(name)) for name in looks.methods
     ]
@@ -82,13 +97,17 @@ def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
     ways = sizes if len(sizes) > 1 else []
     return [
         [*methods, *shapes],
-        [*faces, *ways, Patch(facecolor=FAILING, label=fails)],
         [
+            *faces,
+            *ways,
             Line2D([], [], marker="o", label="worst region", **marker),
-            Line2D([], [], marker="_", label="middle region", **(marker | {"color": FAINT})),
-            Line2D([], [], color=FAINT, lw=1.8, label="frontier: the best that fails nowhere"),
-            Line2D([], [], color=FAINT, ls="--", label="rounding, eps"),
-            Line2D([], [], color=FAINT, lw=1.6, ls=":", label="limit of this machine"),
+            Line2D([], [], marker="_", label="middle region", **(marker | {"mew": 2})),
+        ],
+        [
+            Patch(facecolor=FAILING, label=fails),
+            Line2D([], [], color=FAINT, lw=1.8, label="frontier: best that fails nowhere"),
+            Line2D([], [], color=FAINT, ls="--", label="eps"),
+            Line2D([], [], color=FAINT, lw=1.6, ls=":", label="machine's limit"),
         ],
     ]
 

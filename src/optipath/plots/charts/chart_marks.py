@@ -68,7 +68,10 @@ def _mark(entry: Mapping[str, Any], kind: str, most: float) -> Mark:
     errors, eps = entry["errors"][kind], entry["eps"]
     middle = float(np.median([error["median"] for error in errors.values()]))
     return Mark(
-        *(entry[word] for word in ("method", "dtype", "engine", "composing")),
+        method=entry["method"],
+        dtype=entry["dtype"],
+        engine=entry["engine"],
+        composing=entry["composing"],
         ns=entry["ns"]["least"],
         # An error of nothing has no place on a logarithmic axis: it stands at a tenth of eps.
         worst=max(0.1, *(error["worst"] for error in errors.values())) * eps,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from matplotlib.patches import Rectangle
-from matplotlib.ticker import LogLocator
 
 from optipath.lab.bench.timing import duration
 from optipath.plots.charts.chart_frame import LINE, ROW, panel_width
@@ -48,8 +47,8 @@ def draw_panel(
     """
     axes.set(xscale="log", yscale="log", xlim=frame.times, ylim=frame.seen)
     axes.set_yticks(frame.decades)
+    axes.set_xticks(frame.ticks)
     axes.minorticks_off()
-    axes.xaxis.set_major_locator(LogLocator(numticks=7))
     axes.xaxis.set_major_formatter(lambda ns, _: duration(1e-9 * ns))
     axes.tick_params(colors=INK, labelsize=POINTS)
     axes.grid(visible=True, color="#ececec", linewidth=0.8)
@@ -106,7 +105,7 @@ def _counted(marks: list[Mark], method: str) -> str:
     counts = sorted({len(mark.fails) for mark in marks if mark.method == method})
     if counts == [0]:
         return "nowhere"
-    return f"{counts[0]}–{counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
+    return f"{counts[0]} to {counts[-1]}" if len(counts) > 1 else f"{counts[0]}"
 
 
 def _frontier(axes: Axes, points: list[tuple[float, float]], base: float) -> None:

@@ -7,16 +7,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from optipath.plots.charts.chart_frame import GAP, LEFT, LINE, WIDTH, Frame, panel_width
+from optipath.plots.charts.chart_frame import GAP, LEFT, LINE, RIGHT, WIDTH, Frame, panel_width
 from optipath.plots.charts.chart_legend import EDGE, draw_legend, failing_lines, legend_rows
 from optipath.plots.charts.chart_marks import POINTS, Looks, marks_of
 from optipath.plots.charts.chart_panel import draw_panel, name_rows
 from optipath.plots.charts.fitted_text import broken, shortened
+from optipath.plots.charts.peer_panel import PeerFrame, draw_peers, told_of_peers
 from optipath.plots.line_colours import INK
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.lab.accuracy.peer_times import PeerTimes
     from optipath.plots.charts.chart_marks import Mark
     from optipath.plots.own_axes import Panel
 
@@ -24,21 +26,23 @@ _KINDS = {
     "componentwise": "each component by itself, over its condition",
     "normwise": "against the intensity, over its condition",
 }
-_TITLE, _HEAD, _FOOT = 20.0, 0.75, 0.8
+_TITLE, _HEAD, _FOOT, _TITLED = 20.0, 0.75, 0.8, 0.7
 
 
-def draw_speed_and_accuracy(chart: Mapping[str, Any]) -> Panel:
+def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = None) -> Panel:
     """Draw what `path_chart` or `interface_chart` has measured.
 
     Parameters
     ----------
     chart : mapping
         What was measured.
+    peers : PeerTimes, optional
+        A race with other software, drawn below.
 
     Returns
     -------
     ndarray of Axes
-        One of componentwise errors, and one of errors against the intensity.
+        One of componentwise errors, one of errors against the intensity, and one of peers.
     """
     looks = Looks(chart)
     marks = {kind: marks_of(chart, kind) for kind in _KINDS}
@@ -46,7 +50,10 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any]) -> Panel:
     legend = legend_rows(chart, looks)
     notes = [_notes(chart, kind, found) for kind, found in marks.items()]
     told = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
+    beside = PeerFrame.of(peers) if peers else None
     below = LINE * 1.15 * len(legend) + 0.1 + LINE * max(map(len, notes)) + EDGE
+    lowest = beside.height + _FOOT + _TITLED if beside else 0.0
+    below += lowest
     above = _HEAD + LINE * len(told) + 0.3
     height = below + _FOOT + frame.height + above
     figure = Figure(figsize=(WIDTH, height), dpi=120)
@@ -69,6 +76,13 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any]) -> Panel:
     top = below - LINE * 1.15 * len(legend) - 0.1
     for place, lines in enumerate(notes):
         _write(figure, lines, EDGE + place * WIDTH / 2, top, looks)
+    if peers and beside:
+        room = LEFT / WIDTH, _FOOT / height, 1 - (LEFT + RIGHT) / WIDTH, beside.height / height
+        axes.append(figure.add_axes(room))
+        draw_peers(axes[-1], peers, beside)
+        for number, line in enumerate(told_of_peers(peers)):
+            y = (lowest - LINE * number) / height
+            figure.text(EDGE / WIDTH, y, line, fontsize=POINTS, va="top", color=INK)
     return np.array(axes, object)
 
 
@@ -98,11 +112,11 @@ def _told(chart: Mapping[str, Any]) -> list[str]:
 
 
 def _notes(chart: Mapping[str, Any], kind: str, marks: list[Mark]) -> list[tuple[str, str]]:
-    regions = dict.fromkeys(
-        name for entry in chart["contenders"] for name in entry["errors"][kind]
-    )
+    regions = dict.fromkeys(name for entry in chart["contenders"] for name in entry["errors"][kind])
     lines = failing_lines(marks, list(regions), WIDTH / 2 - 2 * EDGE - 0.3)
-    return [("", f"Where methods fail, {kind}, of {len(regions)} regions:"), *lines] if lines else []
+    return (
+        [("", f"Where methods fail, {kind}, of {len(regions)} regions:"), *lines] if lines else []
+    )
 
 
 def _write(

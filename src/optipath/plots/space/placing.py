@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 _ASIDE = np.radians([30.0, -30.0, 55.0, -55.0])
 """By how much taps, and lights that meet, are turned out of the way of other light."""
 
-_BESIDE = 0.4
+_BESIDE = 0.6
 """How far light that comes back along its way is drawn beside it."""
 
 _START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])

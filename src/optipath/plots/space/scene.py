@@ -28,6 +28,8 @@ class SceneNode(NamedTuple):
     role : str
         ``"source"``, ``"detector"``, ``"dump"``, ``"surface"``, ``"plate"``, ``"mirror"`` or
         ``"other"``.
+    axis : ndarray of shape (3,), or None
+        The axis of a plate that has one and is there.
     """
 
     name: str
@@ -36,6 +38,7 @@ class SceneNode(NamedTuple):
     normal: Vector | None
     across: Vector | None
     role: str
+    axis: Vector | None = None
 
 
 class SceneRay(NamedTuple):
@@ -113,12 +116,18 @@ class SceneAngle(NamedTuple):
         From one side to the other; of no points where the element is left out.
     at : ndarray of shape (3,)
         Where the text belongs.
+    centre : ndarray of shape (3,)
+        What the arc is about.
+    about : str
+        ``"incidence"``, ``"azimuth"`` or ``"axis"``.
     """
 
     name: str
     text: str
     arc: Vector
     at: Vector
+    centre: Vector
+    about: str
 
 
 class Scene(NamedTuple):
@@ -171,14 +180,14 @@ class Scene(NamedTuple):
         return {
             "notes": [*self.notes],
             "schematic": self.schematic,
-            "nodes": [_plain(node) for node in self.nodes],
+            "nodes": [_plain(node, "axis") for node in self.nodes],
             "rays": [_ray(ray) for ray in self.rays],
             "planes": [_plain(plane) for plane in self.planes],
             "frames": [
                 {"port": each.port, "at": _list(each.at), **_axes(each.axes)}
                 for each in self.frames
             ],
-            "angles": [_plain(angle) for angle in self.angles],
+            "angles": [_plain(angle, "centre", "about") for angle in self.angles],
             "bounds": _list(self.bounds),
         }
 
@@ -198,8 +207,9 @@ def _ray(ray: SceneRay) -> dict[str, Any]:
     }
 
 
-def _plain(told: Any) -> dict[str, Any]:
-    pairs = told._asdict().items()
+def _plain(told: Any, *kept: str) -> dict[str, Any]:
+    """Return what is told but for what is kept."""
+    pairs = [(name, value) for name, value in told._asdict().items() if name not in kept]
     return {name: _list(v) if isinstance(v, np.ndarray) else v for name, v in pairs}
 
 

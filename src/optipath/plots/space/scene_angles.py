@@ -98,11 +98,12 @@ def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
         value = turns[int(element.place) - 2]
     if not isinstance(value, Parameter):
         return
-    told, drawn = told_angle(value), placing.links[link]
+    told, drawn = told_angle(value, signed=False), placing.links[link]
     is_surface = placing.postures[link[1]].role == "surface"
     first, second = (drawn.axes[:, 1], -drawn.axes[:, 0]) if is_surface else drawn.axes.T[:2]
     centre = drawn.tail + 0.72 * (drawn.head - drawn.tail)
-    yield _turn(told, centre, first, second, number(value), _ABOUT_RAY * placing.unit)
+    size = _ABOUT_RAY * placing.unit
+    yield _turn(told, centre, (first, second), number(value), size, "azimuth")
 
 
 def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
@@ -114,7 +115,7 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
         if isinstance(value, Parameter):
             told = told_angle(value)
             angle = number(value) if told.there else 0.0
-            found = _turn(told, placing.at[name], x, y, angle, size)
+            found = _turn(told, placing.at[name], (x, y), angle, size, "axis")
             yield found if told.there else found._replace(arc=found.arc[:0])
             size *= 1.25
 
@@ -126,14 +127,15 @@ def _arc(
     across = second - (second @ first) * first
     length = np.linalg.norm(across)
     towards = across / length if length > 1e-12 else np.zeros(3)
-    return _turn(told, at, first, towards, angle, size)
+    return _turn(told, at, (first, towards), angle, size, "incidence")
 
 
 def _turn(
-    told: ToldAngle, at: Array, first: Array, second: Array, angle: float, size: float
+    told: ToldAngle, at: Array, sides: tuple[Array, Array], angle: float, size: float, about: str
 ) -> SceneAngle:
     """Return the arc of a turn from one direction towards another at a right angle to it."""
+    first, second = sides
     steps = np.linspace(0.0, angle, 2 + int(abs(angle) / 0.08))[:, np.newaxis]
     arc = at + size * (np.cos(steps) * first + np.sin(steps) * second)
-    middle = at + 1.3 * size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
-    return SceneAngle(told.name, told.text, arc, middle)
+    middle = at + size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
+    return SceneAngle(told.name, told.text, arc, middle, at, about)

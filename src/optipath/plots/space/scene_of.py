@@ -8,10 +8,11 @@ import numpy as np
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.chain_vertex import ChainVertex
+from optipath.elements.medium import Medium
 from optipath.plots.space.placing import DrawnLink, Placing
 from optipath.plots.space.scene import Scene, SceneFrame, SceneNode, ScenePlane, SceneRay
 from optipath.plots.space.scene_angles import scene_angles
-from optipath.plots.space.told_values import ToldPath
+from optipath.plots.space.told_values import ToldPath, number, told_angle
 from optipath.plots.states.ellipse_points import ellipse_points
 
 if TYPE_CHECKING:
@@ -27,6 +28,9 @@ LARGEST_ELLIPSE = 0.18
 
 _LEAVING = 0.5
 """How long light that leaves the path is drawn, of the length of a link."""
+
+_TURNING = "rotator", "faraday-rotator"
+"""What has an angle by which light is turned, and no axis."""
 
 _NO_PLANE, _NARROWEST = 1e-6, 0.3
 """The sine of an incidence that has no plane, and how far a plane reaches at least."""
@@ -67,7 +71,21 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     >>> [angle.text for angle in scene.angles]
     ['filter = 0 deg', 'phi = 20 deg', 'rho = 34 deg', 'delta = 48 deg']
     """
-    told = ToldPath(path, what, values)
+    return scene_with(ToldPath(path, what, values))
+
+
+def scene_with(told: ToldPath) -> Scene:
+    """Return a path with all its values laid out in space.
+
+    Parameters
+    ----------
+    told : ToldPath
+        The path.
+
+    Returns
+    -------
+    Scene
+    """
     placing = Placing(told)
     rays = tuple(_ray(placing, each) for each in told.lights)
     schematic = not all(posture.told for posture in placing.postures.values())
@@ -80,7 +98,7 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
         unit=placing.unit,
         nodes=tuple(_nodes(told, placing)),
         rays=rays,
-        planes=tuple(_planes(placing)),
+        planes=tuple(_planes(placing, rays)),
         frames=tuple(_frames(placing, {each.name: each for each in told.lights})),
         angles=angles,
     )
@@ -91,9 +109,27 @@ def _nodes(told: ToldPath, placing: Placing) -> list[SceneNode]:
     order = dict.fromkeys([*(name for name, _ in told.order), *placing.at])
     for name in order:
         posture, kind = placing.postures[name], placing.wiring.elements[name].kind
-        ends = placing.at[name], posture.normal, posture.across
-        found.append(SceneNode(name, kind, *ends, posture.role))
+        stands = placing.at[name], posture.normal, posture.across
+        found.append(SceneNode(name, kind, *stands, posture.role, _axis(placing, name)))
     return found
+
+
+def _axis(placing: Placing, name: str) -> Array | None:
+    """Return the axis of a plate that has one."""
+    posture, element = placing.postures[name], placing.wiring.elements[name]
+    angle = getattr(element, "angle", None)
+    if posture.role != "plate" or angle is None or element.kind in _TURNING:
+        return None
+    if isinstance(element, Medium) and not any(
+        map(number, (element.retardance, element.dichroism))
+    ):
+        return None
+    told = told_angle(angle)
+    if not told.there:
+        return None
+    x, y, _ = posture.axes["in"].T
+    turned = number(angle)
+    return np.asarray(np.cos(turned) * x + np.sin(turned) * y)
 
 
 def _ray(placing: Placing, each: LightOnLink) -> SceneRay:
@@ -129,25 +165,24 @@ def drawn_link(placing: Placing, each: LightOnLink) -> DrawnLink:
     return DrawnLink(tail, tail + _LEAVING * placing.unit * axes[:, 2], axes)
 
 
-def _planes(placing: Placing) -> list[ScenePlane]:
+def _planes(placing: Placing, rays: tuple[SceneRay, ...]) -> list[ScenePlane]:
     """Return a rectangle for each plane of incidence, which reaches as far as the links."""
     found = []
     for name, element in placing.wiring.elements.items():
-        posture = placing.postures[name]
+        posture, at = placing.postures[name], placing.at[name]
         if not isinstance(element, BoundaryElement | ChainVertex) or posture.normal is None:
             continue
-        directions = [axes[:, 2] for port, axes in posture.axes.items() if port != "back"]
-        heights = [float(direction @ posture.normal) for direction in directions]
-        along = directions[0] - heights[0] * posture.normal
-        sine = float(np.linalg.norm(along))
-        if sine < _NO_PLANE:
-            continue
-        widths = [float(direction @ along) / sine for direction in directions]
-        side = placing.unit * max(_NARROWEST, *map(abs, widths)) * along / sine
-        above = placing.unit * max(_NARROWEST, abs(heights[0])) * posture.normal
-        below = placing.unit * min(0.0, *heights[1:]) * posture.normal
-        corners = np.array([below - side, below + side, above + side, above - side])
-        found.append(ScenePlane(name, placing.at[name] + corners))
+        ends = [ray.tail for ray in rays if ray.end == name and np.allclose(ray.head, at)]
+        ends += [ray.head for ray in rays if ray.start == name and not ray.leaves]
+        across = np.cross(np.asarray(posture.across), posture.normal)
+        least = _NARROWEST * placing.unit
+        wide = max([least, *(abs(float((end - at) @ across)) for end in ends)])
+        heights = [float((end - at) @ posture.normal) for end in ends]
+        side, top = wide * across, max([least, *heights]) * posture.normal
+        foot = min([0.0, *heights]) * posture.normal
+        if abs(posture.axes["in"][:, 2] @ across) > _NO_PLANE:
+            corners = np.array([foot - side, foot + side, top + side, top - side])
+            found.append(ScenePlane(name, at + corners))
     return found
 
 

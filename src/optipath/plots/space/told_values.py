@@ -85,11 +85,24 @@ def number(value: Any) -> float:
     return float(Operand(value).numbers())
 
 
-def told_angle(value: Any) -> ToldAngle:
-    """Return an angle by the name of its parameter; the negative of one is told by that itself."""
+def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
+    """Return an angle by the name of its parameter, or the formula that stands for a multiple.
+
+    Parameters
+    ----------
+    value : float or Parameter
+        In radians.
+    signed : bool, optional
+        Whether the negative of a parameter is told as that, and not by the parameter itself, as
+        rho is, which people count against the light.
+
+    Returns
+    -------
+    ToldAngle
+    """
     if not isinstance(value, Parameter):
         return ToldAngle("", number(value))
     there = bool(Operand(value, "present").numbers())
-    if value.is_signed:
+    if value.is_signed and not (signed and value.is_negative):
         return ToldAngle(value.name, number(value.alone()) if there else 0.0, there)
     return ToldAngle(value.formula, number(value), there)

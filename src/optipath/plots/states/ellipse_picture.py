@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
 
-_REACH = 1.08
+_REACH = 1.15
 _SIDE = "seen towards the source (⊙\u00a0z)"
 
 
@@ -88,6 +88,9 @@ def ellipse(
     ax.set(xticks=(-1, 0, 1), yticks=(-1, 0, 1))
     ax.set_xlabel(f"Ex / √S0\n{fitting(ax, _SIDE)}")
     key_below(ax, keys, "small" if len(several) == 1 else "x-small")
+    # Limits only grow while texts are laid out.
+    ax.figure.figure.draw_without_rendering()
+    ax.autoscale_view()
     return ax
 
 

@@ -21,10 +21,16 @@ _LEAST = 10
 _NARROW = 3.0
 """In inches."""
 
+_WHOLE: dict[str, Any] = {"break_long_words": False, "break_on_hyphens": False}
+
 _EQUAL = "\u00a0=\u00a0"
 
 _TICKS, _LINE = 20.0, 14.0
 """How much room ticks with their numbers and a line of a label need, in points."""
+
+
+_SPHERE_LEAVES = 0.08
+"""Which share of the height of its axes a sphere leaves free below it."""
 
 
 def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
@@ -57,7 +63,7 @@ def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
     kept = max(_LEAST, int(letters))
     # What is equal stays on one line.
     lines = text.replace(" = ", _EQUAL).split("\n")
-    broken = "\n".join(fill(line, kept, break_long_words=False) for line in lines)
+    broken = "\n".join(fill(line, kept, **_WHOLE) for line in lines)
     return broken.replace(_EQUAL, " = ")
 
 
@@ -72,7 +78,7 @@ def head(ax: Axes, text: str) -> None:
         One line, or several.
     """
     size = "medium" if inches_wide(ax) > _NARROW else "small"
-    ax.set_title(fitting(ax, text, size), fontsize=size)
+    ax.set_title(fitting(ax, text, size), fontsize=size, parse_math=False)
 
 
 def inches_wide(ax: Axes) -> float:
@@ -84,7 +90,7 @@ def inches_wide(ax: Axes) -> float:
     >>> round(inches_wide(Figure(figsize=(4.0, 3.0)).add_subplot()), 3)
     3.1
     """
-    return float(ax.get_position().width * ax.figure.figure.get_figwidth())  # type: ignore[union-attr]
+    return float(ax.get_position().width * ax.figure.figure.get_figwidth())
 
 
 def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
@@ -102,11 +108,11 @@ def key_below(ax: Axes, handles: Sequence[Any], size: str = "small") -> None:
     if not handles:
         return
     down = _TICKS + _LINE * (1 + ax.get_xlabel().count("\n")) if ax.axison else 0.0
-    scale = ax.figure.figure.dpi_scale_trans  # type: ignore[union-attr]
+    bottom = 0.0 if ax.axison else _SPHERE_LEAVES
+    scale = ax.figure.figure.dpi_scale_trans
     place = ax.transAxes + ScaledTranslation(0.0, -down / 72.0, scale)
-    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, 0.0), "bbox_transform": place}
-    legend = ax.legend(handles=handles, fontsize=size, frameon=False, borderaxespad=0.0, **at)
-    legend.set_zorder(10)
+    at: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, bottom)}
+    _draw_key(ax, handles, fontsize=size, borderaxespad=0.0, bbox_transform=place, **at)
 
 
 def key_above(ax: Axes, handles: Sequence[Any]) -> None:
@@ -124,4 +130,13 @@ def key_above(ax: Axes, handles: Sequence[Any]) -> None:
         columns = 2 if wide and len(handles) > 1 else 1
         size = "small" if wide else "x-small"
         at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
-        ax.legend(handles=handles, fontsize=size, ncols=columns, frameon=False, **at)
+        _draw_key(ax, handles, fontsize=size, ncols=columns, **at)
+
+
+def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> None:
+    """Draw a legend of labels as they are, be they begun by "_" or with "$" within."""
+    blank = ["-"] * len(handles)
+    legend = ax.legend(handles, blank, frameon=False, **options)
+    for text, handle in zip(legend.get_texts(), handles, strict=True):
+        text.set(text=handle.get_label(), parse_math=False)
+    legend.set_zorder(10)

@@ -102,7 +102,7 @@ def stokes(
     ax = own_axes(ax, (5.6, 4.4))
     keys = _draw_bars(ax, numbers, printed)
     ax.axhline(0.0, color=INK, linewidth=0.8)
-    unit = f"10^{digits(power, 7)} units of the source" if power else "unit of the source"
+    unit = f"10^{digits(power, 7)} units\nof the source" if power else "unit of the source"
     ax.set_ylabel(f"Stokes parameter\n({unit})")
     ax.grid(visible=True, axis="y", alpha=0.3)
     ax.set_axisbelow(True)

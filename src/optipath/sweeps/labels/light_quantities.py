@@ -32,6 +32,11 @@ class LightQuantity(NamedTuple):
     unit: str
     name: str
 
+    @property
+    def shown_unit(self) -> str:
+        """The unit in which files, the command line and the page have it: degrees, and no 1."""
+        return {"rad": "deg", "1": ""}.get(self.unit, self.unit)
+
     def of(self, light: Light) -> npt.NDArray[np.float64]:
         """Return the numbers that it has for some light, of the shape of the batch."""
         if self.attribute.isdigit():

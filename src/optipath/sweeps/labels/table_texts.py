@@ -93,7 +93,7 @@ def table_heads(plan: Plan, grid: SweepGrid) -> list[str]:
     ends = detectors_of(plan)
     at = [f" at {end}" for end in ends] if len(ends) > 1 else [""]
     told = [
-        heading(names[quantity.variable] + place, _unit(quantity.unit))
+        heading(names[quantity.variable] + place, quantity.shown_unit)
         for place in at
         for quantity in QUANTITIES
     ]
@@ -140,8 +140,3 @@ def _text(value: Any) -> str:
 def _quoted(text: str) -> str:
     """Return a cell of a table, in quotation marks where it needs them."""
     return '"' + text.replace('"', '""') + '"' if any(each in text for each in ',"\n') else text
-
-
-def _unit(unit: str) -> str:
-    """Return the unit in which the command line has a quantity of light."""
-    return {"rad": "deg", "1": ""}.get(unit, unit)

@@ -2,9 +2,10 @@
 Lyot's filter
 =============
 
-Four plates of quartz, each twice as thick as the one before, stand at 45 degrees between polarisers. Each lets through the
-wavelengths at which it retards by whole waves. One line of the spectrum passes them all: astronomers look through such
-filters at the Sun, in the red line of hydrogen, 656.28 nm.
+Four plates of quartz, each twice as thick as the one before, stand at 45 degrees between
+polarisers. Each lets through the wavelengths at which it retards by whole waves. One line of the
+spectrum passes them all: astronomers look through such filters at the Sun, in the red line of
+hydrogen, 656.28 nm.
 """
 
 import numpy as np
@@ -39,7 +40,8 @@ figure.supylabel("intensity, over that of the lamp", fontsize="medium")
 figure
 
 # %%
-# All four together are the preset ``lyot-filter``. Between whole waves the last plate has half waves, and the width of the line is its:
+# All four together are the preset ``lyot-filter``. Between whole waves the last plate has half
+# waves, and the width of the line is its:
 
 line = op.load_preset("lyot-filter").trace(wavelength=wavelength).intensity
 width = 1e9 * np.ptp(wavelength[(line > line.max() / 2) & (abs(wavelength - 656.28e-9) < 4e-9)])

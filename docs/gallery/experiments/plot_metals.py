@@ -2,8 +2,9 @@
 What metals reflect
 ===================
 
-Dielectrics have an angle at which light along p is not reflected at all. Metals reflect much of everything; p goes through a shallow minimum,
-and their phases make linear light elliptical. Materials are asked for by name (``pip install "optipath[materials]"``).
+Dielectrics have an angle at which light along p is not reflected at all. Metals reflect much of
+everything; p goes through a shallow minimum, and their phases make linear light elliptical.
+Materials are asked for by name (``pip install "optipath[materials]"``).
 """
 
 import numpy as np
@@ -31,7 +32,8 @@ figure.supylabel("reflected share of the power", fontsize="medium")
 figure
 
 # %%
-# Diagonal light becomes elliptical. It is most so at the principal angle, where p lags a quarter wave behind s.
+# Diagonal light becomes elliptical. It is most so at the principal angle, where p lags a quarter
+# wave behind s.
 
 figure = Figure(figsize=(6.4, 3.6), layout="constrained")
 ax = figure.subplots()

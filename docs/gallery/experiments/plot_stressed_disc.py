@@ -2,9 +2,10 @@ r"""
 Stress made visible
 ===================
 
-A disc of plastic is squeezed between two points, from above and from below. Stress makes it birefringent, by
-:math:`C (\sigma_1 - \sigma_2)`, with axes along the principal directions of the stress (M. M. Frocht, *Photoelasticity*,
-vol. 2, 1948, ch. 4). Between crossed polarisers its colours are lines of equal stress.
+A disc of plastic is squeezed between two points, from above and from below. Stress makes it
+birefringent, by :math:`C (\sigma_1 - \sigma_2)`, with axes along the principal directions of the
+stress (M. M. Frocht, *Photoelasticity*, vol. 2, 1948, ch. 4). Between crossed polarisers its
+colours are lines of equal stress.
 """
 
 import numpy as np
@@ -36,8 +37,9 @@ def disc(pixels):
 
 
 # %%
-# Crossed polarisers show two patterns at once in light of one wavelength: dark lines where the disc retards by whole waves,
-# and a dark cross where the axes of the stress lie along those of the polarisers. Between quarter-wave plates, in circular light, the cross is gone.
+# Crossed polarisers show two patterns at once in light of one wavelength: dark lines where the disc
+# retards by whole waves, and a dark cross where the axes of the stress lie along those of the
+# polarisers. Between quarter-wave plates, in circular light, the cross is gone.
 
 plate, beside = disc(300)
 crossed = op.Source() >> op.Polarizer("0 deg") >> plate >> op.Polarizer("90 deg") >> op.Detector()
@@ -62,7 +64,8 @@ for ax, path, name in zip(figure.subplots(1, 2), (crossed, circular), names, str
 figure
 
 # %%
-# In daylight each wavelength has lines of its own; together they are the colours of stressed plastic.
+# In daylight each wavelength has lines of its own; together they are the colours of stressed
+# plastic.
 
 daylight = op.Spectrum.illuminant("D65")
 wavelength = op.wavelengths("380 nm", "780 nm", "10 nm")

@@ -2,10 +2,13 @@ r"""
 The colours of a soap film
 ==========================
 
-The two faces of a film send back waves that interfere. optipath adds up intensities, so a thin film is one mirror whose
-amplitudes are those of Airy's sum over all rounds,
+The two faces of a film send back waves that interfere. optipath adds up intensities, so a thin film
+is one mirror whose amplitudes are those of Airy's sum over all rounds,
 
-.. math:: r = r_1 \frac{1 - e^{2 i \beta}}{1 - r_1^2 e^{2 i \beta}}, \qquad \beta = \frac{2 \pi n d \cos \theta_2}{\lambda},
+.. math::
+
+  r = r_1 \frac{1 - e^{2 i \beta}}{1 - r_1^2 e^{2 i \beta}}, \qquad
+  \beta = \frac{2 \pi n d \cos \theta_2}{\lambda},
 
 with :math:`r_1` of the front face by Fresnel's equations, for s and for p.
 """
@@ -41,8 +44,8 @@ def colours(incidence, axis=None):
 
 
 # %%
-# The thinnest film is black: the waves from its faces have opposite signs. Towards grazing incidence the colours move to
-# thicker films, as :math:`\cos \theta_2` falls.
+# The thinnest film is black: the waves from its faces have opposite signs. Towards grazing
+# incidence the colours move to thicker films, as :math:`\cos \theta_2` falls.
 
 degrees = np.arange(0, 61, 3)
 image = np.array([colours(np.radians(each)) for each in degrees])
@@ -54,7 +57,8 @@ ax.set(xlabel="thickness of the film (nm)", ylabel="angle of incidence (deg)")
 figure
 
 # %%
-# At Brewster's angle light along p is not reflected: through a polariser that lets p through, the film is dark at all thicknesses.
+# At Brewster's angle light along p is not reflected: through a polariser that lets p through, the
+# film is dark at all thicknesses.
 
 brewster = np.arctan(SOAP)
 figure = Figure(figsize=(7, 2.6), layout="constrained")

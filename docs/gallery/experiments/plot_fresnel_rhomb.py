@@ -2,8 +2,9 @@ r"""
 Fresnel's rhomb
 ===============
 
-Total reflection in glass changes the phase between light along p and light along s. Twice by 45 degrees is a quarter wave:
-in a rhomb, two reflections make circular light out of linear light, with no crystal at all (A. Fresnel, 1823).
+Total reflection in glass changes the phase between light along p and light along s. Twice by 45
+degrees is a quarter wave: in a rhomb, two reflections make circular light out of linear light, with
+no crystal at all (A. Fresnel, 1823).
 """
 
 import numpy as np
@@ -26,7 +27,8 @@ ax.legend()
 figure
 
 # %%
-# Glass of n = 1.4966 reaches 45 degrees at one angle alone; denser glass has two. The preset has n = 1.51 and the upper one, 54.6 degrees:
+# Glass of n = 1.4966 reaches 45 degrees at one angle alone; denser glass has two. The preset has n
+# = 1.51 and the upper one, 54.6 degrees:
 
 light = op.load_preset("fresnel-rhomb").trace()
 print(f"ellipticity {light.ellipticity:.4f}, handedness {light.handedness}")

@@ -2,8 +2,8 @@ r"""
 Psi and Delta of an ellipsometer
 ================================
 
-Reflection changes the ratio of the fields along p and s by :math:`\rho = r_p / r_s = \tan\Psi\, e^{i\Delta}`. An ellipsometer
-finds both angles from intensities behind an analyser that turns.
+Reflection changes the ratio of the fields along p and s by :math:`\rho = r_p / r_s = \tan\Psi\,
+e^{i\Delta}`. An ellipsometer finds both angles from intensities behind an analyser that turns.
 """
 
 import numpy as np
@@ -31,8 +31,9 @@ upper.legend()
 figure
 
 # %%
-# In the instrument, light passes a polariser, a compensator, the sample and an analyser. The preset is that path; its
-# detector ``state`` taps the light in front of the analyser, and ``photometer`` reads the intensity behind it.
+# In the instrument, light passes a polariser, a compensator, the sample and an analyser. The preset
+# is that path; its detector ``state`` taps the light in front of the analyser, and ``photometer``
+# reads the intensity behind it.
 
 path = op.load_preset("ellipsometer-pcsa", compensator="0 deg", retardance="0 deg")
 turned = np.linspace(0, 360, 361)
@@ -46,8 +47,9 @@ ax.set(xticks=range(0, 361, 45), ylim=(0, None))
 figure
 
 # %%
-# A Fourier sum over one turn gives :math:`\tan\Psi` and :math:`\cos\Delta` (R. M. A. Azzam and N. M. Bashara, *Ellipsometry and
-# Polarized Light*, 1977, sec. 3.10), here with the polariser at 45 degrees:
+# A Fourier sum over one turn gives :math:`\tan\Psi` and :math:`\cos\Delta` (R. M. A. Azzam and N.
+# M. Bashara, *Ellipsometry and Polarized Light*, 1977, sec. 3.10), here with the polariser at 45
+# degrees:
 
 turn = np.exp(2j * np.radians(turned[:-1]))
 a = 2 * (seen[:-1] * turn).mean() / seen[:-1].mean()

@@ -2,8 +2,9 @@
 A pile of plates at Brewster's angle
 ====================================
 
-At Brewster's angle a face reflects none of the light along p. Plate by plate, more of the light along s is sent back, and what
-goes through a pile becomes polarised. Light that goes to and fro between all the faces is summed up exactly.
+At Brewster's angle a face reflects none of the light along p. Plate by plate, more of the light
+along s is sent back, and what goes through a pile becomes polarised. Light that goes to and fro
+between all the faces is summed up exactly.
 """
 
 import numpy as np
@@ -28,13 +29,16 @@ for plates in (1, 2, 4, 8, 16):
 brewster = np.degrees(np.arctan(GLASS))
 ax.axvline(brewster, color="#8a8a8a", linewidth=1)
 ax.text(brewster - 1, 0.97, "Brewster's angle", ha="right", va="top", color="#555555")
-ax.set(xlabel="angle of incidence (deg)", ylabel="degree of polarisation", xlim=(0, 90), ylim=(0, 1))
+ax.set(
+    xlabel="angle of incidence (deg)", ylabel="degree of polarisation", xlim=(0, 90), ylim=(0, 1)
+)
 ax.legend(title="plates", loc="upper left")
 figure
 
 # %%
-# A few plates polarise more beyond Brewster's angle, where less light is left. At that angle all of the light along p goes
-# through, which is half of the lamp's, however many plates there are; that along s fades with each.
+# A few plates polarise more beyond Brewster's angle, where less light is left. At that angle all of
+# the light along p goes through, which is half of the lamp's, however many plates there are; that
+# along s fades with each.
 
 for plates in (1, 4, 16):
     light = through(plates)

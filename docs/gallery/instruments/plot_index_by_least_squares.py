@@ -2,8 +2,9 @@
 The n and k of a metal, by a fit
 ================================
 
-Light polarised at 45 degrees is reflected at several angles, and its Stokes vectors are measured, with noise. Which index of
-refraction gives such light? A path is a function of its parameters, and SciPy's least squares finds them.
+Light polarised at 45 degrees is reflected at several angles, and its Stokes vectors are measured,
+with noise. Which index of refraction gives such light? A path is a function of its parameters, and
+SciPy's least squares finds them.
 """
 
 import numpy as np
@@ -48,8 +49,8 @@ ax.legend(ncols=4, loc="lower center", bbox_to_anchor=(0.5, 1))
 figure
 
 # %%
-# How well the angles of a measurement tell n from k: around the minimum, the sum of squares a valley
-# aslant: a larger n goes with a larger k.
+# How well the angles of a measurement tell n from k: around the minimum, the sum of squares is a
+# valley aslant: a larger n goes with a larger k.
 
 n, k = np.meshgrid(np.linspace(0.4, 0.8, 81), np.linspace(1.9, 2.35, 91))
 light = path.trace(n=n[..., np.newaxis], k=k[..., np.newaxis])

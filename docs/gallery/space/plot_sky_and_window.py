@@ -2,8 +2,9 @@
 The sky in a window
 ===================
 
-A window mirrors the sky, and behind it there is a room. Photographers turn a polarising filter until the mirror image is gone.
-How well that works depends on the angle at which they look, and on the sky, which is polarised itself.
+A window mirrors the sky, and behind it there is a room. Photographers turn a polarising filter
+until the mirror image is gone. How well that works depends on the angle at which they look, and on
+the sky, which is polarised itself.
 """
 
 import numpy as np
@@ -15,8 +16,9 @@ path = op.load_preset("sky-and-window")
 print(path)
 
 # %%
-# What the camera sees of the sky alone, and of the room alone, for every angle of the filter. The room's light comes through the pane,
-# and the pane lets its light along p through best: the angle that takes the sky away is the one that keeps the room.
+# What the camera sees of the sky alone, and of the room alone, for every angle of the filter. The
+# room's light comes through the pane, and the pane lets its light along p through best: the angle
+# that takes the sky away is the one that keeps the room.
 
 axis = np.linspace(0, 180, 181)
 turned = {"filter": np.radians(axis)}
@@ -33,8 +35,8 @@ ax.legend()
 figure
 
 # %%
-# The share of the room in all that the camera sees, for every angle of the filter and of the pane: parameters are
-# given as arrays that broadcast.
+# The share of the room in all that the camera sees, for every angle of the filter and of the pane:
+# parameters are given as arrays that broadcast.
 
 theta = np.radians(np.linspace(0, 85, 171))[:, np.newaxis]
 both = path.trace(theta=theta, **turned).intensity

@@ -2,7 +2,8 @@ r"""
 Malus's law
 ===========
 
-Light that a polariser has made linear passes a second one, turned by an angle :math:`\alpha` against the first:
+Light that a polariser has made linear passes a second one, turned by an angle :math:`\alpha`
+against the first:
 
 .. math:: I = I_0 \cos^2 \alpha
 
@@ -24,8 +25,8 @@ ax = figure.subplots()
 ax.plot(angles, light.intensity, label="two polarisers")
 
 # %%
-# The first polariser has taken half of the light already. A third one between two that are crossed lets light
-# through again: what reaches the eye is :math:`\tfrac{1}{8} \sin^2 2\alpha`.
+# The first polariser has taken half of the light already. A third one between two that are crossed
+# lets light through again: what reaches the eye is :math:`\tfrac{1}{8} \sin^2 2\alpha`.
 
 between = op.Source() >> op.Polarizer("0 deg") >> op.Polarizer(turn) >> op.Polarizer("90 deg")
 light = (between >> op.Detector()).trace(turn=np.radians(angles))

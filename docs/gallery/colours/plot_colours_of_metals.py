@@ -2,8 +2,8 @@
 Why gold is yellow and copper is red
 ====================================
 
-Metals reflect some wavelengths more than others: light, summed up over what the eye sees, has a colour. Towards grazing
-incidence all metals become white.
+Metals reflect some wavelengths more than others: light, summed up over what the eye sees, has a
+colour. Towards grazing incidence all metals become white.
 """
 
 import numpy as np

@@ -1,0 +1,54 @@
+"""``optipath explore``: paths on a page in the browser, with sliders."""
+
+from __future__ import annotations
+
+import webbrowser
+from threading import Thread
+
+import click
+
+from optipath.cli.console import say
+from optipath.cli.misplaced import StrictCommand
+from optipath.explorer.explored_presets import FIRST, ExploredPresets
+from optipath.explorer.page_answers import PageAnswers
+from optipath.explorer.page_server import PageServer
+
+PRESET = click.Argument(["preset"], required=False, metavar="[PRESET]")
+BROWSER = click.Option(
+    ["--browser/--no-browser"],
+    default=True,
+    show_default=False,
+    help="Open the page, or only print its address.",
+)
+PORT = click.Option(
+    ["--port"],
+    type=click.IntRange(0, 65535),
+    default=0,
+    show_default=False,
+    help="Where it listens on this machine; a free one by default.",
+)
+
+
+def _explore(preset: str | None, *, browser: bool, port: int) -> None:
+    """Show presets, or a TOML file, on a page in the browser that is served from this machine."""
+    presets = ExploredPresets(FIRST if preset is None else preset)
+    with PageServer(PageAnswers(presets), port) as server:
+        say(f"the explorer is at {server.address}")
+        say("it is open to this machine alone, and to nobody without this address; Ctrl-C ends it")
+        if browser:
+            # Some browsers come back only when they are closed.
+            Thread(target=_open, args=[server.address], daemon=True).start()
+        server.serve_forever()
+
+
+def _open(address: str) -> None:
+    """Open the page where there is a browser; the address has been printed all the same."""
+    try:
+        found = webbrowser.open(address)
+    except (webbrowser.Error, OSError):
+        found = False
+    if not found:
+        say("no browser could be opened; open the address above")
+
+
+explore = click.command("explore", cls=StrictCommand, params=[PRESET, BROWSER, PORT])(_explore)

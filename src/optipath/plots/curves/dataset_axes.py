@@ -1,0 +1,174 @@
+"""What the Dataset of a sweep has for a picture: axes, and quantities of light along them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optipath.errors import OptipathError, listed, unknown
+from optipath.plots.curves.along_axis import AlongAxis
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import numpy.typing as npt
+
+    from optipath.plots.curves.drawn_quantity import DrawnQuantity
+
+_DETECTOR = "detector"
+_BESIDE = {"psi": "Psi", "delta": "Delta"}
+"""What a sweep calls quantities where a parameter has their name."""
+
+_SHORT = (("nm", 1e-5), ("um", 1e-3), ("mm", np.inf))
+"""The units in which lengths in metres are shown, each up to some length."""
+
+
+def at_detector(dataset: Any, detector: str | None) -> Any:
+    """Return what a Dataset has at one detector.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        Of a sweep.
+    detector : str or None
+        Which; None for the only one.
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Raises
+    ------
+    OptipathError
+        If it is not known which is meant, or there is none of the name.
+    """
+    known = [str(name) for name in np.atleast_1d(dataset.get(_DETECTOR, ()))]
+    if detector is None:
+        if _DETECTOR in dataset.dims and len(known) > 1:
+            raise OptipathError(
+                f"the Dataset has the detectors {listed(known)}; say which, by "
+                f"detector='{known[0]}'"
+            )
+        return dataset.squeeze(_DETECTOR) if _DETECTOR in dataset.dims else dataset
+    if not known:
+        raise OptipathError("the Dataset is of one detector, which it does not name; leave it out")
+    if faults := unknown("detector", detector, known):
+        raise OptipathError(*faults)
+    return dataset.sel(detector=detector) if _DETECTOR in dataset.dims else dataset
+
+
+def axes_of(dataset: Any, names: Sequence[str | None]) -> list[AlongAxis]:
+    """Return coordinates along as many dimensions, the only ones with several values.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        At one detector.
+    names : sequence of str or None
+        What they are called; None for one that there is no choice of.
+
+    Returns
+    -------
+    list of AlongAxis
+
+    Raises
+    ------
+    OptipathError
+        If there are others, or more, or none.
+    """
+    along = {
+        str(dimension): [
+            str(name) for name, each in dataset.coords.items() if each.dims == (dimension,)
+        ]
+        for dimension, size in dataset.sizes.items()
+        if size > 1
+    }
+    known = [name for each in along.values() for name in each]
+    given = [name for name in names if name is not None]
+    if faults := [one for name in given for one in unknown("coordinate", name, known)]:
+        raise OptipathError(*faults)
+    of = {name: dimension for dimension, each in along.items() for name in each}
+    if len({of[name] for name in given}) < len(given):
+        raise OptipathError(f"{listed(given)} are along one dimension; give one of each")
+    rest = [dimension for dimension in along if dimension not in {of[name] for name in given}]
+    free = names.count(None)
+    if len(rest) != free:
+        raise OptipathError(_wrong_count(dataset, along, rest, len(names)))
+    found = [name if name is not None else _only(rest.pop(0), along) for name in names]
+    return [_axis(dataset, name) for name in found]
+
+
+def _wrong_count(dataset: Any, along: dict[str, list[str]], rest: list[str], count: int) -> str:
+    wanted = "one dimension" if count == 1 else f"{count} dimensions"
+    if len(along) < count:
+        has = listed([f"'{each}'" for each in along]) if along else "no dimension"
+        return f"a picture goes over {wanted}, and the Dataset has {has} with several values"
+    named = next((name for name in rest if name in dataset.coords), rest[0])
+    how = f".sel({named}=...)" if named in dataset.coords else f".isel({named}=0)"
+    several = listed([f"'{each}'" for each in along])
+    return (
+        f"a picture goes over {wanted}, and the Dataset has {several}; choose a value of what is "
+        f"too much, dataset{how}, and say what goes along the axes"
+    )
+
+
+def _only(dimension: str, along: dict[str, list[str]]) -> str:
+    names = along[dimension]
+    if len(names) != 1:
+        has = f"the coordinates {listed(names)}; say which" if names else "no coordinate; give one"
+        raise OptipathError(f"dimension '{dimension}' has {has}")
+    return names[0]
+
+
+def _axis(dataset: Any, name: str) -> AlongAxis:
+    coordinate = dataset.coords[name]
+    numbers = np.asarray(coordinate.values)
+    if numbers.dtype.kind not in "fiu":
+        raise OptipathError(
+            f"coordinate '{name}' has words among its values, and an axis is of numbers; choose "
+            f"one, dataset.isel({coordinate.dims[0]}=0)"
+        )
+    unit = str(coordinate.attrs.get("units", ""))
+    help_text = str(coordinate.attrs.get("long_name", ""))
+    numbers = numbers.astype(np.float64)
+    if unit == "rad":
+        unit, numbers = "deg", np.degrees(numbers)
+    if unit == "m":
+        unit = next(short for short, most in _SHORT if np.abs(numbers).max() < most)
+        numbers = numbers * in_unit(1.0, unit)
+    return AlongAxis(name, unit, numbers, help_text)
+
+
+def numbers_of(
+    dataset: Any, quantity: DrawnQuantity, axes: Sequence[AlongAxis]
+) -> npt.NDArray[np.float64]:
+    """Return a quantity as it is drawn.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        At one detector.
+    quantity : DrawnQuantity
+        Which.
+    axes : sequence of AlongAxis
+        The order of dimensions.
+
+    Returns
+    -------
+    ndarray
+        With an axis for each; what is in chunks is computed.
+
+    Raises
+    ------
+    OptipathError
+        If the Dataset does not have it.
+    """
+    beside = _BESIDE.get(quantity.name, quantity.name)
+    name = beside if beside in dataset.data_vars else quantity.name
+    if faults := unknown("variable", name, [str(each) for each in dataset.data_vars]):
+        raise OptipathError(*faults)
+    dimensions = [dataset.coords[axis.name].dims[0] for axis in axes]
+    numbers = dataset[name].squeeze().transpose(*dimensions).values
+    return quantity.of(numbers)

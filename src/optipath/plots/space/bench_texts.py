@@ -1,0 +1,70 @@
+"""What stands below the symbols of a bench: names, and the values that say most."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from optipath.elements.boundary_frames import BoundaryElement
+from optipath.plots.space.told_values import number, told_angle
+from optipath.values.operands import Operand
+from optipath.values.parameters import Parameter
+from optipath.values.units import in_unit
+
+if TYPE_CHECKING:
+    from optipath.elements.element import Element
+
+_FIELDS = (
+    "angle",
+    "retardance",
+    "incidence",
+    "reflectance",
+    "thickness",
+    "length",
+    "verdet",
+    "field",
+    "dichroic_angle",
+)
+"""What is told of an element, in this order."""
+
+_ALWAYS = "angle", "incidence"
+
+
+def values_below(element: Element) -> list[str]:
+    """Return the values of an element that are written below its symbol.
+
+    Parameters
+    ----------
+    element : Element
+        All its values are numbers.
+
+    Returns
+    -------
+    list of str
+        A line each: by the names of parameters, or of fields.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> values_below(op.Retarder(retardance="90 deg", angle=op.Parameter("a", 0.0, bound=True)))
+    ['a = 0 rad', 'retardance 90 deg']
+    """
+    domains, found = element.domains(), []
+    for name in _FIELDS:
+        value: Any = getattr(element, name, None)
+        if name not in domains or not isinstance(value, Parameter | float | int):
+            continue
+        if isinstance(value, Parameter) or value != 0.0 or name in _ALWAYS:
+            found.append(_text(element, name, value, domains[name].unit))
+    return found
+
+
+def _text(element: Element, name: str, value: Any, unit: str) -> str:
+    if not isinstance(value, Parameter):
+        said = f"{in_unit(value, unit):.5g} {unit}".strip()
+        return said if name == "angle" else f"{name} {said}"
+    if not bool(Operand(value, "present").numbers()):
+        return f"{value.name} = none"
+    if name == "incidence" and isinstance(element, BoundaryElement):
+        return told_angle(value).text
+    unit = value.unit or unit
+    return f"{value.formula} = {in_unit(number(value), unit):.5g} {unit}".strip()

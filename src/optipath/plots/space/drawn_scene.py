@@ -1,0 +1,223 @@
+"""The lines and faces of a scene, drawn on a sheet."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Polygon
+
+from optipath.plots.line_colours import FAINT, INK, LINES
+from optipath.plots.space.solids import axis_line, outline
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+    from optipath.plots.space.scene import Scene, SceneAngle, SceneFrame, SceneNode, SceneRay
+    from optipath.plots.space.view import View
+
+    Array = npt.NDArray[np.float64]
+
+X_COLOUR, ELLIPSE, Y_COLOUR, ARC, FACE, LAMP = LINES
+_MIRROR = "#666666"
+
+_FRAME = 0.15
+"""How long x and y of a frame are drawn, of the length of a link."""
+
+_NORMAL = 0.5
+"""How long a normal is drawn."""
+
+_ARROW_AT, _ARROW = 0.72, (0.085, 0.028)
+"""Where on a ray its arrow points to, and how long and wide it is."""
+
+
+def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
+    """Draw all of a scene but its names.
+
+    Parameters
+    ----------
+    ax : Axes
+        With limits that show the scene.
+    scene : Scene
+        What is drawn.
+    view : View
+        From where.
+    weight : float, optional
+        By how much lines are wider and marks larger than usual.
+    """
+    first = len(ax.lines)
+    for plane in scene.planes:
+        _face(ax, view.points(plane.corners), FAINT, 0.09, 1.0)
+    _faces(ax, scene, view)
+    for ray in scene.rays:
+        _ray(ax, scene, ray, view)
+    for angle in scene.angles:
+        _angle(ax, angle, view)
+    for frame in drawn_frames(scene):
+        for axis, colour in zip(frame.axes[:2], (X_COLOUR, Y_COLOUR), strict=True):
+            ends = np.array([frame.at, frame.at + _FRAME * scene.unit * axis])
+            _line(ax, view.points(ends), color=colour, lw=1.4, zorder=5.5)
+    for node in scene.nodes:
+        if node.role in _MARKS:
+            ax.plot(*view.points(node.at), **_MARKS[node.role], ls="", mec=INK, mew=0.9, zorder=7)
+    for line in ax.lines[first:]:
+        line.set_linewidth(weight * line.get_linewidth())
+        line.set_markersize(weight * line.get_markersize())
+
+
+_MARKS: dict[str, dict[str, Any]] = {
+    "source": {"marker": "o", "ms": 8, "mfc": LAMP},
+    "detector": {"marker": "D", "ms": 6.5, "mfc": INK},
+    "dump": {"marker": "s", "ms": 6, "mfc": "white"},
+    "other": {"marker": "o", "ms": 5, "mfc": "white"},
+}
+
+
+def lines_of(scene: Scene, view: View) -> list[Array]:
+    """Return the lines of a scene that no text should cover, and what is to be seen of it.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is drawn.
+    view : View
+        From where.
+
+    Returns
+    -------
+    list of ndarray of shape (points, 2)
+        On the sheet.
+    """
+    found = [np.array([ray.tail, ray.head]) for ray in scene.rays]
+    found += [_ellipse(ray) for ray in scene.rays if _has_ellipse(ray)]
+    found += [_spokes(angle) for angle in scene.angles if len(angle.arc)]
+    found += [outline(scene, node) for node in scene.nodes if node.normal is not None]
+    found += [axis_line(scene, node) for node in scene.nodes if node.axis is not None]
+    found += [_normal(scene, node) for node in scene.nodes if node.role == "surface"]
+    for frame in drawn_frames(scene):
+        x, y, _ = frame.at + _FRAME * scene.unit * frame.axes
+        found.append(np.array([x, frame.at, y]))
+    return [view.points(line) for line in found]
+
+
+def drawn_frames(scene: Scene) -> list[SceneFrame]:
+    """Return the frames that are drawn: those of links, since rays that leave end soon.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is drawn.
+
+    Returns
+    -------
+    list of SceneFrame
+    """
+    leaving = {ray.name for ray in scene.rays if ray.leaves}
+    return [frame for frame in scene.frames if frame.port not in leaving]
+
+
+def key_to(scene: Scene) -> list[Artist]:
+    """Return what a key shows of the lines and faces that are drawn.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is drawn.
+
+    Returns
+    -------
+    list of Artist
+    """
+    s = "surface" in {node.role for node in scene.nodes}
+    found: list[Artist] = [
+        Line2D([], [], color=X_COLOUR, lw=1.6, label="x of a frame" + " (s)" * s),
+        Line2D([], [], color=Y_COLOUR, lw=1.6, label="y" + " (p)" * s),
+    ]
+    if any(_has_ellipse(ray) for ray in scene.rays):
+        found.append(Line2D([], [], color=ELLIPSE, lw=1.4, label="polarisation"))
+    if scene.planes:
+        found.append(Patch(color=FAINT, alpha=0.2, lw=0, label="plane of incidence"))
+    if any(ray.tap for ray in scene.rays):
+        found.append(Line2D([], [], color=INK, lw=1.2, ls=(0, (4, 2)), label="tap"))
+    if any(ray.leaves for ray in scene.rays):
+        found.append(Line2D([], [], color=FAINT, lw=1.0, label="leaves the path"))
+    return found
+
+
+def _faces(ax: Axes, scene: Scene, view: View) -> None:
+    """Draw surfaces and plates, what is farther away first."""
+    towards = view.sheet[2]
+    standing = [node for node in scene.nodes if node.normal is not None]
+    for node in sorted(standing, key=lambda node: float(node.at @ towards)):
+        colour = {"mirror": _MIRROR, "plate": FAINT}.get(node.role, FACE)
+        points = view.points(outline(scene, node))
+        _face(ax, points, colour, 0.3 if node.role != "plate" else 0.16, 2.0)
+        _line(ax, np.concatenate([points, points[:1]]), color=colour, lw=0.9, zorder=2.1)
+        if node.axis is not None:
+            _line(ax, view.points(axis_line(scene, node)), color=INK, lw=1.3, zorder=4.5)
+        if node.role == "surface":
+            _line(
+                ax,
+                view.points(_normal(scene, node)),
+                color=FAINT,
+                lw=0.9,
+                ls=(0, (4, 3)),
+                zorder=2.2,
+            )
+
+
+def _normal(scene: Scene, node: SceneNode) -> Array:
+    return np.array([node.at, node.at + _NORMAL * scene.unit * np.asarray(node.normal)])
+
+
+def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
+    colour, width = (FAINT, 0.9) if ray.leaves else (INK, 1.4)
+    ends = view.points(np.array([ray.tail, ray.head]))
+    _line(ax, ends, color=colour, lw=width, ls=(0, (4, 2)) if ray.tap else "-", zorder=4.0)
+    way = ends[1] - ends[0]
+    length = float(np.linalg.norm(way))
+    if length > 0.1 * scene.unit:
+        along, share = way / length, 1.0 if ray.leaves else _ARROW_AT
+        tip = ends[0] + share * way
+        long, wide = (scene.unit * part for part in _ARROW)
+        foot, aside = tip - long * along, wide * np.array([-along[1], along[0]])
+        head = Polygon([tip, foot + aside, foot - aside], fc=colour, ec="none", zorder=4.2)
+        ax.add_patch(head)
+    if _has_ellipse(ray):
+        _line(ax, view.points(_ellipse(ray)), color=ELLIPSE, lw=1.4, zorder=5.0)
+
+
+def _has_ellipse(ray: SceneRay) -> bool:
+    return ray.ellipse is not None and not ray.leaves
+
+
+def _ellipse(ray: SceneRay) -> Array:
+    return np.asarray((ray.tail + ray.head) / 2.0 + np.asarray(ray.ellipse))
+
+
+def _spokes(angle: SceneAngle) -> Array:
+    """Return a line that goes to and fro over the face of an angle."""
+    centres = np.broadcast_to(angle.centre, angle.arc.shape)
+    return np.stack([centres, angle.arc], axis=1).reshape(-1, 3)
+
+
+def _angle(ax: Axes, angle: SceneAngle, view: View) -> None:
+    if not len(angle.arc):
+        return
+    arc, centre = view.points(angle.arc), view.points(angle.centre)
+    _face(ax, np.concatenate([centre[None], arc]), ARC, 0.22, 3.0)
+    _line(ax, arc, color=ARC, lw=1.5, zorder=5.2)
+    if angle.about == "azimuth":
+        for end in (arc[0], arc[-1]):
+            _line(ax, np.array([centre, end]), color=ARC, lw=0.8, zorder=5.1)
+
+
+def _face(ax: Axes, points: Array, colour: str, alpha: float, zorder: float) -> None:
+    ax.add_patch(Polygon(points, fc=colour, ec="none", alpha=alpha, zorder=zorder))
+
+
+def _line(ax: Axes, points: Array, **style: Any) -> None:
+    ax.plot(points[:, 0], points[:, 1], solid_capstyle="round", **style)

@@ -1,0 +1,161 @@
+"""A set-up that lies in one plane, laid flat on a sheet; long straight ones in rows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from optipath.errors import PathError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from optipath.plots.space.scene import Scene, SceneNode
+
+    Array = npt.NDArray[np.float64]
+
+_IN_PLANE = 1e-7
+"""The sine of an angle out of the plane that is rounding."""
+
+_ROWS_APART = 1.5
+"""In lengths of a link."""
+
+
+class FlatRay(NamedTuple):
+    """A ray on a sheet.
+
+    Attributes
+    ----------
+    pieces : tuple of ndarray of shape (2, 2)
+        From where to where; two of light that goes on in the next row.
+    middle : ndarray of shape (2,)
+        Where its polarisation is drawn.
+    """
+
+    pieces: tuple[Array, ...]
+    middle: Array
+
+
+class FlatSheet(NamedTuple):
+    """A scene on a sheet, a link being about 1 long.
+
+    Attributes
+    ----------
+    sheet : ndarray of shape (2, 3)
+        The directions to the right and up.
+    at : dict of str to ndarray of shape (2,)
+        The place of each node.
+    rays : tuple of FlatRay
+        Those of the scene.
+    straight : bool
+        Whether all light goes to the right.
+    """
+
+    sheet: Array
+    at: dict[str, Array]
+    rays: tuple[FlatRay, ...]
+    straight: bool
+
+
+def flat_sheet(scene: Scene) -> FlatSheet:
+    """Return a scene laid flat.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is drawn.
+
+    Returns
+    -------
+    FlatSheet
+
+    Raises
+    ------
+    PathError
+        If its light does not stay in one plane.
+    """
+    right = scene.rays[0].axes[2] if scene.rays else np.eye(3)[0]
+    ways = np.array([ray.axes[2] for ray in scene.rays]).reshape(-1, 3)
+    aside = ways - np.outer(ways @ right, right)
+    largest = int(np.argmax(np.linalg.norm(aside, axis=1))) if len(aside) else 0
+    straight = not len(aside) or bool(np.linalg.norm(aside[largest]) < _IN_PLANE)
+    first = scene.rays[0].axes if scene.rays else np.eye(3)
+    up = first[1] if straight else aside[largest] / np.linalg.norm(aside[largest])
+    if not straight and up @ first[1] < -_IN_PLANE:
+        up = -up
+    normal = np.cross(right, up)
+    out = [ray.end or ray.start for ray in scene.rays if abs(ray.axes[2] @ normal) > _IN_PLANE]
+    if out:
+        raise PathError(
+            f"bench draws set-ups that lie in one plane, but light leaves that at '{out[0]}'; "
+            f"op.plots.geometry(path) draws this path in space"
+        )
+    sheet, origin = np.array([right, up]), scene.nodes[0].at
+    at = {n.name: sheet @ (n.at - origin) / scene.unit for n in scene.nodes}
+    ends = [
+        np.array([ray.tail - origin, ray.head - origin]) @ sheet.T / scene.unit
+        for ray in scene.rays
+    ]
+    flat = tuple(FlatRay((both,), both.mean(axis=0)) for both in ends)
+    back = any(way @ right < 0.0 for way in ways)
+    return FlatSheet(sheet, at, flat, straight and not back)
+
+
+def in_rows(flat: FlatSheet, scene: Scene, most: int) -> FlatSheet:
+    """Return a straight set-up in rows of so many nodes at most.
+
+    Parameters
+    ----------
+    flat : FlatSheet
+        One row.
+    scene : Scene
+        What is drawn.
+    most : int
+        How many nodes a row may have; 2 at least.
+
+    Returns
+    -------
+    FlatSheet
+    """
+    if not flat.straight or len(flat.at) <= most:
+        return flat
+    order = sorted(flat.at, key=lambda name: float(flat.at[name][0]))
+    rows = -(-len(order) // most)
+    each = -(-len(order) // rows)
+    at = {
+        name: np.array([float(place % each), -_ROWS_APART * (place // each)])
+        for place, name in enumerate(order)
+    }
+    rays = []
+    for ray in scene.rays:
+        tail = at[ray.start]
+        head = at[ray.end] if ray.end else tail + np.array([0.5, 0.0])
+        if tail[1] == head[1]:
+            rays.append(FlatRay((np.array([tail, head]),), (tail + head) / 2.0))
+            continue
+        half = np.array([0.5, 0.0])
+        pieces = np.array([tail, tail + 1.1 * half]), np.array([head - 1.1 * half, head])
+        rays.append(FlatRay(pieces, head - half))
+    return flat._replace(at=at, rays=tuple(rays))
+
+
+def direction_at(node: SceneNode, scene: Scene, flat: FlatSheet) -> Array:
+    """Return the way on the sheet in which light arrives at a node, or leaves a source.
+
+    Parameters
+    ----------
+    node : SceneNode
+        The node.
+    scene : Scene
+        Where it stands.
+    flat : FlatSheet
+        Where it is drawn.
+
+    Returns
+    -------
+    ndarray of shape (2,)
+    """
+    rays = [ray for ray in scene.rays if ray.end == node.name]
+    rays += [ray for ray in scene.rays if ray.start == node.name]
+    return np.asarray(flat.sheet @ rays[0].axes[2] if rays else np.array([1.0, 0.0]))

@@ -1,0 +1,127 @@
+import numpy as np
+import pytest
+
+import optipath as op
+from pictures import faults_of, texts_of
+
+figures = pytest.importorskip("matplotlib.figure")
+
+NAN = np.nan
+PATH = op.load_preset("npgr026", case="8")
+PUBLISHED = PATH.cases["8"].published["E"]
+
+
+def axes(width, height):
+    return figures.Figure(figsize=(width, height), layout="constrained").add_subplot()
+
+
+def heights_of(ax):
+    return np.array([[bar.get_height() for bar in bars] for bars in ax.containers])
+
+
+def ticks_of(ax):
+    return [
+        text.get_text().replace("\N{MINUS SIGN}", "-").split("\n") for text in ax.get_xticklabels()
+    ]
+
+
+def keys_of(ax):
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+ROWS = op.Light([[1.0, np.cos(a), np.sin(a), 0.0] for a in range(6)])
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.5])
+@pytest.mark.parametrize(
+    ("light", "published"),
+    [
+        (PATH.trace(), PUBLISHED),
+        (op.Light([1.0, NAN, NAN, NAN]), None),
+        (op.Light([1e-300, 0.0, 0.6e-300, 0.3e-300]), [1e-300, 0.0, 0.5e-300, NAN]),
+        (op.Light([1.0, 0.6, 0.0, 0.8], exponent=-332193), None),
+        ({"first": PATH.trace(), "second": 0.5 * PATH.trace()}, {"first": PUBLISHED}),
+    ],
+    ids=["published", "not read", "faint", "beyond floats", "two"],
+)
+def test_no_text_is_over_another_or_cut(light, published, scale):
+    ax = op.plots.stokes(light, axes(5.6 * scale, 4.4 * scale), published=published)
+    assert faults_of(ax.figure) == []
+
+
+def test_six_lights_are_named_and_compared():
+    ax = op.plots.stokes(ROWS, published=np.add(ROWS.stokes, [0.0, 0.0, 0.0, 0.01]))
+    assert faults_of(ax.figure) == []
+    assert keys_of(ax) == [*(f"light[{place}]" for place in range(6)), "published"]
+    assert [lines[-1] for lines in ticks_of(ax)] == ["Δ 0", "Δ 0", "Δ 0", "Δ -0.01"]
+
+
+def test_bars_are_as_high_as_the_stokes_parameters():
+    light = op.Light([2.0, 0.6, -0.9, 0.8])
+    np.testing.assert_allclose(heights_of(op.plots.stokes(light)), [[2.0, 0.6, -0.9, 0.8]])
+
+
+def test_numbers_published_numbers_and_differences_stand_below_the_bars():
+    ax = op.plots.stokes(op.Light([1.0, 0.5, 0.0, -0.25]), published=[1.0, 0.49, 0.0, NAN])
+    assert ticks_of(ax) == [
+        ["S0", "1", "(1)", "Δ 0"],
+        ["S1", "0.5", "(0.49)", "Δ 0.01"],
+        ["S2", "0", "(0)", "Δ 0"],
+        ["S3", "-0.25", "(none)"],
+    ]
+    assert ax.get_xlabel() == "computed, (published), Δ = computed less published"
+
+
+def test_marks_stand_at_what_was_published():
+    ax = op.plots.stokes(PATH.trace(), published=PUBLISHED)
+    (marks,) = (line for line in ax.get_lines() if line.get_marker() == "D")
+    np.testing.assert_allclose(marks.get_ydata(), PUBLISHED)
+    assert keys_of(ax) == ["computed", "published"]
+
+
+def test_what_a_detector_does_not_read_is_told():
+    ax = op.plots.stokes(op.Light([1.0, NAN, NAN, NAN]))
+    assert [lines[1] for lines in ticks_of(ax)] == ["1", "not read", "not read", "not read"]
+
+
+@pytest.mark.parametrize(
+    ("light", "power"),
+    [
+        (op.Light([3e-300, 0.6e-300, 0.0, 1.5e-300]), "-300"),
+        (op.Light([3.0, 0.6, 0.0, 1.5], exponent=0) * 1e300, "300"),
+        (op.Light([0.75, 0.15, 0.0, 0.375], exponent=-3000), "-904"),
+    ],
+)
+def test_light_beyond_plain_numbers_is_in_powers_of_ten(light, power):
+    ax = op.plots.stokes(light)
+    assert f"10^{power} " in ax.get_ylabel().replace("\N{MINUS SIGN}", "-")
+    heights = heights_of(ax)[0]
+    np.testing.assert_allclose(heights / heights[0], [1.0, 0.2, 0.0, 0.5], rtol=1e-9)
+    assert 1.0 <= heights[0] < 10.0
+
+
+def test_dark_light_has_no_power_of_ten():
+    ax = op.plots.stokes(op.Light([0.0, 0.0, 0.0, 0.0]))
+    assert ax.get_ylabel() == "Stokes parameter\n(unit of the source)"
+    assert faults_of(ax.figure) == []
+
+
+def test_a_light_has_the_name_that_it_is_given():
+    ax = op.plots.stokes(ROWS[0], labels="eye")
+    assert "eye" in {text.get_text() for text in texts_of(ax.figure)}
+
+
+@pytest.mark.parametrize(
+    ("light", "published", "told"),
+    [
+        (ROWS[0], [1.0, 0.0], "give S0, S1, S2 and S3"),
+        (ROWS[0], ["a", "b", "c", "d"], "published"),
+        (ROWS[0], [1.0, np.inf, 0.0, 0.0], "write NaN"),
+        (ROWS, [1.0, 0.0, 0.0, 0.0], r"numbers of shape \(6, 4\)"),
+        ({"eye": ROWS[0]}, [1.0, 0.0, 0.0, 0.0], "lights have names"),
+        ({"eye": ROWS[0]}, {"eey": [1.0, 0.0, 0.0, 0.0]}, "did you mean 'eye'"),
+    ],
+)
+def test_published_values_that_do_not_fit_are_told(light, published, told):
+    with pytest.raises(op.OptipathError, match=told):
+        op.plots.stokes(light, published=published)
