@@ -74,8 +74,19 @@ if WHOLE:
     EVERY += [each for preset, case in CASES for each in some_of(preset, case)]
 
 
+def leaves_a_plane(preset, case):
+    """Whether one plane of incidence is turned against another."""
+    parameters = op.load_preset(preset, case=case).parameters
+    turns = [parameters[name].default for name in ("rho", "turn") if name in parameters]
+    return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
+
+
 @pytest.mark.parametrize(("preset", "case", "kind", "given"), EVERY)
 def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, given):
+    if kind == "bench" and leaves_a_plane(preset, case):
+        with pytest.raises(op.OptipathError, match="geometry"):
+            picture(preset, kind, case, **given)
+        return
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         figure = picture(preset, kind, case, **given)
@@ -217,6 +228,8 @@ def test_the_line_by_default_is_that_of_the_case():
             "--kind curve is along two parameters at most",
         ),
         (["--kind", "poincare", "--x", "delta", "--x", "rho"], "one parameter at most"),
+        (["--kind", "curve", "--filter", "none,0,20"], "--filter has the word 'none', and an axis"),
+        (["--kind", "bench", "--rho", "30"], "--kind geometry draws this path in space"),
         (["--kind", "ellipse", "--delta", "0:90:4"], "--delta is given several values"),
         (["--kind", "ellipse", "--case", "8", "--case", "7"], "plot takes one case"),
         (["--kind", "ellipse", "--case", "77"], "'77'"),

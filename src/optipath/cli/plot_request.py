@@ -158,9 +158,14 @@ def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> 
             faults.append(f"--x {name} varies what {flag} gives one value; leave one of them out")
         else:
             faults += unknown("--x", name, known)
-    for name in chosen.axes:
+    for name, values in chosen.axes.items():
+        flag = f"--{name.replace('_', '-')}"
+        if values.shown.dtype.kind == "U":
+            word = next(one for one in values.shown.tolist() if one[:1].isalpha())
+            faults.append(
+                f"{flag} has the word {shown(word)}, and an axis is of numbers; leave it out"
+            )
         if name not in known:
-            flag = f"--{name.replace('_', '-')}"
             faults.append(
                 f"{flag} is given several values, and nothing depends on it; leave it out"
             )
