@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from optipath.cli.given_axes import refuse_arrays
-from optipath.errors import ParameterError, listed, unknown
+from optipath.errors import ParameterError, listed, shown, unknown
 from optipath.paths.presets.loader import preset_of_case
 from optipath.values.displayed import displayed
 from optipath.values.named_materials import WAVELENGTH, materials_among
