@@ -37,7 +37,7 @@ def chosen(preset, case=None, **values):
 def picture(preset, kind, case=None, *, x=(), y=None, detector=None, reads=None, **values):
     about = chosen(preset, case, **values)
     given = {"x": x, "y": y, "detector": detector, "reads": reads}
-    return drawn(request_of(about, kind, KINDS[kind], **given))
+    return drawn(request_of(about, kind, KINDS[kind].counts, **given))
 
 
 def words(figure):
@@ -52,7 +52,7 @@ def open_parameter(path):
 def pictures_of(preset):
     """Each kind with what it needs."""
     x = open_parameter(op.load_preset(preset))
-    yield from ((kind, {}) for kind in KINDS if KINDS[kind].least_axes == 0)
+    yield from ((kind, {}) for kind in KINDS if 0 in KINDS[kind].counts)
     yield "curve", {"x": (x,), "y": "S0,AoP"}
 
 
@@ -128,7 +128,7 @@ def test_values_along_an_axis_keep_the_unit_they_are_given_in():
     path = op.load_preset("quartz-quarter-wave")
     about = Chosen("quartz-quarter-wave", path, None, {}, {"wavelength": values})
     given = {"x": (), "y": "S3", "detector": None, "reads": None}
-    figure = drawn(request_of(about, "curve", KINDS["curve"], **given))
+    figure = drawn(request_of(about, "curve", KINDS["curve"].counts, **given))
     assert figure.axes[0].get_xlabel().endswith("(eV)")
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx([1.7, 2.0])
 
@@ -180,7 +180,7 @@ def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
     def told(case, reads=None, **values):
         given = {"x": (), "y": None, "detector": None, "reads": reads}
         about = chosen("npgr026", case, **values)
-        return request_of(about, "stokes", KINDS["stokes"], **given).published
+        return request_of(about, "stokes", KINDS["stokes"].counts, **given).published
 
     assert told("8") == op.load_preset("npgr026").cases["8"].published
     assert told(None) == {}
@@ -190,7 +190,7 @@ def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
 
 def test_the_line_by_default_is_that_of_the_case():
     given = {"x": ("delta",), "y": None, "detector": None, "reads": None}
-    asked = request_of(chosen("npgr026", "8"), "curve", KINDS["curve"], **given)
+    asked = request_of(chosen("npgr026", "8"), "curve", KINDS["curve"].counts, **given)
     case = op.load_preset("npgr026", case="8")
     assert asked.path.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
     assert float(asked.path.parameters["delta"].default) == float(case.parameters["delta"].default)
