@@ -37,7 +37,7 @@ def chosen(preset, case=None, **values):
 def picture(preset, kind, case=None, *, x=(), y=None, detector=None, reads=None, **values):
     about = chosen(preset, case, **values)
     given = {"x": x, "y": y, "detector": detector, "reads": reads}
-    return drawn(request_of(about, kind, KINDS[kind], **given))
+    return drawn(request_of(about, kind, KINDS[kind].counts, **given))
 
 
 def words(figure):
@@ -52,7 +52,7 @@ def open_parameter(path):
 def pictures_of(preset):
     """Each kind with what it needs."""
     x = open_parameter(op.load_preset(preset))
-    yield from ((kind, {}) for kind in KINDS if KINDS[kind].least_axes == 0)
+    yield from ((kind, {}) for kind in KINDS if 0 in KINDS[kind].counts)
     yield "curve", {"x": (x,), "y": "S0,AoP"}
 
 
@@ -74,8 +74,19 @@ if WHOLE:
     EVERY += [each for preset, case in CASES for each in some_of(preset, case)]
 
 
+def leaves_a_plane(preset, case):
+    """Whether one plane of incidence is turned against another."""
+    parameters = op.load_preset(preset, case=case).parameters
+    turns = [parameters[name].default for name in ("rho", "turn") if name in parameters]
+    return any(abs(np.sin(turn)) > 1e-9 for turn in turns)
+
+
 @pytest.mark.parametrize(("preset", "case", "kind", "given"), EVERY)
 def test_every_picture_of_a_preset_is_whole_and_readable(preset, case, kind, given):
+    if kind == "bench" and leaves_a_plane(preset, case):
+        with pytest.raises(op.OptipathError, match="geometry"):
+            picture(preset, kind, case, **given)
+        return
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         figure = picture(preset, kind, case, **given)
@@ -117,7 +128,7 @@ def test_values_along_an_axis_keep_the_unit_they_are_given_in():
     path = op.load_preset("quartz-quarter-wave")
     about = Chosen("quartz-quarter-wave", path, None, {}, {"wavelength": values})
     given = {"x": (), "y": "S3", "detector": None, "reads": None}
-    figure = drawn(request_of(about, "curve", KINDS["curve"], **given))
+    figure = drawn(request_of(about, "curve", KINDS["curve"].counts, **given))
     assert figure.axes[0].get_xlabel().endswith("(eV)")
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx([1.7, 2.0])
 
@@ -169,7 +180,7 @@ def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
     def told(case, reads=None, **values):
         given = {"x": (), "y": None, "detector": None, "reads": reads}
         about = chosen("npgr026", case, **values)
-        return request_of(about, "stokes", KINDS["stokes"], **given).published
+        return request_of(about, "stokes", KINDS["stokes"].counts, **given).published
 
     assert told("8") == op.load_preset("npgr026").cases["8"].published
     assert told(None) == {}
@@ -179,7 +190,7 @@ def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
 
 def test_the_line_by_default_is_that_of_the_case():
     given = {"x": ("delta",), "y": None, "detector": None, "reads": None}
-    asked = request_of(chosen("npgr026", "8"), "curve", KINDS["curve"], **given)
+    asked = request_of(chosen("npgr026", "8"), "curve", KINDS["curve"].counts, **given)
     case = op.load_preset("npgr026", case="8")
     assert asked.path.trace().stokes.tolist() == pytest.approx(case.trace().stokes.tolist())
     assert float(asked.path.parameters["delta"].default) == float(case.parameters["delta"].default)
@@ -217,6 +228,8 @@ def test_the_line_by_default_is_that_of_the_case():
             "--kind curve is along two parameters at most",
         ),
         (["--kind", "poincare", "--x", "delta", "--x", "rho"], "one parameter at most"),
+        (["--kind", "curve", "--filter", "none,0,20"], "--filter has the word 'none', and an axis"),
+        (["--kind", "bench", "--rho", "30"], "--kind geometry draws this path in space"),
         (["--kind", "ellipse", "--delta", "0:90:4"], "--delta is given several values"),
         (["--kind", "ellipse", "--case", "8", "--case", "7"], "plot takes one case"),
         (["--kind", "ellipse", "--case", "77"], "'77'"),

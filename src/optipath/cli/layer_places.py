@@ -15,7 +15,13 @@ _SWEEPS = 12
 
 
 class Extent(NamedTuple):
-    """How far something reaches to the left and to the right of its middle."""
+    """How far something reaches from its middle.
+
+    Attributes
+    ----------
+    left, right : float
+        To either side.
+    """
 
     left: float
     right: float

@@ -51,7 +51,7 @@ def _plot(chosen: Chosen, *, kind: str, out: Path, **asked: Any) -> None:
     # Before anything is computed: it tells whether what draws is there.
     from optipath.plots import save  # noqa: PLC0415 - an extra
 
-    save(drawn(request_of(chosen, kind, KINDS[kind], **asked)), out)
+    save(drawn(request_of(chosen, kind, KINDS[kind].counts, **asked)), out)
     say(f"wrote {out}")
 
 

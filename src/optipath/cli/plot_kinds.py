@@ -24,14 +24,13 @@ class PlotKind(NamedTuple):
         What draws it; Axes, or an array of them.
     takes : tuple of str
         The options that it takes, of ``"x"``, ``"y"`` and ``"detector"``.
-    least_axes, most_axes : int
-        How many parameters vary.
+    counts : range
+        How many parameters may vary.
     """
 
     draw: Callable[[PlotRequest], Any]
     takes: tuple[str, ...] = ()
-    least_axes: int = 0
-    most_axes: int = 0
+    counts: range = range(1)
 
 
 def drawn(asked: PlotRequest) -> Any:
@@ -154,11 +153,11 @@ _TRAIL = 721
 
 KINDS = {
     "ellipse": PlotKind(_ellipse, ("detector",)),
-    "poincare": PlotKind(_poincare, ("x", "detector"), most_axes=1),
+    "poincare": PlotKind(_poincare, ("x", "detector"), range(2)),
     "stokes": PlotKind(_stokes, ("detector",)),
     "geometry": PlotKind(_geometry),
     "bench": PlotKind(_bench),
-    "curve": PlotKind(_curve, ("x", "y", "detector"), least_axes=1, most_axes=2),
+    "curve": PlotKind(_curve, ("x", "y", "detector"), range(1, 3)),
     "mueller": PlotKind(_mueller, ("detector",)),
     "energy": PlotKind(_energy),
 }

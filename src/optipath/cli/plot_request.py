@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from optipath.cli.given_axes import refuse_arrays
-from optipath.errors import ParameterError, listed, unknown
+from optipath.errors import ParameterError, listed, shown, unknown
 from optipath.paths.presets.loader import preset_of_case
 from optipath.values.displayed import displayed
 from optipath.values.named_materials import WAVELENGTH, materials_among
@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
 
     from optipath.cli.chosen import Chosen
-    from optipath.cli.plot_kinds import PlotKind
     from optipath.paths.path_graph import PathGraph
     from optipath.plan.plan import Plan
     from optipath.values.axis_texts import AxisValues
@@ -71,7 +70,7 @@ class PlotRequest:
 def request_of(
     chosen: Chosen,
     kind: str,
-    limits: PlotKind,
+    counts: range,
     *,
     x: Sequence[str],
     y: str | None,
@@ -86,8 +85,8 @@ def request_of(
         The preset, and what is given for it.
     kind : str
         What is drawn.
-    limits : PlotKind
-        What it takes.
+    counts : range
+        How many parameters may vary.
     x : sequence of str
         What varies.
     y : str or None
@@ -114,7 +113,7 @@ def request_of(
     plan = path.compose()
     ends, faults = _ends(plan, detector)
     faults += _name_faults(chosen, names, [*plan.inputs.open])
-    faults += _count_faults(kind, limits, axes, [*plan.inputs.open])
+    faults += _count_faults(kind, counts, axes, [*plan.inputs.open])
     if len(axes) > 1 and len(quantities) > 1:
         faults.append(f"a map is of one quantity, and --y names {len(quantities)}; give one")
     if detector is not None and kind == "poincare" and not axes:
@@ -158,9 +157,14 @@ def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> 
             faults.append(f"--x {name} varies what {flag} gives one value; leave one of them out")
         else:
             faults += unknown("--x", name, known)
-    for name in chosen.axes:
+    for name, values in chosen.axes.items():
+        flag = f"--{name.replace('_', '-')}"
+        if values.shown.dtype.kind == "U":
+            word = next(one for one in values.shown.tolist() if one[:1].isalpha())
+            faults.append(
+                f"{flag} has the word {shown(word)}, and an axis is of numbers; leave it out"
+            )
         if name not in known:
-            flag = f"--{name.replace('_', '-')}"
             faults.append(
                 f"{flag} is given several values, and nothing depends on it; leave it out"
             )
@@ -168,24 +172,24 @@ def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> 
 
 
 def _count_faults(
-    kind: str, limits: PlotKind, axes: Collection[str], known: Sequence[str]
+    kind: str, counts: range, axes: Collection[str], known: Sequence[str]
 ) -> list[str]:
     """Return what is wrong with how many parameters vary, a sentence each."""
     faults = []
     flags = [f"--{name.replace('_', '-')}" for name in axes]
-    if len(axes) > limits.most_axes:
-        if not limits.most_axes:
+    if len(axes) > counts[-1]:
+        if not counts[-1]:
             faults.append(
                 f"{listed(flags)} {'is' if len(flags) == 1 else 'are'} given several values, and "
                 f"--kind {kind} is of one; give one, or write --kind curve or poincare"
             )
             return faults
-        most = "two parameters" if limits.most_axes > 1 else "one parameter"
+        most = "two parameters" if counts[-1] > 1 else "one parameter"
         faults.append(
             f"--kind {kind} is along {most} at most, and {listed(flags)} vary; give one value of "
             f"the others"
         )
-    if len(axes) < limits.least_axes:
+    if len(axes) < counts[0]:
         example = next(iter(known), "NAME").replace("_", "-")
         faults.append(
             f"--kind {kind} is along a parameter; name it, --x {example}, or give it several "

@@ -21,7 +21,20 @@ _NO_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 def text_width(text: str, size: float) -> float:
-    """Return how wide a text is drawn, in the units of its size."""
+    """Return how wide a text is drawn.
+
+    Parameters
+    ----------
+    text : str
+        Of one line.
+    size : float
+        Of its letters.
+
+    Returns
+    -------
+    float
+        In the units of the size.
+    """
     return cell_len(text) * _CELL * size
 
 

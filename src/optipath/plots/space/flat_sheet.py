@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optipath.errors import PathError
+from optipath.values.cures import cure
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -111,7 +112,7 @@ def flat_sheet(scene: Scene) -> FlatSheet:
     if out:
         raise PathError(
             f"bench draws set-ups that lie in one plane, but light leaves that at '{out[0]}'; "
-            f"op.plots.geometry(path) draws this path in space"
+            f"{cure('op.plots.geometry(path)', '--kind geometry')} draws this path in space"
         )
     sheet, origin = np.array([right, up]), scene.nodes[0].at
     at = {n.name: sheet @ (n.at - origin) / scene.unit for n in scene.nodes}
