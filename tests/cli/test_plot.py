@@ -167,6 +167,18 @@ def test_all_detectors_are_drawn_where_they_fit_beside_one_another(tmp_path, cap
         assert main([*asked, "--detector", "eye-reflected"]) == 0
 
 
+def test_several_values_in_a_file_are_refused_by_the_name_of_the_parameter(tmp_path, capsys):
+    path = op.PathGraph()
+    power = op.Parameter("power", np.array([1.0, 2.0]))
+    path.add("lamp", op.Source(power)) >> path.add("eye", op.Detector())
+    (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
+    for kind in ("ellipse", "mueller", "energy"):
+        assert main(["plot", "x.toml", "--kind", kind, "--out", "a.svg"]) == 2
+        told = "parameter 'power' has several values in the file, and a picture is of one"
+        assert told in capsys.readouterr().err
+        assert main(["plot", "x.toml", "--kind", kind, "--power", "2", "--out", "a.svg"]) == 0
+
+
 def test_a_long_title_goes_on_in_the_next_line():
     path = op.load_preset("npgr026")
     many = dict.fromkeys(("delta", "rho", "phi", "n1", "k1", "n2", "k2"), 0.5)

@@ -67,7 +67,7 @@ def _ellipse(asked: PlotRequest) -> Any:
 
     lights, count = asked.path.trace_all(), len(asked.ends)
     if count == 1:
-        return ellipse(lights[asked.end], labels=asked.end)
+        return ellipse({asked.end: lights[asked.end]})
     panel = own_panel(None, (1, count), (5.0 * count, 5.8))
     for name, ax in zip(asked.ends, panel.flat, strict=True):
         ellipse(lights[name], ax, labels=name)

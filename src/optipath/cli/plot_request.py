@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from optipath.cli.given_axes import refuse_arrays
 from optipath.errors import ParameterError, listed, shown, unknown
 from optipath.paths.presets.loader import preset_of_case
@@ -112,6 +114,7 @@ def request_of(
     refuse_arrays(path, axes)
     plan = path.compose()
     ends, faults = _ends(plan, detector)
+    faults += _array_faults(plan)
     faults += _name_faults(chosen, names, [*plan.inputs.open])
     faults += _count_faults(kind, counts, axes, [*plan.inputs.open])
     if len(axes) > 1 and len(quantities) > 1:
@@ -142,6 +145,18 @@ def _ends(plan: Plan, detector: str | None) -> tuple[tuple[str, ...], list[str]]
     if detector is None:
         return (*(detectors or dumps),), []
     return (detector,), unknown("detector", detector, [*detectors, *dumps])
+
+
+def _array_faults(plan: Plan) -> list[str]:
+    """Return which parameters have several values, of which a picture has one, a sentence each."""
+    inputs = plan.inputs
+    return [
+        f"parameter '{name}' has several values in the file, and a picture is of one; give one by "
+        f"--{name.replace('_', '-')}"
+        for name, parameter in {**inputs.open, **inputs.bound}.items()
+        if isinstance(parameter.default, np.ndarray)
+        and parameter.default.ndim > len(inputs.tails.get(name, ()))
+    ]
 
 
 def _name_faults(chosen: Chosen, names: Sequence[str], known: Sequence[str]) -> list[str]:
