@@ -18,7 +18,7 @@ from optipath.explorer.page_answers import PageAnswers
 from optipath.explorer.page_server import PageServer
 
 STATE = "preset=npgr026&case=8"
-SIZE = {"width": 1440, "height": 1320}
+SIZE = {"width": 1440, "height": 1500}
 
 
 def screenshot(file):

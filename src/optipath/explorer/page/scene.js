@@ -7,8 +7,6 @@ import { head, line, segment, show, text, widthOf } from "./svg.js";
 import { typeset } from "./units.js";
 import { sceneInWords } from "./words.js";
 
-const SHARE = 0.72;
-
 export const SCENE_VIEW = [-55, 24, 1];
 
 /**
@@ -26,7 +24,7 @@ export function drawScene(svg, scene, view, parts) {
   const labels = [];
   const add = (points, ...drawn) => things.push([mean(points.map((each) => each[2])), drawn]);
   if (parts.has("planes")) {
-    for (const points of planesOf(scene).map((corners) => corners.map(at))) {
+    for (const points of scene.planes.map(({ corners }) => corners.map(at))) {
       things.push([Math.min(...points.map((each) => each[2])) - 1, [line(points, "plane", true)]]);
     }
   }
@@ -57,15 +55,6 @@ export function drawScene(svg, scene, view, parts) {
 
 const mean = (numbers) => numbers.reduce((sum, each) => sum + each, 0) / numbers.length;
 
-/** The corners of the planes of incidence, drawn in as far as they leave room for the rest. */
-function planesOf(scene) {
-  const places = new Map(scene.nodes.map(({ name, at }) => [name, at]));
-  return scene.planes.map(({ node, corners }) => {
-    const middle = places.get(node);
-    return corners.map((corner) => plus(middle, plus(corner, middle, -1), SHARE));
-  });
-}
-
 /** How long a usual ray is, after which marks are sized. */
 function sizeOf(scene) {
   const lengths = scene.rays
@@ -87,7 +76,7 @@ function extent(scene, view) {
   const points = [
     ...scene.rays.flatMap(({ from, to }) => [from, to]),
     ...scene.nodes.map((each) => each.at),
-    ...planesOf(scene).flat(),
+    ...scene.planes.flatMap((each) => each.corners),
   ].map(projected(view));
   const side = (k) => points.map((each) => each[k]);
   return [Math.min(...side(0)), Math.min(...side(1)), Math.max(...side(0)), Math.max(...side(1))];

@@ -45,8 +45,8 @@ export function rangeOf(numbers) {
   if (low > high) return [0, 1];
   const scale = Math.max(Math.abs(low), Math.abs(high));
   if (high - low <= 1e-9 * scale || scale === 0) {
-    const half = scale === 0 ? 1 : 0.5 * scale;
-    return low === 0 ? [0, 1] : [low - half, high + half];
+    if (scale === 0) return [0, 1];
+    return low > 0 ? [0, 1.25 * high] : [1.25 * low, 0];
   }
   const room = 0.06 * (high - low);
   return [low - room, high + room];
