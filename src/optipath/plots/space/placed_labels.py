@@ -85,7 +85,7 @@ def place_labels(
         half = np.array([box.width, box.height]) / 2.0
         offset = _best(anchor, half, drawn, (taken, filled), within)
         middle = anchor + offset
-        taken.append(Bbox([middle - half, middle + half]).padded(2.0))
+        taken.append(Bbox([middle - half, middle + half]).padded(5.0))
         _move(ax, text, label, offset, half)
 
 
