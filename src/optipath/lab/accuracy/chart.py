@@ -143,7 +143,8 @@ def _different(path: PathGraph, effort: Effort) -> list[Composer]:
     found: dict[Any, Composer] = {}
     for runner in filter(effort.measures, contenders(engines=effort.engines)):
         try:
-            # Whether it can is told without waiting for what compiles.
+            runner.compose(path)
+            # Whether it can run is told without waiting for what compiles.
             plan = replace(runner, engine="numpy").compose(path)
             plan.run_all()
         except (ComposerError, ParameterError):

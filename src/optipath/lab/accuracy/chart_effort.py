@@ -92,5 +92,5 @@ def expected(effort: Effort) -> str:
     minutes = round(seconds / 60)
     if not effort.compiles_all:
         return "this takes less than a minute, more on a busy machine"
-    wait = " where Numba must compile, for which it keeps what is compiled" if compiled else ""
+    wait = " where Numba must compile (what it compiles is kept)" if compiled else ""
     return f"this takes about {minutes} minutes{wait}; --quick takes less than one"

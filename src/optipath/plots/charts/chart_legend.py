@@ -166,17 +166,16 @@ def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[
     found = []
     for method in dict.fromkeys(mark.method for mark in marks if mark.fails):
         own = [mark for mark in marks if mark.method == method]
-        where = {name: {m.dtype for m in own if name in m.fails} for name in regions}
-        failing = [name for name, dtypes in where.items() if dtypes]
-        all_of_it = {mark.dtype for mark in own}
+        where = {name: [mark for mark in own if name in mark.fails] for name in regions}
+        failing = [name for name, marked in where.items() if marked]
         begin = f"{shortened(method, 1.6, POINTS)}:"
-        if len(failing) == len(regions):
+        if all(len(marked) == len(own) for marked in where.values()):
             words = [begin, "everywhere"]
-        elif 2 * len(failing) > len(regions):
-            holds = [name for name, dtypes in where.items() if not dtypes]
+        elif len(regions) > len(failing) > len(regions) / 2:
+            holds = [name for name, marked in where.items() if not marked]
             words = [begin, "all but:", *_listed(holds)]
         else:
-            words = [begin, *_listed([_told(name, where[name], all_of_it) for name in failing])]
+            words = [begin, *_listed([_told(name, where[name], own) for name in failing])]
         found += [
             (method if number == 0 else "", line)
             for number, line in enumerate(broken(words, inches, POINTS))
@@ -184,8 +183,14 @@ def failing_lines(marks: list[Mark], regions: list[str], inches: float) -> list[
     return found
 
 
-def _told(region: str, dtypes: set[str], everything: set[str]) -> str:
-    return region if dtypes == everything else f"{region} ({', '.join(sorted(dtypes))})"
+def _told(region: str, failing: list[Mark], own: list[Mark]) -> str:
+    """Return a region, with the precisions that fail there if others hold."""
+    dtypes = {mark.dtype for mark in failing}
+    if len(failing) == len(own):
+        return region
+    if len(failing) == sum(mark.dtype in dtypes for mark in own):
+        return f"{region} ({', '.join(sorted(dtypes))})"
+    return f"{region} (in part)"
 
 
 def _listed(names: list[str]) -> list[str]:

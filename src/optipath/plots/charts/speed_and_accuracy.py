@@ -113,10 +113,9 @@ def _told(chart: Mapping[str, Any]) -> list[str]:
 
 def _notes(chart: Mapping[str, Any], kind: str, marks: list[Mark]) -> list[tuple[str, str]]:
     regions = dict.fromkeys(name for entry in chart["contenders"] for name in entry["errors"][kind])
+    count = "1 region" if len(regions) == 1 else f"{len(regions)} regions"
     lines = failing_lines(marks, list(regions), WIDTH / 2 - 2 * EDGE - 0.3)
-    return (
-        [("", f"Where methods fail, {kind}, of {len(regions)} regions:"), *lines] if lines else []
-    )
+    return [("", f"Where methods fail, {kind}, of {count}:"), *lines] if lines else []
 
 
 def _write(
