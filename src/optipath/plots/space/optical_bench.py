@@ -90,7 +90,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     rows = -(-len(flat.at) // _most(widest, _WIDTH, _POINTS))
     ax = own_axes(ax, (_WIDTH, _ROW * rows + 0.4 if flat.straight else _PLANE))
     ax.set_axis_off()
-    figure: Any = ax.get_figure(root=True)
+    figure: Any = ax.figure.figure
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.
     whole, inch = ax.get_window_extent(), figure.dpi
     size = _POINTS * float(np.clip(whole.width / inch / _WIDTH, 0.66, 1.1))
@@ -120,7 +120,7 @@ def _most(widest: int, inches: float, points: float) -> int:
 
 def _note(ax: Axes, scene: Scene, size: float) -> float:
     """Write at the lower edge what was chosen, and return how high that reaches in pixels."""
-    figure: Any = ax.get_figure(root=True)
+    figure: Any = ax.figure.figure
     whole = ax.get_window_extent()
     columns = int(whole.width / (0.52 * 0.85 * size * figure.dpi / 72.0))
     said = textwrap.fill("; ".join([_DIALS, *scene.notes]), max(columns, 20))

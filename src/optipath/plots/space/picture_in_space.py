@@ -79,7 +79,7 @@ def geometry(
     if ax.name == "3d":
         raise OptipathError("ax is axes in space; give plain Axes, into which space is projected")
     ax.set_axis_off()
-    figure: Any = ax.get_figure(root=True)
+    figure: Any = ax.figure.figure
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.
     whole, dots = ax.get_window_extent(), figure.dpi / 100.0
     size = 9.0 * float(np.clip(np.sqrt(whole.width * whole.height) / dots / _USUAL, 0.62, 1.1))
@@ -104,7 +104,7 @@ def _given_view(view: Any) -> View:
 
 def _write_below(ax: Axes, scene: Scene, size: float) -> float:
     """Write the key and the notes at the lower edge, and return how high they reach in pixels."""
-    figure: Any = ax.get_figure(root=True)
+    figure: Any = ax.figure.figure
     whole, dots = ax.get_window_extent(), figure.dpi / 72.0
     columns = int(whole.width / (0.5 * size * dots))
     notes = "\n".join(textwrap.wrap("; ".join(scene.notes), max(columns, 20)))

@@ -90,7 +90,7 @@ def place_labels(
 
 
 def _move(ax: Axes, text: Any, label: Label, offset: Array, half: Array) -> None:
-    scale = 72.0 / text.get_figure(root=True).dpi
+    scale = 72.0 / text.figure.figure.dpi
     text.set_position(tuple(offset * scale))
     text.set_anncoords("offset points")
     away = np.abs(offset) - half
