@@ -61,6 +61,7 @@ def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[st
     return {
         "x": axis.shown.tolist(),
         "x_label": heading(axis.name, axis.unit),
+        "unit": axis.unit,
         "at": _at(state, axis),
         "lines": lines,
     }
