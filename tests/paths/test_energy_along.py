@@ -140,8 +140,6 @@ def test_all_of_it_is_written_as_json():
 
 
 def test_a_power_that_is_not_a_number_is_null():
-    path = op.path_from_vertices(
-        [[0, -1, 1], [0, 0, 0], [0, 9, 1]], [1.5], events="T", bad="mask"
-    )
+    path = op.path_from_vertices([[0, -1, 1], [0, 0, 0], [0, 9, 1]], [1.5], events="T", bad="mask")
     written = json.dumps(energy_along(path).as_json(), allow_nan=False)
     assert None in [link["power"] for link in json.loads(written)["links"]]
