@@ -24,6 +24,13 @@ def test_a_map_has_malus_law_along_x_and_the_power_along_y():
     np.testing.assert_allclose(numbers, np.outer([0.5, 1.0, 2.0], law), atol=1e-12)
 
 
+def test_a_map_ends_at_the_first_and_the_last_value():
+    path = op.load_preset("absorbing-pile")
+    given = {"x_values": "0 deg:90 deg:10", "y_values": "1, 1.2, 3"}
+    ax = quantity_map(path, "theta", "n", **given)
+    assert (*ax.get_xlim(), *ax.get_ylim()) == pytest.approx((0.0, 90.0, 1.0, 3.0))
+
+
 def test_values_in_any_order_are_put_in_order():
     given = FEW | {"y_values": "2, 0.5, 1"}
     path = op.load_preset("malus")
