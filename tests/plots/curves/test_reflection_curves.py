@@ -75,11 +75,32 @@ def test_a_material_is_given_by_its_name_and_a_wavelength():
     assert "gold at 516 nm" in by_name.get_title()
 
 
+@pytest.mark.parametrize(
+    ("given", "title"),
+    [
+        ({"index": 1.0001}, "n = 1.0001 in n = 1"),
+        ({"index": 1.00001, "outside": 1.00002}, "n = 1.00001 in n = 1.00002"),
+        ({"index": "1.5", "outside": "1.33"}, "n = 1.5 in n = 1.33"),
+        ({"index": "0.2+3.4j"}, "n = 0.2 + 3.4i in n = 1"),
+    ],
+)
+def test_the_title_has_numbers_that_differ_and_no_number_for_a_name(given, title):
+    assert reflection(**given).get_title() == f"reflection: {title}"
+
+
+def test_a_formula_that_holds_at_any_wavelength_is_taken_at_one():
+    # n = 1.5 + 0.004 / 0.5^2, in micrometres.
+    ax = reflection(op.Material.cauchy([1.5, 0.004]), wavelength="500 nm")
+    assert ax.get_title() == "reflection: n = 1.516 in n = 1"
+    with pytest.raises(OptipathError, match="depends on the wavelength; give one"):
+        reflection(op.Material.cauchy([1.5, 0.004]))
+
+
 @pytest.mark.parametrize("size", [(6.4, 4.4), (3.2, 2.2)])
 @pytest.mark.parametrize(
     "given",
     [
-        {"index": 1.0, "outside": 1.5},
+        {"index": 1.00000001, "outside": 1.00000002},
         {"index": "gold", "outside": "water", "wavelength": "516 nm"},
     ],
 )
@@ -102,6 +123,12 @@ def test_no_text_is_over_another_or_cut_at_either_size(given, size):
         ({"index": None}, "index"),
         ({"index": "gold", "wavelength": 516.0}, "wavelength"),
         ({"index": "gold", "wavelength": ["500 nm", "600 nm"]}, "a picture is of one"),
+        ({"index": "gold", "wavelength": [500e-9]}, "a picture is of one"),
+        ({"index": 0.0}, "index is 0, which is that of no medium"),
+        (
+            {"index": "gold", "wavelength": "1e-9 m"},
+            "'gold' is not known at 1 nm; give a wavelength within 187.9 nm .. 1937 nm$",
+        ),
     ],
 )
 def test_what_is_wrong_is_told(given, told):
