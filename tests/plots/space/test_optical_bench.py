@@ -5,6 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 import optipath as op
+from optipath.plots.line_colours import FAINT
 from optipath.plots.space.bench_symbols import DIAL, ELLIPSE
 from pictures import faults_of
 
@@ -55,6 +56,15 @@ def test_dark_light_has_no_dial():
     assert len(dark) == 1
 
 
+def test_light_that_is_rounding_has_no_dial_and_no_star():
+    dark, lit = (
+        op.plots.bench(op.load_preset("senarmont"), analyzer=angle)
+        for angle in ("120 deg", "100 deg")
+    )
+    assert len(dials_of(lit)) - len(dials_of(dark)) == 1
+    assert len(dials_of(lit, FAINT)) == len(dials_of(dark, FAINT)) == 3
+
+
 def test_long_straight_benches_take_rows():
     ax = op.plots.bench(op.load_preset("lyot-filter"))
     below = [text for text in ax.texts if text.get_transform() == ax.transData]
@@ -72,6 +82,24 @@ def test_the_assignment_in_one_plane_is_drawn():
     assert {"X1\ndelta = 53 deg", "X2\nphi = 56 deg"} <= {
         "\n".join(text.split("\n")[:2]) for text in texts_in(ax)
     }
+
+
+@pytest.mark.parametrize(
+    ("preset", "name", "sine"),
+    [
+        ("coated-metal", "metal", np.sin(np.radians(40.0)) / 1.5),
+        ("glass-slab", "back", np.sin(np.radians(40.0)) / 1.5),
+        ("prism-refraction", "front", 1.5 * 0.5),
+    ],
+)
+def test_the_angle_that_is_told_of_a_face_is_that_at_which_light_meets_it(preset, name, sine):
+    texts = texts_in(op.plots.bench(op.load_preset(preset)))
+    assert f"{name}\nincidence = {np.degrees(np.arcsin(sine)):.5g} deg" in texts
+
+
+def test_no_angle_is_told_with_the_sign_of_nothing():
+    texts = texts_in(op.plots.bench(op.load_preset("npgr026", case="1")))
+    assert "X1\ndelta = 53 deg\nazimuth -rho = 0 deg" in texts
 
 
 def test_given_axes_are_drawn_into_and_returned():

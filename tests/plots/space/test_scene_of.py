@@ -251,6 +251,21 @@ def test_an_element_that_is_left_out_has_no_arc():
     assert found.arc.shape == (0, 3)
 
 
+def test_an_element_that_is_left_out_on_the_way_back_has_no_sign():
+    texts = [angle.text for angle in scene_of(op.load_preset("npgr026").reversed()).angles]
+    assert "filter = none" in texts
+    assert not any(text.startswith("-") for text in texts)
+
+
+@pytest.mark.parametrize(
+    "given", [{"default": "10 arcsec"}, {"default": "10 arcsec", "unit": "arcsec"}]
+)
+def test_small_angles_are_told_in_the_unit_of_their_parameter(given):
+    tilt = op.Parameter("tilt", **given)
+    path = op.Source() >> op.Polarizer(tilt) >> op.Detector()
+    assert [angle.text for angle in scene_of(path).angles] == ["tilt = 10 arcsec"]
+
+
 def test_ellipses_lie_across_the_ray_and_are_as_large_as_the_light_is_polarised():
     scene = scene_of(op.load_preset("npgr026", case="8"))
     rays = by_name(scene.rays)

@@ -13,7 +13,7 @@ from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.plots.space.fixed_places import incidence_at
 from optipath.plots.space.posture import angles_at
 from optipath.plots.space.scene import SceneAngle
-from optipath.plots.space.told_values import ToldAngle, number, told_angle
+from optipath.plots.space.told_values import ToldAngle, number, told_angle, told_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -66,22 +66,20 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
     """Yield the angle between the light that arrives and the normal, or that is given behind."""
     posture, at = placing.postures[name], placing.at[name]
     normal: Any = posture.normal
-    front, told = incidence_at(element, posture), ToldAngle("", 0.0)
+    front = incidence_at(element, posture)
+    value: Any = front
     if not isinstance(element, ChainVertex):
-        told = told_angle(element.incidence)
-        value = number(element.incidence)
+        value = element.incidence
         _, behind = angles_at(element)
-        if abs(value - front) > 1e-9 and abs(value - behind) < 1e-9 and told.name:
-            out = posture.axes["transmitted"][:, 2]
-            yield _arc(told, at, -normal, out, behind, _AT_SURFACE * placing.unit)
-        if abs(value - front) > 1e-9:
-            told = ToldAngle("", 0.0)
+        if isinstance(value, Parameter) and abs(number(value) - front) > 1e-9:
+            if abs(number(value) - behind) < 1e-9:
+                out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
+                yield _arc(told_angle(value), at, -normal, out, behind, size)
     elif isinstance(element.vertices, VerticesByAngles):
         chain = element.vertices
         order = chain.incidences[::-1] if chain.backwards else chain.incidences
-        told = told_angle(order[int(element.place) - 1])
-    if not told.name:
-        told = ToldAngle("incidence", front)
+        value = order[int(element.place) - 1]
+    told = told_incidence(value, front)
     arriving = -posture.axes["in"][:, 2]
     yield _arc(told, at, normal, arriving, front, _AT_SURFACE * placing.unit)
 

@@ -14,9 +14,13 @@ from optipath.errors import PathError
 from optipath.paths.lights_along import lights_along
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
+from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
     from optipath.paths.path_graph import PathGraph
+
+_SAME_ANGLE = 1e-9
+"""By how much angles differ that are the same but for rounding, in radians."""
 
 
 class ToldAngle(NamedTuple):
@@ -30,16 +34,25 @@ class ToldAngle(NamedTuple):
         In radians: the value of the parameter, or of its multiple if that has a name.
     there : bool
         Whether its element is in the path.
+    unit : str
+        That of its parameter, or degrees.
     """
 
     name: str
     angle: float
     there: bool = True
+    unit: str = "deg"
 
     @property
     def text(self) -> str:
-        """The name and the value in degrees."""
-        value = f"{round(np.degrees(self.angle), 2) + 0.0:g} deg" if self.there else "none"
+        """The name, and the value in its unit.
+
+        Examples
+        --------
+        >>> ToldAngle("tilt", np.pi / 1080.0, unit="arcmin").text
+        'tilt = 10 arcmin'
+        """
+        value = quantity_text(self.angle, self.unit) if self.there else "none"
         return f"{self.name} = {value}" if self.name else value
 
 
@@ -85,6 +98,28 @@ def number(value: Any) -> float:
     return float(Operand(value).numbers())
 
 
+def quantity_text(value: float, unit: str) -> str:
+    """Return a value as pictures write it: five digits, and the unit.
+
+    Parameters
+    ----------
+    value : float
+        In radians, metres, and what is made of them.
+    unit : str
+        In which it is written; empty of pure numbers.
+
+    Returns
+    -------
+    str
+
+    Examples
+    --------
+    >>> quantity_text(-0.0, "deg"), quantity_text(1.164278e-3, "um")
+    ('0 deg', '1164.3 um')
+    """
+    return f"{in_unit(value, unit) + 0.0:.5g} {unit}".strip()
+
+
 def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
     """Return an angle by the name of its parameter, or the formula that stands for a multiple.
 
@@ -102,7 +137,29 @@ def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
     """
     if not isinstance(value, Parameter):
         return ToldAngle("", number(value))
-    there = bool(Operand(value, "present").numbers())
+    unit = value.unit or "deg"
+    if not bool(Operand(value, "present").numbers()):
+        return ToldAngle(value.name, 0.0, False, unit)
     if value.is_signed and not (signed and value.is_negative):
-        return ToldAngle(value.name, number(value.alone()) if there else 0.0, there)
-    return ToldAngle(value.formula, number(value), there)
+        return ToldAngle(value.name, number(value.alone()), True, unit)
+    return ToldAngle(value.formula, number(value), True, unit)
+
+
+def told_incidence(value: Any, front: float) -> ToldAngle:
+    """Return the angle at which light meets a surface, by its name if it is what is given.
+
+    Parameters
+    ----------
+    value : float or Parameter
+        What the surface is given, in radians: the angle in front of it, or another one.
+    front : float
+        The angle in front of it.
+
+    Returns
+    -------
+    ToldAngle
+    """
+    told = told_angle(value)
+    if told.name and abs(number(value) - front) <= _SAME_ANGLE:
+        return told
+    return ToldAngle("incidence", front if front > _SAME_ANGLE else 0.0)
