@@ -209,6 +209,7 @@ def _ray(ray: SceneRay) -> dict[str, Any]:
         "intensity": _number(ray.light.intensity),
         "dop": _number(ray.light.dop),
         "leaves": ray.leaves,
+        "tap": ray.tap,
     }
 
 
