@@ -70,7 +70,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     PathError
         If light leaves the plane, or the values are those of several paths.
     OptipathError
-        If `ax` is none.
+        If `ax` is none, or what is given is no path.
 
     Examples
     --------

@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 _AT_SURFACE, _ABOUT_RAY, _ON_PLATE = 0.32, 0.3, 0.3
 """How large arcs are, of the length of a link."""
 
+_SEEN = np.radians(1.0)
+"""The least angle that is seen as one."""
+
 _OF_AXES = "angle", "dichroic_angle"
 """The fields of elements that say how an axis stands to x, or by how much light is turned."""
 
@@ -71,10 +74,10 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
     if not isinstance(element, ChainVertex):
         value = element.incidence
         _, behind = angles_at(element)
-        if isinstance(value, Parameter) and abs(number(value) - front) > 1e-9:
-            if abs(number(value) - behind) < 1e-9:
-                out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
-                yield _arc(told_angle(value), at, -normal, out, behind, size)
+        given = number(value) if isinstance(value, Parameter) else front
+        if abs(given - front) > 1e-9 and abs(given - behind) < 1e-9:
+            out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
+            yield _arc(told_angle(value), at, -normal, out, behind, size)
     elif isinstance(element.vertices, VerticesByAngles):
         chain = element.vertices
         order = chain.incidences[::-1] if chain.backwards else chain.incidences
@@ -114,7 +117,7 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
             told = told_angle(value)
             angle = number(value) if told.there else 0.0
             found = _turn(told, placing.at[name], (x, y), angle, size, "axis")
-            yield found if told.there else found._replace(arc=found.arc[:0])
+            yield found if told.there else found._replace(arc=found.arc[:0], at=placing.at[name])
             size *= 1.25
 
 
@@ -135,5 +138,7 @@ def _turn(
     first, second = sides
     steps = np.linspace(0.0, angle, 2 + int(abs(angle) / 0.08))[:, np.newaxis]
     arc = at + size * (np.cos(steps) * first + np.sin(steps) * second)
-    middle = at + size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
+    # An angle that is not seen has its name where it would open.
+    reach = size if abs(angle) > _SEEN else 0.0
+    middle = at + reach * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
     return SceneAngle(told.name, told.text, arc, middle, at, about)

@@ -10,7 +10,7 @@ import numpy as np
 from optipath.composer.followed_values import with_followed
 from optipath.composer.path_values import Values
 from optipath.composer.wiring import Wiring
-from optipath.errors import PathError
+from optipath.errors import OptipathError, PathError, shown
 from optipath.paths.lights_along import lights_along
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
@@ -70,11 +70,17 @@ class ToldPath:
 
     Raises
     ------
+    OptipathError
+        If what is given is no path.
     ParameterError, PathError
-        If the path cannot be traced, or stands for several paths.
+        If the path cannot be traced, stands for several paths, or lets light go a way that there
+        is not.
     """
 
     def __init__(self, path: PathGraph, what: str, values: dict[str, Any]) -> None:
+        # What keeps the light of a path stands for it as well.
+        if not hasattr(path, "graph"):
+            raise OptipathError(f"{what} draws a path, not {shown(path)}; give a PathGraph")
         self.lights = lights_along(path, **values)
         parameters = path.parameters.items()
         defaults = {n: p.default for n, p in parameters if not p.bound and p.default is not None}
@@ -84,6 +90,12 @@ class ToldPath:
         several = [f"{name} has the shape {shape}" for name, shape in shapes.items() if shape]
         if several:
             raise PathError(f"{what} draws one path, but {several[0]}; give single values")
+        unknown = [each.name for each in self.lights if not np.isfinite(each.light.stokes).all()]
+        if unknown:
+            raise PathError(
+                f"{what} draws ways that light can go, but on '{unknown[0]}' the light is not a "
+                "number; give values that there are"
+            )
         self.wiring = Wiring(with_followed(graph)[0], keep="all")
 
     @cached_property
@@ -139,10 +151,10 @@ def told_angle(value: Any, *, signed: bool = True) -> ToldAngle:
         return ToldAngle("", number(value))
     unit = value.unit or "deg"
     if not bool(Operand(value, "present").numbers()):
-        return ToldAngle(value.name, 0.0, False, unit)
+        return ToldAngle(value.name, 0.0, there=False, unit=unit)
     if value.is_signed and not (signed and value.is_negative):
-        return ToldAngle(value.name, number(value.alone()), True, unit)
-    return ToldAngle(value.formula, number(value), True, unit)
+        return ToldAngle(value.name, number(value.alone()), unit=unit)
+    return ToldAngle(value.formula, number(value), unit=unit)
 
 
 def told_incidence(value: Any, front: float) -> ToldAngle:
