@@ -9,7 +9,8 @@ from optipath.plots.line_colours import FAINT
 from optipath.plots.space.bench_symbols import DIAL, ELLIPSE
 from pictures import faults_of
 
-PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "double-pass-waveplate"]
+PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "coated-metal"]
+PLANE += ["double-pass-waveplate", "faraday-isolator", "fresnel-rhomb", "pile-of-plates"]
 
 
 def texts_in(ax):
@@ -23,12 +24,20 @@ def dials_of(ax, colour=ELLIPSE):
     return [(p - (p.min(axis=0) + p.max(axis=0)) / 2) / DIAL / 0.92 for p in points]
 
 
+def over_symbols(ax):
+    """The texts that touch what is drawn."""
+    shapes = [each.get_path().transformed(each.get_transform()) for each in ax.patches]
+    boxes = [(t.get_text(), t.get_window_extent()) for t in ax.texts if t.get_text()]
+    return [text for text, box in boxes for shape in shapes if shape.intersects_bbox(box)]
+
+
 @pytest.mark.parametrize("preset", PLANE)
 @pytest.mark.parametrize("size", [(9.0, 5.4), (4.5, 2.7)])
-def test_no_name_is_over_another_or_cut(preset, size):
+def test_no_name_is_over_another_or_a_symbol_or_cut(preset, size):
     figure = Figure(figsize=size, layout="constrained")
     op.plots.bench(op.load_preset(preset), figure.add_subplot())
     assert faults_of(figure) == []
+    assert over_symbols(figure.axes[0]) == []
 
 
 def test_names_and_values_stand_below_their_symbols():
@@ -49,6 +58,28 @@ def test_what_a_link_turns_is_turned_in_the_dial_of_the_plate():
     (axis,) = dials_of(ax, "#222222")
     way = axis[1] - axis[0]
     assert abs(np.degrees(np.arctan2(way[1], way[0])) % 180.0 - 135.0) < 1e-6
+
+
+def round_about(head, middle):
+    """To which side a head goes round a middle: 1 is counter-clockwise."""
+    tip, *foot = head.get_xy()[:3]
+    way = tip - np.mean(foot, axis=0)
+    out = np.mean(foot, axis=0) - middle
+    return np.sign(out[0] * way[1] - out[1] * way[0])
+
+
+@pytest.mark.parametrize("s3", [1.0, -1.0])
+@pytest.mark.parametrize("tilt", [0.0, 0.3])
+def test_heads_in_dials_turn_as_the_field_does_to_who_looks_at_the_source(s3, tilt):
+    light = op.Source(stokes=[1.0, np.sin(tilt), 0.0, s3 * np.cos(tilt)])
+    ax = op.plots.bench(light >> op.Detector())
+    (head,) = [patch for patch in ax.patches if patch.get_gid() == "turn"]
+    assert round_about(head, np.array([0.5, 0.0])) == s3
+
+
+def test_light_that_is_linear_has_no_head_that_turns():
+    ax = op.plots.bench(op.load_preset("malus"))
+    assert [patch for patch in ax.patches if patch.get_gid() == "turn"] == []
 
 
 def test_dark_light_has_no_dial():

@@ -15,11 +15,12 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
 
     Array = npt.NDArray[np.float64]
 
 _DIRECTIONS = np.radians(np.arange(0.0, 360.0, 22.5))
-_STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5
+_STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5, 12.5
 """How far from what they name texts are tried, in heights of a line."""
 
 
@@ -45,7 +46,7 @@ class Label(NamedTuple):
 
 
 def place_labels(
-    ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Array] = ()
+    ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Patch] = ()
 ) -> None:
     """Write each text near what it names, over no other text and over few lines.
 
@@ -59,11 +60,11 @@ def place_labels(
         What should not be covered, in data.
     within : Bbox
         What texts must not leave, in pixels.
-    solids : sequence of ndarray of shape (points, 2), optional
-        What texts should not even touch, in data.
+    solids : sequence of Patch, optional
+        What is drawn and no text should touch.
     """
-    shapes = [ax.transData.transform(solid) for solid in solids]
-    filled = [Bbox([shape.min(axis=0), shape.max(axis=0)]) for shape in shapes]
+    shapes = [solid.get_path().transformed(solid.get_transform()) for solid in solids]
+    filled = [(shape, shape.get_extents()) for shape in shapes]
     crowd = [_dense(ax.transData.transform(line)) for line in lines if len(line)]
     drawn = np.concatenate(crowd) if crowd else np.zeros((0, 2))
     anchors = ax.transData.transform(np.array([label.at for label in labels]).reshape(-1, 2))
@@ -103,13 +104,13 @@ def _move(ax: Axes, text: Any, label: Label, offset: Array, half: Array) -> None
             tuple(near * scale),
             textcoords="offset points",
             annotation_clip=False,
-            zorder=9,
+            zorder=3.5,
             arrowprops={"arrowstyle": "-", "lw": 0.6, "color": FAINT, "shrinkA": 0, "shrinkB": 2},
         )
 
 
 def _best(
-    anchor: Array, half: Array, drawn: Array, boxes: tuple[list[Bbox], list[Bbox]], within: Bbox
+    anchor: Array, half: Array, drawn: Array, boxes: tuple[list[Bbox], list[Any]], within: Bbox
 ) -> Array:
     """Return the offset at which a text of so many pixels covers least."""
     found: list[tuple[float, tuple[float, float]]] = []
@@ -125,8 +126,9 @@ def _best(
             cost = 1.3 * step + 0.4 * (way[0] < 0.0) + 0.2 * (way[1] < 0.0)
             cost += 1e6 * _outside(box, within)
             cost += 1e4 * sum(box.padded(1.0).overlaps(other) for other in taken)
-            cost += 20.0 * sum(box.overlaps(other) for other in filled)
             around = box.padded(2.0)
+            near = [shape for shape, extent in filled if around.overlaps(extent)]
+            cost += 1e3 * sum(shape.intersects_bbox(around) for shape in near)
             covered = (
                 (drawn[:, 0] > around.x0)
                 & (drawn[:, 0] < around.x1)
