@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 
 import optipath as op
 from optipath.plots.line_colours import FAINT
@@ -26,7 +27,8 @@ def dials_of(ax, colour=ELLIPSE):
 
 def over_symbols(ax):
     """The texts that touch what is drawn."""
-    shapes = [each.get_path().transformed(each.get_transform()) for each in ax.patches]
+    drawn = [each.get_path().transformed(each.get_transform()) for each in ax.patches]
+    shapes = [Path(points) for each in drawn for points in each.to_polygons()]
     boxes = [(t.get_text(), t.get_window_extent()) for t in ax.texts if t.get_text()]
     return [text for text, box in boxes for shape in shapes if shape.intersects_bbox(box)]
 

@@ -99,6 +99,8 @@ def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> 
 
 
 def _lamp(ax: Axes, at: Array) -> None:
+    # No name stands between its rays.
+    ax.add_patch(Circle(tuple(at), 0.19, fc="none", ec="none"))
     for angle in np.arange(0.0, 2.0 * np.pi, np.pi / 4.0):
         way = np.array([np.cos(angle), np.sin(angle)])
         ax.plot(*np.array([at + 0.13 * way, at + 0.19 * way]).T, color=INK, lw=1.0, zorder=5)
