@@ -64,7 +64,7 @@ def geometry(
     PathError
         If the values are those of several paths.
     OptipathError
-        If `ax` or `view` is none.
+        If `ax` or `view` is none, or what is given is no path.
 
     Examples
     --------
