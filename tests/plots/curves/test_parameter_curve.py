@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 import optipath as op
 from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve
+from optipath.plots.curves.drawn_quantity import drawn_quantities
 from pictures import faults_of, texts_of
 
 WAVEPLATE = (
@@ -50,7 +51,7 @@ def test_photon_energies_stand_along_the_axis_and_the_default_among_them():
 
 
 def test_names_are_read_in_small_letters():
-    assert [*lines(curve(op.load_preset("malus"), "angle", ("s0", "dolp")))] == ["S0", "DoLP"]
+    assert [each.name for each in drawn_quantities(("s0", "dolp"))] == ["S0", "DoLP"]
 
 
 def test_quantities_of_two_units_have_two_axes():
@@ -145,10 +146,14 @@ def test_the_curve_is_open_where_the_path_refuses_values_that_nobody_gave():
         curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
-@pytest.mark.parametrize("size", [(6.4, 4.2), (3.2, 2.1)])
 @pytest.mark.parametrize(
-    ("preset", "x"),
-    [("npgr026", "rho"), ("lyot-depolarizer", "wavelength"), ("dichroic-sheet", "retardance")],
+    ("preset", "x", "size"),
+    [
+        ("npgr026", "rho", (6.4, 4.2)),
+        ("npgr026", "rho", (3.2, 2.1)),
+        ("lyot-depolarizer", "wavelength", (3.2, 2.1)),
+        ("dichroic-sheet", "retardance", (3.2, 2.1)),
+    ],
 )
 def test_no_text_is_over_another_or_cut_at_either_size(preset, x, size):
     figure = Figure(figsize=size, layout="constrained")

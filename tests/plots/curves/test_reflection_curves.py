@@ -19,11 +19,15 @@ def curves(ax):
     return {line.get_label(): line.get_xydata() for line in ax.get_lines()}
 
 
-def test_glass_reflects_four_per_cent_upright_and_all_of_it_at_grazing_incidence():
-    found = curves(reflection(1.5))
+@pytest.fixture(scope="module")
+def glass():
+    return curves(reflection(1.5))
+
+
+def test_glass_reflects_four_per_cent_upright_and_all_of_it_at_grazing_incidence(glass):
     for name in ("$R_s$", "$R_p$", "$R$ unpolarised"):
-        assert found[name][0].tolist() == pytest.approx([0.0, 0.04])
-        assert found[name][-1].tolist() == pytest.approx([90.0, 1.0])
+        assert glass[name][0].tolist() == pytest.approx([0.0, 0.04])
+        assert glass[name][-1].tolist() == pytest.approx([90.0, 1.0])
 
 
 def test_curves_are_those_of_the_amplitudes():
@@ -34,9 +38,9 @@ def test_curves_are_those_of_the_amplitudes():
     np.testing.assert_allclose(found["$R_p$"][:, 1], np.abs(r_p) ** 2, atol=1e-12)
 
 
-def test_brewsters_angle_of_glass_is_marked_with_its_value():
+def test_brewsters_angle_of_glass_is_marked_with_its_value(glass):
     assert marks(1.5) == {"Brewster's angle": pytest.approx(56.3099, abs=1e-4)}
-    assert "Brewster's angle 56.31°" in curves(reflection(1.5))
+    assert "Brewster's angle 56.31°" in glass
     assert reflected(1.5, np.arctan(1.5)).dolp == pytest.approx(1.0)
 
 
@@ -78,10 +82,8 @@ def test_a_material_is_given_by_its_name_and_a_wavelength():
 @pytest.mark.parametrize(
     ("given", "title"),
     [
-        ({"index": 1.0001}, "n = 1.0001 in n = 1"),
         ({"index": 1.00001, "outside": 1.00002}, "n = 1.00001 in n = 1.00002"),
-        ({"index": "1.5", "outside": "1.33"}, "n = 1.5 in n = 1.33"),
-        ({"index": "0.2+3.4j"}, "n = 0.2 + 3.4i in n = 1"),
+        ({"index": "0.2+3.4j", "outside": "1.33"}, "n = 0.2 + 3.4i in n = 1.33"),
     ],
 )
 def test_the_title_has_numbers_that_differ_and_no_number_for_a_name(given, title):
@@ -118,7 +120,6 @@ def test_no_text_is_over_another_or_cut_at_either_size(given, size):
         ({"index": 1.5, "outside": 1.5}, "are both 1.5, and nothing is reflected"),
         ({"index": 1.5, "outside": 1.0 + 1.0j}, "give the index of a clear medium"),
         ({"index": np.array([1.5, 1.6])}, "a picture is of one index"),
-        ({"index": "unobtainium"}, "unobtainium"),
         ({"index": -1.0}, "index"),
         ({"index": None}, "index"),
         ({"index": "gold", "wavelength": 516.0}, "wavelength"),

@@ -118,8 +118,8 @@ def _draw(
 
 def _is_alone(values: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
     """Return which points have none beside them that a line would lead to."""
-    open_ = np.pad(np.isnan(values), 1, constant_values=True)
-    return np.logical_and(open_[:-2], open_[2:])
+    gaps: npt.NDArray[np.bool_] = np.pad(np.isnan(values), 1, constant_values=True)
+    return gaps[:-2] & gaps[2:]
 
 
 def _limit(ax: Axes, members: Sequence[Drawn]) -> None:
