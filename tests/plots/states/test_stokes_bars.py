@@ -140,6 +140,21 @@ def test_dark_light_has_no_power_of_ten():
     assert faults_of(ax.figure) == []
 
 
+@pytest.mark.parametrize("stokes", [[0.0, 0.0, 0.0, 0.0], [NAN, NAN, NAN, NAN]])
+def test_axes_of_dark_light_go_from_0_to_1(stokes):
+    assert op.plots.stokes(op.Light(stokes)).get_ylim() == (0.0, 1.0)
+    lit = op.plots.stokes(op.Light(stokes), published=[4.0, 0.0, 0.0, 0.0])
+    assert lit.get_ylim()[1] > 4.0
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.5])
+def test_long_names_are_not_cut(scale):
+    lights = {"a": ROWS[0], "b" * 60: ROWS[1], "$x_2$": ROWS[2]}
+    ax = op.plots.stokes(lights, axes(5.6 * scale, 4.4 * scale))
+    assert faults_of(ax.figure) == []
+    assert [key.replace("\n", "") for key in keys_of(ax)] == [*lights]
+
+
 def test_a_light_has_the_name_that_it_is_given():
     ax = op.plots.stokes(ROWS[0], labels="eye")
     assert "eye" in {text.get_text() for text in texts_of(ax.figure)}

@@ -116,6 +116,8 @@ def stokes(
     ax.grid(visible=True, axis="y", alpha=0.3)
     ax.set_axisbelow(True)
     ax.margins(y=0.08)
+    if not any(np.nan_to_num(each).any() for each in (*numbers.values(), *printed.values())):
+        ax.set_ylim(0.0, 1.0)
     _tell_numbers(ax, numbers, printed)
     key_above(ax, keys)
     _fit_numbers(ax)
