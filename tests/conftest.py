@@ -2,7 +2,7 @@
 
 HYPOTHESIS_PROFILE=search pytest
 
-With HYPOTHESIS_PROFILE=few they are few, for whoever asks only whether all runs with other versions.
+With HYPOTHESIS_PROFILE=few they are few: whether all runs with other versions is told by few.
 """
 
 import os
