@@ -225,6 +225,13 @@ def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last, valu
     assert found | {"curve_faults": []} == alone
 
 
+def test_a_fault_on_a_curve_is_placed_by_the_value_there(answers):
+    asked = {"x": "dichroism", "from": "0", "to": "0.4", "count": 5, "y": ["S0"]}
+    found = trace(answers, "dichroic-sheet", curve=asked)
+    (fault,) = found["curve_faults"]
+    assert "(where dichroism is 0.2 1/um)" in fault["sentence"]
+
+
 def test_what_is_not_wanted_is_not_there(answers):
     found = trace(answers)
     assert [found[name] for name in ("scene", "energy", "explanation", "curve")] == [None] * 4
