@@ -106,7 +106,11 @@ def stokes(
     ax.set_ylabel(f"Stokes parameter\n({unit})")
     ax.grid(visible=True, axis="y", alpha=0.3)
     ax.set_axisbelow(True)
-    ax.margins(y=0.08)
+    if np.nan_to_num([*numbers.values(), *printed.values()]).any():
+        ax.margins(y=0.08)
+    else:
+        # Bars of no height say nothing of how high the axis is.
+        ax.set_ylim(0.0, 1.0)
     _tell_numbers(ax, numbers, printed)
     key_above(ax, keys)
     return ax
