@@ -23,6 +23,7 @@ from optipath.cli.console import say
 from optipath.cli.plain_progress import told_progress
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.text_files import check_place, read_text, told_of, write
+from optipath.cli.told_values import title_of
 from optipath.paths.presets.loader import preset_names
 from optipath.values.picture_files import check_form
 
@@ -51,7 +52,7 @@ def _chart(
     peers: Path | None,
 ) -> None:
     """Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it."""
-    path = chosen.path()
+    path, title = chosen.path(), title_of(chosen)
 
     def measure(tell: Tell, keep: Keep) -> Chart:
         # The extra 'chart'.
@@ -62,13 +63,13 @@ def _chart(
         from optipath.lab.accuracy.peer_times import check_race  # noqa: PLC0415
 
         if near:
-            return critical_chart(path, chosen.title, places_near(near), progress=tell, keep=keep)
+            return critical_chart(path, title, places_near(near), progress=tell, keep=keep)
         if peers is not None:
             check_race(read_text(peers), str(peers))
         effort = LITTLE if quick else FULL
         effort = effort._replace(engines=engines) if engines else effort
         click.echo(expected(effort), err=True)
-        return path_chart(path, chosen.title, effort, tell, keep)
+        return path_chart(path, title, effort, tell, keep)
 
     _measure_and_draw(measure, out, data, peers)
 

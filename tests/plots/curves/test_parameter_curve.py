@@ -205,6 +205,7 @@ def test_which_of_several_detectors_is_asked():
         ({"x": "angle", "y": ("S0", "s0")}, "give each of them once"),
         ({"x": "angle", "y": ()}, "quantities are"),
         ({"x": "angle", "values": 0.3}, "give two or more"),
+        ({"x": "angle", "values": "30 deg:30 deg:5"}, "values of 'angle' are 30 deg alone; give"),
         ({"x": "angle", "values": ["vertical", "10 deg"]}, "has the word 'vertical'"),
         ({"x": "angle", "values": "0 deg:90 deg:5", "intensity": [1.0, 2.0]}, "one value"),
         ({"x": "angle", "intensty": 1.0}, "'intensty' is unknown; did you mean 'intensity'"),

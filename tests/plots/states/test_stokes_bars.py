@@ -174,3 +174,15 @@ def test_a_light_has_the_name_that_it_is_given():
 def test_published_values_that_do_not_fit_are_told(light, published, told):
     with pytest.raises(op.OptipathError, match=told):
         op.plots.stokes(light, published=published)
+
+
+@pytest.mark.parametrize(
+    "light", [op.Light(np.zeros(4)), op.Light([0.0, NAN, NAN, NAN]), op.Light([NAN] * 4)]
+)
+def test_an_axis_without_bars_goes_from_0_to_1(light):
+    ax = op.plots.stokes(light)
+    assert ax.get_ylim() == (0.0, 1.0)
+    assert faults_of(ax.figure) == []
+    ax.figure.draw_without_rendering()
+    assert ax.yaxis.get_offset_text().get_text() == ""
+    assert op.plots.stokes(light, published=[2.0, 0.0, 0.0, 0.0]).get_ylim()[1] > 2.0

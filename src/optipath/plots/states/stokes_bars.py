@@ -117,6 +117,7 @@ def stokes(
     ax.set_axisbelow(True)
     ax.margins(y=0.08)
     if not any(np.nan_to_num(each).any() for each in (*numbers.values(), *printed.values())):
+        # Bars of no height say nothing of how high the axis is.
         ax.set_ylim(0.0, 1.0)
     _tell_numbers(ax, numbers, printed)
     key_above(ax, keys)
