@@ -92,7 +92,8 @@ def _order(wiring: Wiring) -> dict[Port, tuple[int, int]]:
     found = {}
     for name, port in travelled:
         own = place[name, port]
-        fed = [place.get((name, c.enters), own) for c in wiring.couplings[name] if c.leaves == port]
+        ways = [c.enters for c in wiring.couplings[name] if c.leaves == port]
+        fed = [place.get((name, enters), own) for enters in ways if enters is not None]
         # That which comes round in a loop comes in behind the port.
         found[name, port] = max([at for at in fed if at < own], default=own), own
     return found
