@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 from matplotlib.path import Path
+from matplotlib.transforms import Bbox
 
 import optipath as op
 from optipath.plots.line_colours import FAINT
@@ -40,6 +41,18 @@ def test_no_name_is_over_another_or_a_symbol_or_cut(preset, size):
     op.plots.bench(op.load_preset(preset), figure.add_subplot())
     assert faults_of(figure) == []
     assert over_symbols(figure.axes[0]) == []
+
+
+@pytest.mark.parametrize("preset", ["glass-slab", "coated-metal", "double-pass-waveplate"])
+def test_light_begins_and_ends_at_what_is_drawn(preset):
+    ax = op.plots.bench(op.load_preset(preset))
+    beams = [line for line in ax.lines if line.get_zorder() == 3.0 and line.get_color() != FAINT]
+    assert len(beams) >= 4
+    drawn = [each for each in ax.patches if each.get_zorder() >= 4.0]
+    shapes = [each.get_path().transformed(each.get_patch_transform()) for each in drawn]
+    for end in np.concatenate([line.get_xydata() for line in beams]):
+        around = Bbox([end - 0.02, end + 0.02])
+        assert any(shape.intersects_bbox(around) for shape in shapes), end
 
 
 def test_names_and_values_stand_below_their_symbols():

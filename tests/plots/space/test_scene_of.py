@@ -176,6 +176,30 @@ def test_light_that_a_mirror_sends_back_is_drawn_beside_its_way():
     assert any("beside the way it came" in note for note in scene.notes)
 
 
+@pytest.mark.parametrize("leaves", [("reflected", "transmitted"), ("transmitted", "reflected")])
+@pytest.mark.parametrize("splitter", [op.BeamSplitter, op.PolarizingBeamSplitter])
+def test_light_that_a_mirror_sends_back_keeps_away_from_detectors_and_other_light(leaves, splitter):
+    path = op.PathGraph()
+    path.add("lamp", op.Source()) >> path.add("cube", splitter())
+    for name, element in zip(
+        ("aside", "mirror", "eye"), (op.Detector(), op.Mirror(), op.Detector()), strict=True
+    ):
+        path.add(name, element)
+    for port in leaves:
+        path.connect(f"cube.{port}", {"reflected": "aside", "transmitted": "mirror"}[port])
+    path.connect("mirror", "eye")
+    scene = scene_of(path)
+    rays, nodes = by_name(scene.rays), by_name(scene.nodes)
+    back = rays.pop("mirror.reflected -> eye.in")
+    share = np.linspace(0.0, 1.0, 101)[:, np.newaxis]
+    beam = back.tail + share * (back.head - back.tail)
+    for ray in rays.values():
+        other = ray.tail + share * (ray.head - ray.tail)
+        assert np.linalg.norm(beam[:, np.newaxis] - other, axis=2).min() > 0.2, ray.name
+    for name in ("lamp", "cube", "aside"):
+        assert np.linalg.norm(beam - nodes[name].at, axis=1).min() > 0.2, name
+
+
 def test_an_angle_that_nobody_knows_is_said_to_be_schematic():
     scene = scene_of(op.load_preset("ellipsometer-rough"))
     assert scene.schematic

@@ -24,7 +24,7 @@ _DIRECTIONS = np.radians(np.arange(0.0, 360.0, 22.5))
 _STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5, 12.5
 """How far from what they name texts are tried, in heights of a line."""
 
-_COVERED = 1.0
+_COVERED = 0.5
 """What four pixels of a line cost that are covered."""
 
 _FREE = 3.0
@@ -138,14 +138,14 @@ def _best(
 
 
 def _tried(half: Array) -> tuple[Array, Array]:
-    """Return the offsets that are tried, and what they cost, which is least near and right."""
+    """Return the offsets that are tried, and what they cost, which is least near and above."""
     ways = np.stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)], axis=-1)
     # The edge of the text, and not its middle, is so far away.
     edges = np.sign(ways.round(9)) * half * np.minimum(abs(ways) * 1.3, 1.0)
     steps = np.array(_STEPS)[:, np.newaxis]
     offsets = 2.0 * half[1] * steps[..., np.newaxis] * ways + edges
     left, below = ways.T.round(9) < 0.0
-    cost = 1.3 * steps + 0.4 * left + 0.2 * below
+    cost = 1.3 * steps + 0.4 * left + 0.2 * below + 0.1 * abs(ways[:, 0])
     return offsets.reshape(-1, 2), cost.ravel()
 
 

@@ -34,6 +34,9 @@ _ASIDE = np.radians([40.0, -40.0, 75.0, -75.0])
 _BESIDE = 0.6
 """How far light that comes back along its way is drawn beside it."""
 
+_BACK, _ROOM = 3.0, 0.3
+"""How long the way back is on which there should be room, and how much, in lengths of a link."""
+
 _START = np.array([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 """The axes of the first source, a column each: light goes to the right, y is up."""
 
@@ -81,10 +84,11 @@ class Placing:
         self.at: dict[str, Array] = {}
         self.postures: dict[str, Posture] = {}
         self.links: dict[Link, DrawnLink] = {}
-        self.beside: dict[tuple[str, str], Array] = {}
         self.notes: dict[str, None] = {}
         self.unit = 1.0
         self.by_angles = True
+        self._returning: dict[tuple[str, str], tuple[Array, Array]] = {}
+        self._begins: dict[tuple[str, str], Array] = {}
         self._aside: dict[tuple[str, str], int] = {}
         self._legs = legs_beside_chains(self.wiring)
         self._taps = {*self.wiring.taps}
@@ -124,7 +128,8 @@ class Placing:
             forwards = [link for link in left if link[0] in self.at]
             backwards = [link for link in left if link[1] in self.at]
             if forwards:
-                link = forwards[0]
+                # What comes back goes where there is room, and so comes last.
+                link = min(forwards, key=lambda link: (link[0], link[2][0]) in self._returning)
                 self.links[link] = self._forwards(link)
             elif backwards:
                 link = backwards[0]
@@ -170,12 +175,7 @@ class Placing:
                 continue
             arriving, returning = posture.axes[enters], posture.axes[leaves]
             if np.linalg.norm(arriving[:, 2] + returning[:, 2]) < 1e-6:
-                away = _BESIDE * self.unit * arriving[:, 1]
-                taken = [end for link in self.links.values() for end in (link.tail, link.head)]
-                start = self.at[name] + away
-                if any(np.linalg.norm(start - end) < 0.1 * self.unit for end in taken):
-                    away = -away
-                self.beside[name, leaves] = away
+                self._returning[name, leaves] = arriving[:, 1], returning[:, 2]
                 self.note(f"light that '{name}' sends back is drawn beside the way it came")
 
     def tail_of(self, name: str, port: str) -> Array:
@@ -190,7 +190,25 @@ class Placing:
         -------
         ndarray of shape (3,)
         """
-        return np.asarray(self.at[name] + self.beside.get((name, port), 0.0))
+        if (name, port) not in self._returning:
+            return self.at[name]
+        if (name, port) not in self._begins:
+            aside, way = self._returning[name, port]
+            sides = [self.at[name] + _BESIDE * self.unit * each for each in (aside, -aside)]
+            free = [self._free(side, way) for side in sides]
+            # To where y is, unless another beam or element is there.
+            other = free[0] < _ROOM and free[1] > free[0]
+            self._begins[name, port] = sides[int(other)]
+        return self._begins[name, port]
+
+    def _free(self, start: Array, way: Array) -> float:
+        """Return how far a beam keeps from what is placed, in lengths of a link."""
+        beam = start + np.linspace(0.0, _BACK * self.unit, 31)[:, np.newaxis] * way
+        share = np.linspace(0.0, 1.0, 11)[:, np.newaxis]
+        lines = [link.tail + share * (link.head - link.tail) for link in self.links.values()]
+        taken = np.concatenate([*lines, np.array([*self.at.values()])])
+        distances = np.linalg.norm(beam[:, np.newaxis] - taken, axis=2)
+        return float(distances.min()) / self.unit
 
     def axes_entering(self, link: Link) -> Array:
         """Return the axes in which the light of a link enters, a column each."""
