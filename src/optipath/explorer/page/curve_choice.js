@@ -2,6 +2,11 @@
 
 import { by, chip, element, option } from "./dom.js";
 import { takesPart } from "./state.js";
+import { plainText } from "./units.js";
+
+/** How many points a curve has while something is moved, and at rest. */
+const COARSE = 361;
+export const FINE = 2001;
 
 const field = (words, made) => element("label", { className: "named" }, `${words} `, made);
 
@@ -25,8 +30,8 @@ export class CurveChoice {
       "aria-describedby": "curve-fault",
     });
     this.x.addEventListener("change", () => change({ x: this.x.value, from: "", to: "" }, null));
-    this.from.addEventListener("change", () => change({ from: this.from.value.trim() }, null));
-    this.to.addEventListener("change", () => change({ to: this.to.value.trim() }, null));
+    this.from.addEventListener("change", () => change({ from: plainText(this.from.value) }, null));
+    this.to.addEventListener("change", () => change({ to: plainText(this.to.value) }, null));
     by("curve-range").replaceChildren(
       field("against", this.x),
       field("from", this.from),
@@ -48,7 +53,7 @@ export class CurveChoice {
   }
 
   /** The curve to ask for, with what is left open filled in; null where there is none. */
-  asked(state) {
+  asked(state, count = COARSE) {
     const { x, from, to, y } = state.curve;
     const having = this.able.filter((each) => takesPart(each, state, this.about));
     const first = having.find((each) => each.name === "wavelength") ?? having[0];
@@ -56,7 +61,7 @@ export class CurveChoice {
     const parameter = this.able.find((each) => each.name === name);
     if (name === undefined || y.length === 0) return null;
     const [low, high] = parameter?.slider ?? [0, 1];
-    return { x: name, from: from || String(low), to: to || String(high), count: 361, y };
+    return { x: name, from: from || String(low), to: to || String(high), count, y };
   }
 
   /** @param {object} state */

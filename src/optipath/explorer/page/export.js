@@ -1,6 +1,5 @@
 /** Pictures and texts to take along. */
 
-import { post } from "./api.js";
 import { by, chip, element } from "./dom.js";
 
 const LOOKS = [
@@ -109,20 +108,23 @@ const FORMS = { python: "Python", csv: "CSV", toml: "TOML" };
 
 /** The texts: shown, copied, downloaded. */
 export class Texts {
-  /** @param {() => object|null} question what is asked of the server, null where nothing is open */
-  constructor(question) {
-    this.question = question;
+  /** @param {(form: string) => Promise<object>|null} ask null where nothing is open */
+  constructor(ask) {
+    this.ask = ask;
     this.form = "python";
     this.answer = null;
+    this.asked = 0;
     this.chips = Object.entries(FORMS).map(([form, words]) =>
       chip(words, form === this.form, () => this.choose(form)),
     );
     by("export-forms").replaceChildren(...this.chips);
-    by("export-copy").addEventListener("click", () =>
-      copy(this.answer?.text ?? "", by("export-said")),
-    );
-    by("export-save").addEventListener("click", () => {
-      if (this.answer) save(this.answer.name, new Blob([this.answer.text], { type: "text/plain" }));
+    by("export-copy").addEventListener("click", async () => {
+      const answer = await this.newest();
+      if (answer) copy(answer.text, by("export-said"));
+    });
+    by("export-save").addEventListener("click", async () => {
+      const answer = await this.newest();
+      if (answer) save(answer.name, new Blob([answer.text], { type: "text/plain" }));
     });
   }
 
@@ -134,14 +136,27 @@ export class Texts {
     return this.refresh();
   }
 
+  /** What is shown is that of a state before. */
+  age() {
+    this.asked += 1;
+    this.old = true;
+    by("export-text").classList.add("old");
+  }
+
+  async newest() {
+    if (this.old) await this.refresh();
+    return this.old ? null : this.answer;
+  }
+
   async refresh() {
-    const question = this.question();
-    if (question === null) return;
-    const form = this.form;
-    const answer = await post("export", { ...question, form });
-    if (form !== this.form) return;
+    this.asked += 1;
+    const { asked } = this;
+    const answer = await this.ask(this.form);
+    if (answer === null || asked !== this.asked) return;
     const faults = answer.faults ?? [];
     this.answer = faults.length > 0 ? null : answer;
+    this.old = false;
+    by("export-text").classList.remove("old");
     by("export-text").textContent =
       faults.length > 0 ? faults.map((each) => each.sentence).join("\n") : answer.text;
     for (const id of ["export-copy", "export-save"]) by(id).disabled = this.answer === null;

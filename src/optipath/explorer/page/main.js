@@ -1,8 +1,9 @@
 /** The page: what is set goes to the library, and what comes back is drawn. */
 
-import { get, newest, post } from "./api.js";
+import { get, newest } from "./api.js";
+import { askDefaults, askLight, askPath, askPictures, askText, keyOf } from "./asking.js";
 import { Controls } from "./controls.js";
-import { CurveChoice } from "./curve_choice.js";
+import { CurveChoice, FINE } from "./curve_choice.js";
 import { by, debounced, option, say } from "./dom.js";
 import { Texts, addSaving } from "./export.js";
 import { listen } from "./listen.js";
@@ -14,53 +15,33 @@ import { typeset } from "./units.js";
 /** What is open: the description of the preset, its controls, the history. */
 const open = { about: null, key: null, controls: null, curve: null, history: null, answer: null };
 const pictures = new Pictures(turned);
-const texts = new Texts(() => (open.about === null ? null : question(open.history.now)));
+const texts = new Texts((form) => {
+  const { now } = open.history;
+  return open.about && askText(now, open.about, open.curve.asked(now), form);
+});
 const refreshTexts = debounced(() => texts.refresh(), 400);
 const writeAddress = debounced(
   () => history.replaceState(null, "", `#${toHash(open.history.now)}`),
   120,
 );
 
-const WANTED = ["scene", "energy", "explanation"];
-
-const keyOf = (state) => JSON.stringify([state.preset, state.places]);
-
-/** The part of a state that the server is told. */
-function question(state) {
-  const { preset, places, values, detector } = state;
-  return {
-    preset,
-    case: state.case,
-    places,
-    values,
-    detector,
-    curve: open.curve?.asked(state) ?? null,
-  };
-}
-
-/** Open the preset where it is another one, and trace. */
+/** Open the preset where it is another one, and find its light. */
 async function ask(state) {
   const key = keyOf(state);
-  let about = open.about;
   if (key !== open.key) {
-    about = await post("open", { preset: state.preset, places: state.places });
+    const about = await askPath(state);
     if (about.faults?.length) return about;
     adopt(about, key);
   }
-  const answer = await post("trace", { ...question(state), want: WANTED });
+  const answer = await askLight(state, open.about);
   const bare = open.answer === null && answer.faults.length > 0;
-  return bare ? { ...answer, before: await defaults(state) } : answer;
-}
-
-/** What a preset shows by itself, for an address with values that cannot be. */
-async function defaults({ preset }) {
-  const answer = await post("trace", { preset, want: WANTED });
-  return answer.faults.length > 0 ? null : answer;
+  return bare ? { ...answer, before: await askDefaults(state) } : answer;
 }
 
 /** Take up a preset: its controls take the place of those before. */
 function adopt(about, key) {
-  const known = open.about?.preset === about.preset ? document.activeElement?.id : "";
+  const same = open.about?.preset === about.preset;
+  const known = same ? document.activeElement?.id : "";
   Object.assign(open, { about, key, answer: null });
   const actions = { set, settle: () => open.history.settle(), place };
   open.controls = new Controls(by("controls"), about, actions);
@@ -68,6 +49,7 @@ function adopt(about, key) {
     go({ ...open.history.now, curve: { ...open.history.now.curve, ...change } }, step),
   );
   if (known) by(known)?.focus();
+  if (!same) for (const id of ["light", "pictures"]) by(id).classList.add("other");
   by("preset").value = about.preset;
   say(by("description"), about.description);
 }
@@ -77,32 +59,51 @@ let forced = false;
 
 function show(state, answer) {
   const faults = answer.faults ?? [];
-  const rest = open.controls?.complain(faults) ?? faults;
-  const ofCurve = rest.filter((each) => each.field?.startsWith("curve"));
-  say(by("curve-fault"), ofCurve.map((each) => each.sentence).join(" "));
-  say(
-    by("fault"),
-    rest
-      .filter((each) => !ofCurve.includes(each))
-      .map((each) => each.sentence)
-      .join(" "),
-  );
   const stale = faults.length > 0;
-  if (answer.before) take(state, answer.before);
+  say(by("fault"), sentences(open.controls?.complain(faults) ?? faults));
+  if (answer.before) {
+    take(state, answer.before);
+    pictures.showMore(answer.before, open.about);
+  } else if (stale && open.about !== null && open.answer === null) pictures.clear();
   document.body.classList.toggle("stale", stale && open.answer !== null);
   by("stale").hidden = !(stale && open.answer !== null);
   open.curve?.update(state);
+  const found = open.about?.cases.find((each) => each.name === state.case);
+  say(by("note"), found?.note ? typeset(found.note) : "");
+  refreshTexts();
   if (stale) {
-    if (isNow(state)) open.controls?.choose(state);
+    refine.cancel();
+    by("pictures").ariaBusy = "false";
+    if (isNow(state)) open.controls?.keep(state);
     return;
   }
   take(state, answer);
   if (isNow(state)) forced = false;
-  const found = open.about.cases.find((each) => each.name === state.case);
-  say(by("note"), found?.note ? typeset(found.note) : "");
-  say(by("told"), typeset((answer.notes ?? []).join(" ")));
-  refreshTexts();
+  requestMore({ state, fine: false });
+  refine({ state, fine: true });
 }
+
+const sentences = (faults) => faults.map((each) => each.sentence).join("\n");
+
+/** The pictures that take longer; at rest, a curve of more points. */
+async function askMore({ state, fine }) {
+  const curve = open.curve.asked(state, fine ? FINE : undefined);
+  return keyOf(state) === open.key ? askPictures(state, open.about, curve) : null;
+}
+
+function showMore({ state, fine }, answer) {
+  if (answer === null || keyOf(state) !== open.key) return;
+  if (isNow(state)) by("pictures").ariaBusy = "false";
+  if (answer.faults.length > 0) {
+    say(by("fault"), sentences(answer.faults));
+    return;
+  }
+  say(by("told"), typeset((answer.notes ?? []).join(" ")));
+  pictures.showMore(answer, open.about, fine);
+}
+
+const requestMore = newest(askMore, showMore);
+const refine = debounced(requestMore, 250);
 
 /** Whether nothing has been set since. */
 function isNow(state) {
@@ -116,7 +117,7 @@ function take(state, answer) {
   open.answer = answer;
   // An answer that has been overtaken is drawn, but leaves the sliders where they are by now.
   if (isNow(state)) open.controls.update(state, answer.values, forced);
-  pictures.show(state, answer, open.about);
+  pictures.show(state, answer);
 }
 
 const request = newest(ask, show);
@@ -137,6 +138,8 @@ function shown() {
   by("undo").disabled = !open.history.canUndo;
   by("redo").disabled = !open.history.canRedo;
   writeAddress();
+  texts.age();
+  by("pictures").ariaBusy = "true";
   request(open.history.now);
 }
 

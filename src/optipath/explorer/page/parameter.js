@@ -1,7 +1,7 @@
 /** One parameter: a slider, a field, a unit, words, and the sentence of what is wrong. */
 
 import { chip, debounced, element, option, say } from "./dom.js";
-import { converted, short, stepped, taken } from "./units.js";
+import { converted, plainText, short, stepped, taken } from "./units.js";
 import { materialInWords } from "./words.js";
 
 /**
@@ -120,7 +120,7 @@ export class ParameterRow {
 
   /** Take what stands in the field; a bare number is in the unit beside it. */
   type() {
-    const text = this.field.value.trim();
+    const text = plainText(this.field.value);
     const { name, units } = this.about;
     const read = taken(text);
     if (read !== null && units.includes(read.unit) && this.unit !== read.unit) this.show(read.unit);
@@ -150,20 +150,22 @@ export class ParameterRow {
 
   /** A value that the server has refused, or not yet seen, as it was given. */
   keep(text) {
-    if (document.activeElement !== this.field) this.field.value = this.bare(text);
-  }
-
-  bare(text) {
-    const read = taken(text);
-    return read !== null && read.unit === this.unit ? read.written : text;
+    if (document.activeElement !== this.field) this.field.value = this.written(text);
   }
 
   write() {
+    if (this.value === null) return;
     const { text, word } = this.value;
-    const read = word === null ? taken(text) : null;
-    if (read === null) this.field.value = word ?? text;
-    else if (read.unit === this.unit) this.field.value = read.written;
-    else this.field.value = short(converted(read.number, read.unit || this.about.unit, this.unit));
+    this.field.value = word ?? this.written(text);
+  }
+
+  /** A text in the unit beside the field, where it is a number in a unit that is known. */
+  written(text) {
+    const read = taken(text);
+    if (read === null) return text;
+    if (read.unit === this.unit) return read.written.length > 12 ? short(read.number) : read.written;
+    const number = converted(read.number, read.unit || this.about.unit, this.unit);
+    return Number.isNaN(number) ? text : short(number);
   }
 
   slide() {

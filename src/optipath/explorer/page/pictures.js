@@ -1,6 +1,7 @@
 /** All that is shown of an answer. */
 
 import { drawCurve } from "./curve.js";
+import { flat, isTooFast, tooFast } from "./curve_faults.js";
 import { by, chip, debounced, option, say } from "./dom.js";
 import { drawEllipse } from "./ellipse.js";
 import { drawEnergy } from "./energy.js";
@@ -8,7 +9,7 @@ import { turnable } from "./projection.js";
 import { SCENE_VIEW, drawScene } from "./scene.js";
 import { SPHERE_VIEW, drawSphere } from "./sphere.js";
 import { fillAlong, fillQuantities, fillStokes } from "./table.js";
-import { stepped, typeset } from "./units.js";
+import { typeset } from "./units.js";
 import { lightInWords, stateInWords } from "./words.js";
 
 const PARTS = ["planes", "frames", "ellipses", "angles", "names"];
@@ -21,6 +22,7 @@ export class Pictures {
   /** @param {(name: string, view: number[]|null) => void} keep a turned view */
   constructor(keep) {
     this.answer = null;
+    this.more = null;
     this.views = { ...USUAL };
     this.parts = new Set(["planes", "ellipses", "angles", "names"]);
     this.across = null;
@@ -57,11 +59,12 @@ export class Pictures {
     this.draw();
   }
 
-  /** @param {object} state @param {object} answer @param {object} about */
-  show(state, answer, about) {
+  /** Show the light of an answer. @param {object} state @param {object} answer */
+  show(state, answer) {
     const names = Object.keys(answer.detectors);
     const name = names.includes(state.detector) ? state.detector : names[0];
-    Object.assign(this, { answer, name, light: answer.detectors[name], about });
+    Object.assign(this, { answer, name, light: answer.detectors[name] });
+    by("light").classList.remove("other");
     by("detector-choice").hidden = names.length < 2;
     by("detector-name").hidden = names.length > 1;
     by("detector-name").textContent = name;
@@ -72,16 +75,45 @@ export class Pictures {
     fillQuantities(by("quantities"), name, this.light);
     fillAlong(by("along"), answer.along);
     say(by("model"), `Model ${answer.model}, method ${answer.method}, engine ${answer.engine}.`);
-    by("explanation").textContent = answer.explanation ?? "";
-    this.draw();
+    this.drawLight();
     this.tell(lightInWords(name, this.light));
   }
 
+  /** Show what has been found after the light. @param {object} answer @param {object} about */
+  showMore(answer, about, fine = false) {
+    const faults = answer.curve_faults ?? [];
+    const curve = faults.length > 0 && about === this.about ? this.more.curve : answer.curve;
+    Object.assign(this, { more: { ...answer, curve }, about });
+    by("pictures").classList.remove("other");
+    by("explanation").textContent = answer.explanation ?? "";
+    say(by("curve-fault"), [...faults.map((each) => each.sentence), ...flat(curve)].join("\n"));
+    canvasOf("curve").closest(".card").classList.toggle("stale", faults.length > 0);
+    if (fine || !isTooFast(curve)) say(by("curve-notes"), tooFast(curve));
+    this.drawMore();
+  }
+
+  /** Show nothing: there is no light. */
+  clear() {
+    Object.assign(this, { answer: null, more: null });
+    for (const each of document.querySelectorAll("[data-picture] svg")) each.replaceChildren();
+    for (const id of ["stokes", "quantities", "along", "explanation"]) by(id).replaceChildren();
+    for (const id of ["state", "model", "scene-notes", "energy-notes"]) by(id).textContent = "";
+  }
+
   draw() {
+    this.drawLight();
+    this.drawMore();
+  }
+
+  drawLight() {
     if (this.answer === null) return;
-    const { curve, energy } = this.answer;
     drawEllipse(svgOf("ellipse"), this.name, this.light);
     this.drawTurnable("sphere");
+  }
+
+  drawMore() {
+    if (this.more === null) return;
+    const { curve, energy } = this.more;
     this.drawTurnable("scene");
     canvasOf("curve").hidden = !curve;
     if (curve)
@@ -103,12 +135,12 @@ export class Pictures {
   }
 
   drawTurnable(name) {
-    if (this.answer === null) return;
+    if ((name === "sphere" ? this.answer : this.more) === null) return;
     if (name === "sphere") {
       drawSphere(svgOf("sphere"), this.views.sphere, this.name, this.light, this.answer.along);
       return;
     }
-    const { scene } = this.answer;
+    const { scene } = this.more;
     canvasOf("scene").hidden = !scene;
     if (scene) drawScene(svgOf("scene"), scene, this.views.scene, this.parts);
     say(by("scene-notes"), typeset((scene?.notes ?? []).join("; ")));
@@ -119,12 +151,9 @@ export class Pictures {
     const canvas = canvasOf("curve");
     let held = false;
     const point = (event) => {
-      if (!held || this.across === null) return;
+      if (!held || !this.more?.curve) return;
       const box = svgOf("curve").getBoundingClientRect();
-      const x = this.across((event.clientX - box.left) / box.width);
-      const ends = this.answer.curve.x;
-      const [low, high] = [Math.min(...ends), Math.max(...ends)];
-      choose(({ slider }) => stepped(Math.max(low, Math.min(high, x)), slider[0], slider[2]));
+      choose(this.more.curve, this.across((event.clientX - box.left) / box.width));
     };
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;

@@ -41,7 +41,7 @@ function asksWavelength(state, about) {
 /** Whether a parameter has a part: a wavelength without a default has it with materials. */
 export function takesPart(parameter, state, about) {
   const own = parameter.name !== WAVELENGTH || parameter.default !== "";
-  return own || parameter.name in state.values || asksWavelength(state, about);
+  return own || asksWavelength(state, about);
 }
 
 /** A state without a wavelength that nothing asks for. */

@@ -72,3 +72,11 @@ export function typeset(text) {
     .replace(/(\de)-(?=\d)/g, "$1\u2212")
     .replace(/(\d) deg\b/g, "$1\u00b0");
 }
+
+/** What stands in a field, as the library reads it: what is written for the eye is undone. */
+export function plainText(text) {
+  return text
+    .trim()
+    .replace(/\u2212/g, "-")
+    .replace(/\s*\u00b0/g, " deg");
+}
