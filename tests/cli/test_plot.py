@@ -207,6 +207,22 @@ def test_a_name_longer_than_the_picture_is_wide_goes_on_in_the_next_line(tmp_pat
     assert str(file) in figure.get_suptitle().replace("\n", "")
 
 
+@pytest.mark.parametrize("kind", [*KINDS])
+def test_names_in_letters_that_the_font_lacks_are_drawn_without_a_warning(kind, tmp_path, capsys):
+    path = op.PathGraph()
+    lamp, glass = (
+        path.add("\u706f", op.Source()),
+        path.add("\u504f", op.Polarizer(op.Parameter("a", 0.3))),
+    )
+    lamp >> glass >> path.add("\u5149", op.Detector())
+    (tmp_path / "x.toml").write_text(path.to_toml(), "utf-8")
+    x = ["--x", "a"] if kind == "curve" else []
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert main(["plot", "x.toml", "--kind", kind, *x, "--out", "a.svg"]) == 0
+    assert capsys.readouterr().err == ""
+
+
 def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(tmp_path, capsys):
     path = op.PathGraph()
     path.add("lamp", op.Source())

@@ -1,5 +1,6 @@
 import subprocess
 import sys
+import warnings
 
 import pytest
 
@@ -38,6 +39,15 @@ def test_an_ending_that_cannot_be_drawn_is_refused(name, tmp_path):
     with pytest.raises(op.OptipathError, match=r"cannot be drawn; use one of: .png, .svg, .pdf"):
         op.plots.save(figure, tmp_path / name)
     assert not [*tmp_path.iterdir()]
+
+
+@pytest.mark.parametrize("form", ["png", "svg", "pdf"])
+def test_letters_that_the_font_lacks_are_saved_without_a_warning(form, tmp_path):
+    figure = figures.Figure()
+    figure.text(0.5, 0.5, "\u5149")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        op.plots.save(figure, tmp_path / f"x.{form}")
 
 
 def test_a_folder_that_is_not_there_is_told_as_no_fault_of_a_surface(tmp_path):

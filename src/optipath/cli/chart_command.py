@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
@@ -154,9 +153,7 @@ def _measure_and_draw(measure: Measure, out: Path, data: Path | None, peers: Pat
         write(data, chart_text(kept).encode())
         say(f"wrote {data}")
     picture = draw(kept, peers=peers)
-    with told_of(out), warnings.catch_warnings():
-        # A title may have letters that the font lacks; they are drawn as boxes.
-        warnings.filterwarnings("ignore", message="Glyph")
+    with told_of(out):
         save(picture, out, _DOTS)
     say(f"wrote {out}")
     if interrupted:

@@ -51,7 +51,10 @@ def drawn(asked: PlotRequest) -> Any:
     """
     import numpy as np  # noqa: PLC0415 - the command line starts without
 
-    first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
+    from optipath.plots.missing_letters import missing_letters_as_boxes  # noqa: PLC0415 - an extra
+
+    with missing_letters_as_boxes():
+        first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
     figure = first.figure
     draw_title(figure, asked.title)
     return figure

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from optipath.errors import OptipathError, shown
+from optipath.plots.missing_letters import missing_letters_as_boxes
 from optipath.plots.positive import positive
 from optipath.surfaces.files.file_faults import told_of
 from optipath.values.given_files import given_file
@@ -46,5 +47,5 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
         raise OptipathError(*faults)
     figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
     place = given_file(file, OptipathError)
-    with told_of(place, OptipathError):
+    with told_of(place, OptipathError), missing_letters_as_boxes():
         write_picture(figure, place, dots_per_inch)

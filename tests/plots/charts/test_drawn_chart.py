@@ -72,6 +72,22 @@ def test_the_regions_where_a_method_fails_are_named_or_those_where_it_holds():
     assert "n near 1, grazing" in words
 
 
+def test_the_unit_of_what_fails_is_explained_and_neither_is_told_where_nothing_fails():
+    chart = recorded("chart.json")
+    words = " ".join(words_of(op.plots.chart(chart)))
+    assert "fails (over 1000 ulp*) in so many regions" in words
+    assert "units in the last place, divided by 1 + the condition number" in words
+    chart["fails_above"] = 1e29
+    for entry in chart["contenders"]:
+        for kind in KINDS:
+            for error in entry["errors"][kind].values():
+                error.update(worst=9.0, median=1.0)
+    panel = op.plots.chart(chart)
+    words = " ".join(words_of(panel))
+    assert not any(each in words for each in ("ulp", "fails (", "last place"))
+    assert_clear(panel)
+
+
 def test_the_limits_of_the_machine_and_the_frontier_are_named():
     words = words_of(op.plots.chart(DOCS / "chart.json"))
     assert words.count("frontier") == 2

@@ -13,6 +13,7 @@ from pictures import faults_of
 
 PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "coated-metal"]
 PLANE += ["double-pass-waveplate", "faraday-isolator", "fresnel-rhomb", "pile-of-plates"]
+PLANE += ["npgr026-3d"]
 
 
 def texts_in(ax):
@@ -59,6 +60,21 @@ def test_names_and_values_stand_below_their_symbols():
     texts = texts_in(op.plots.bench(op.load_preset("senarmont")))
     assert {"polarizer\n0 deg", "sample\n45 deg\nretardance = 60 deg"} <= texts
     assert "analyzer\nanalyzer = 120 deg" in texts
+
+
+def test_surfaces_at_points_of_the_world_are_told_by_the_angles_of_their_chain():
+    flat, world = (
+        texts_in(op.plots.bench(op.load_preset(name, rho=0.0)))
+        for name in ("npgr026", "npgr026-3d")
+    )
+    told = {"X2\nphi = 56 deg", "X1\ndelta = 53 deg\nazimuth -rho = 0 deg"}
+    assert told <= flat
+    assert told <= world
+    chain = op.VerticesByAngles((0.5, op.Parameter("b", 0.25)), (np.pi,), backwards=True)
+    path = op.path_from_vertices(chain, materials=(1.5, 1.5))
+    texts = "; ".join(sorted(texts_in(op.plots.bench(path)))).replace("\n", ", ")
+    assert "b = 14.324 deg" in texts
+    assert "incidence = 28.648 deg, azimuth 180 deg" in texts
 
 
 def test_dials_show_the_light_between_as_malus_has_it():

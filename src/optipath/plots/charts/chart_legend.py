@@ -25,11 +25,12 @@ EDGE = 0.25
 """Between words and the edge of a picture, in inches."""
 
 _HANDLE = 0.6
+_ULP = "units in the last place, divided by 1 + the condition number"
 _WAYS = {"stokes": "large: Stokes", "jones": "small: Jones"}
 _FACES = {"numba": "filled: ", "numpy": "open: "}
 
 
-def legend_rows(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
+def legend_rows(chart: Mapping[str, Any], looks: Looks, *, fails: bool) -> list[list[Artist]]:
     """Return what is explained, in rows that fit the width of a picture.
 
     Parameters
@@ -38,12 +39,20 @@ def legend_rows(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
         What was measured.
     looks : Looks
         How its marks look.
+    fails : bool
+        Whether anything fails.
 
     Returns
     -------
     list of list of Artist
     """
-    return flowing(_groups(chart, looks))
+    groups = _groups(looks)
+    if fails:
+        label = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
+        groups[-1].insert(0, Patch(facecolor=FAILING, label=label))
+        star = Line2D([], [], linewidth=0, marker="$*$", markersize=9, color=INK, label=_ULP)
+        groups.append([star])
+    return flowing(groups)
 
 
 def flowing(groups: list[list[Artist]]) -> list[list[Artist]]:
@@ -71,9 +80,8 @@ def flowing(groups: list[list[Artist]]) -> list[list[Artist]]:
     return rows
 
 
-def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
+def _groups(looks: Looks) -> list[list[Artist]]:
     marker: dict[str, Any] = {"color": INK, "linewidth": 0, "markersize": 11}
-    fails = f"fails (over {chart['fails_above']:g} ulp*) in so many regions"
     methods: list[Artist] = [
         Line2D([], [], color=looks.colour(name), lw=7, label=_short(name)) for name in looks.methods
     ]
@@ -104,7 +112,6 @@ def _groups(chart: Mapping[str, Any], looks: Looks) -> list[list[Artist]]:
             Line2D([], [], marker="_", label="middle region", **(marker | {"mew": 2})),
         ],
         [
-            Patch(facecolor=FAILING, label=fails),
             Line2D([], [], color=FAINT, lw=1.8, label="frontier: best that fails nowhere"),
             Line2D([], [], color=FAINT, ls="--", label="eps"),
             Line2D([], [], color=FAINT, lw=1.6, ls=":", label="machine's limit"),

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from typing import TYPE_CHECKING
 
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
+
+from optipath.plots.missing_letters import missing_letters_as_boxes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -34,9 +35,7 @@ def width_of(text: str, points: float) -> float:
     >>> width_of("iii", 14.0) < width_of("mmm", 14.0) < 1.0
     True
     """
-    with warnings.catch_warnings():
-        # A letter that the font lacks is drawn as a box.
-        warnings.filterwarnings("ignore", message="Glyph")
+    with missing_letters_as_boxes():
         font = FontProperties(size=points)
         return float(_MEASURE.get_text_width_height_descent(text, font, ismath=False)[0]) / _INCH
 

@@ -47,7 +47,7 @@ def draw_speed_and_accuracy(chart: Mapping[str, Any], peers: PeerTimes | None = 
     looks = Looks(chart)
     marks = {kind: marks_of(chart, kind) for kind in _KINDS}
     frame = ChartFrame.around(chart, list(marks.values()))
-    legend = legend_rows(chart, looks)
+    legend = legend_rows(chart, looks, fails=bool(frame.methods))
     notes = [_notes(chart, kind, found) for kind, found in marks.items()]
     told = broken(_told(chart), WIDTH - 2 * EDGE, POINTS)
     beside = PeerFrame.of(peers) if peers else None

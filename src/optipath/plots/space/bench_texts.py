@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.medium import Medium
+from optipath.plots.space.chain_angles import angles_in_chain
 from optipath.plots.space.posture import angles_at, has_axis
 from optipath.plots.space.told_values import number, quantity_text, told_incidence
 from optipath.values.operands import Operand
@@ -59,6 +60,11 @@ def values_below(element: Element) -> list[str]:
             continue
         if isinstance(value, Parameter) or value != 0.0 or name in _ALWAYS:
             found.append(_text(element, name, value, domains[name].unit))
+    incidence, turn = angles_in_chain(element)
+    if incidence is not None:
+        found.append(told_incidence(incidence, number(incidence)).text)
+    if isinstance(turn, Parameter | float | int) and (isinstance(turn, Parameter) or turn != 0.0):
+        found.append(_text(element, "azimuth", turn, "deg"))
     return found
 
 

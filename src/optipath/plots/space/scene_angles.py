@@ -9,7 +9,7 @@ import numpy as np
 from optipath.composer.placement import azimuth_of
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.chain_vertex import ChainVertex
-from optipath.elements.vertices.by_angles import VerticesByAngles
+from optipath.plots.space.chain_angles import angles_in_chain
 from optipath.plots.space.fixed_places import incidence_at
 from optipath.plots.space.posture import angles_at
 from optipath.plots.space.scene import SceneAngle
@@ -78,10 +78,8 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
         if abs(given - front) > 1e-9 and abs(given - behind) < 1e-9:
             out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
             yield _arc(told_angle(value), at, -normal, out, behind, size)
-    elif isinstance(element.vertices, VerticesByAngles):
-        chain = element.vertices
-        order = chain.incidences[::-1] if chain.backwards else chain.incidences
-        value = order[int(element.place) - 1]
+    elif (given := angles_in_chain(element)[0]) is not None:
+        value = given
     told = told_incidence(value, front)
     arriving = -posture.axes["in"][:, 2]
     yield _arc(told, at, normal, arriving, front, _AT_SURFACE * placing.unit)
@@ -91,12 +89,7 @@ def _azimuths(placing: Placing, link: Link) -> Iterator[SceneAngle]:
     """Yield the turn of the frame that light enters in against that in which it left."""
     wiring, value = placing.wiring, azimuth_of(placing.wiring, link)
     if link[0] in wiring.self_placed and link[1] in wiring.self_placed:
-        element: Any = wiring.elements[link[1]]
-        chain = element.vertices
-        if not isinstance(chain, VerticesByAngles):
-            return
-        turns = chain.turns[::-1] if chain.backwards else chain.turns
-        value = turns[int(element.place) - 2]
+        _, value = angles_in_chain(wiring.elements[link[1]])
     if not isinstance(value, Parameter):
         return
     told, drawn = told_angle(value, signed=False), placing.links[link]
