@@ -34,6 +34,6 @@ def test_a_flat_picture_refuses_axes_in_space_and_of_angles_and_leaves_them_empt
 def test_a_panel_with_axes_in_space_is_refused():
     figure = figures.Figure()
     panel = [figure.add_subplot(1, 2, 1), figure.add_subplot(1, 2, 2, projection="3d")]
-    with pytest.raises(op.OptipathError, match="give 1 x 2 plain Axes of Matplotlib"):
+    with pytest.raises(op.OptipathError, match="give 1 x 2 Axes of Matplotlib"):
         own_axes.own_panel(panel, (1, 2), (1.0, 1.0))
     assert np.shape(own_axes.own_panel(panel[:1], (1, 1), (1.0, 1.0))) == (1, 1)

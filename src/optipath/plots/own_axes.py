@@ -72,7 +72,7 @@ def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> 
     if panel.size != shape[0] * shape[1] or not all(map(_is_flat, panel.flat)):
         rows, columns = shape
         raise OptipathError(
-            f"axes are {shown(given)}; give {rows} x {columns} plain Axes of Matplotlib, as "
+            f"axes are {shown(given)}; give {rows} x {columns} Axes of Matplotlib, as "
             f"figure.subplots({rows}, {columns}) makes them, or leave them out"
         )
     return panel.reshape(shape)

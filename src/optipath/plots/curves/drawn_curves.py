@@ -118,7 +118,7 @@ def _draw(
 
 def _is_alone(values: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
     """Return which points have none beside them that a line would lead to."""
-    gaps: npt.NDArray[np.bool_] = np.pad(np.isnan(values), 1, constant_values=True)
+    gaps: npt.NDArray[np.bool_] = np.pad(~np.isfinite(values), 1, constant_values=True)
     return gaps[:-2] & gaps[2:]
 
 
