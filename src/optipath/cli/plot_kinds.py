@@ -74,17 +74,14 @@ def _ellipse(asked: PlotRequest) -> Any:
 
 
 def _poincare(asked: PlotRequest) -> Any:
-    from optipath.plots import poincare, poincare_path  # noqa: PLC0415 - an extra
-
     if not asked.axes:
+        from optipath.plots import poincare_path  # noqa: PLC0415 - an extra
+
         return poincare_path(asked.path)
-    from optipath.plots.curves.light_at_detector import axis_of, varied  # noqa: PLC0415 - ditto
+    from optipath.plots.states.parameter_trail import parameter_trail  # noqa: PLC0415 - ditto
 
     ((name, values),) = asked.axes.items()
-    (parameter,) = varied(asked.path, [name], {})
-    along, given = axis_of(asked.path, parameter, _texts(values), _TRAIL)
-    light = asked.path.trace_all(**{name: given})[asked.end]
-    return poincare(light, by=along.numbers, label=along.labels[-1])
+    return parameter_trail(asked.path, name, asked.end, _texts(values))
 
 
 def _stokes(asked: PlotRequest) -> Any:
@@ -152,9 +149,6 @@ def _energy(asked: PlotRequest) -> Any:
 
     return energy(asked.path)
 
-
-_TRAIL = 721
-"""How many points a trail has over the usual range of a parameter."""
 
 KINDS = {
     "ellipse": PlotKind(_ellipse, ("detector",)),

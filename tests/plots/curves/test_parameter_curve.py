@@ -162,6 +162,30 @@ def test_no_text_is_over_another_or_cut_at_either_size(preset, x, size):
     assert faults_of(figure) == []
 
 
+def off_line(ax, path, name, unit):
+    """How far the curve of S0 is off at most, between its points."""
+    x, y = lines(ax)["S0"].T
+    between = np.linspace(x[0], x[-1], 50_003)
+    true = path.trace(**{name: between * unit}).stokes[:, 0]
+    return np.abs(np.interp(between, x, y) - true).max()
+
+
+@pytest.mark.parametrize("thickness", ["0.5 mm", "5 mm"])
+def test_narrow_lines_of_a_spectrum_are_drawn_as_high_as_they_are(thickness):
+    path = op.load_preset("lyot-filter", thickness=thickness)
+    assert off_line(curve(path, "wavelength"), path, "wavelength", 1e-9) < 0.01
+
+
+def test_what_changes_too_fast_is_told_and_values_that_are_given_stay():
+    path = op.load_preset("lyot-filter", thickness="100 mm")
+    ax = curve(path, "wavelength")
+    told = ax.get_title().replace("\n", " ")
+    assert told.startswith("it changes faster with wavelength than 23041 points tell")
+    assert faults_of(ax.figure) == []
+    ax = curve(path, "wavelength", values="400 nm:700 nm:50")
+    assert (ax.get_title(), len(lines(ax)["S0"])) == ("", 50)
+
+
 def test_the_legend_is_above_every_curve():
     ax = curve(op.load_preset("glass-slab"), "theta", ("S0", "S1", "DoP"))
     ax.figure.draw_without_rendering()

@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from optipath.errors import ParameterError
 from optipath.plots.curves.drawn_curves import draw_curves, units_of
 from optipath.plots.curves.drawn_quantity import drawn_quantities
 from optipath.plots.curves.light_at_detector import axis_of, quantities_at, varied
+from optipath.plots.fine_steps import START, fine_steps
 from optipath.plots.own_axes import own_axes
+from optipath.plots.states.fitting_words import head
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
+    import numpy.typing as npt
     from matplotlib.axes import Axes
 
     from optipath.paths.path_graph import PathGraph
+    from optipath.plots.curves.drawn_quantity import DrawnQuantity
+
+    Numbers = npt.NDArray[np.float64]
 
 _SIZE = 6.4, 4.2
-_COUNT = 721
+
+_DARK = 1e-9
+"""Which share of the intensity is next to nothing."""
 
 
 def curve(
@@ -49,8 +61,9 @@ def curve(
         Where; a figure of its own by default, ``.figure`` of what is returned.
     values : array_like or str, optional
         Those of `x`, as a sweep takes them: ``"0 deg:90 deg:91"``, texts with units, or numbers in
-        radians and metres. By default 721 over its usual range, and the curve is open where
-        the path does not take them.
+        radians and metres. By default 721 over its usual range, up to 23041 where it changes
+        fast, and a title where that does not do; the curve is open where the path does not take
+        them.
     detector : str, optional
         A detector or a dump; needed only where there are several detectors.
     **parameters : float or str
@@ -76,10 +89,67 @@ def curve(
     quantities = drawn_quantities(y)
     units_of(quantities)
     (parameter,) = varied(path, [x], parameters)
-    along, given = axis_of(path, parameter, values, _COUNT)
-    _, numbers = quantities_at(
-        path, detector, quantities, {x: given}, parameters, chosen=values is None
-    )
+    along, given = axis_of(path, parameter, values, START)
+    told, chosen = "", values is None
+    asked = [*quantities, *drawn_quantities("S0")]
+    _, found = quantities_at(path, detector, asked, {x: given}, parameters, chosen=chosen)
+    numbers = found[:-1]
+    if chosen:
+        at = partial(_at, path, detector, x, parameters, quantities)
+        fine = fine_steps(given, np.stack(numbers, axis=1), at, _on_picture(quantities, found))
+        told, numbers = fine.told(x), [*fine.numbers.T]
+        along = along._replace(numbers=np.interp(fine.values, given, along.numbers))
     ax = own_axes(ax, _SIZE)
+    if told:
+        head(ax, told)
     draw_curves(ax, along, [*zip(quantities, numbers, strict=True)])
     return ax
+
+
+def _at(
+    path: PathGraph,
+    detector: str | None,
+    x: str,
+    parameters: dict[str, Any],
+    quantities: Sequence[DrawnQuantity],
+    values: Numbers,
+) -> Numbers:
+    """Return quantities at values of x, NaN where the path takes none of these."""
+    try:
+        given = {x: values}
+        found = quantities_at(path, detector, quantities, given, parameters, chosen=True)[1]
+    except ParameterError:
+        return np.full((len(values), len(quantities)), np.nan)
+    return np.stack(found, axis=1)
+
+
+def _on_picture(
+    quantities: Sequence[DrawnQuantity], first: Sequence[Numbers]
+) -> Callable[[Numbers], Numbers]:
+    """Return what makes of quantities where they are on a picture, by the first, S0 behind them."""
+    *shown, power = first
+    dark = _DARK * float(np.max(power, where=np.isfinite(power), initial=0.0))
+    heights = [_height(each, its, dark) for each, its in zip(quantities, shown, strict=True)]
+
+    def on_picture(numbers: Numbers) -> Numbers:
+        each = zip(quantities, numbers.T, heights, strict=True)
+        return np.concatenate([_place(*one) for one in each], axis=1)
+
+    return on_picture
+
+
+def _height(quantity: DrawnQuantity, numbers: Numbers, dark: float) -> float:
+    """Return how high the axis of a quantity is, in its unit."""
+    if quantity.limits:
+        return quantity.limits[1] - quantity.limits[0]
+    finite = np.append(numbers[np.isfinite(numbers)], 0.0)
+    least = dark if quantity.name.startswith("S") else 0.0
+    return max(float(np.ptp(finite)), least) or 1.0
+
+
+def _place(quantity: DrawnQuantity, numbers: Numbers, height: float) -> Numbers:
+    """Return numbers over the height of their axis; of an angle that comes round, where it is."""
+    if quantity.period is None:
+        return numbers[:, np.newaxis] / height
+    turn = 2.0 * np.pi / quantity.period * numbers
+    return np.stack([np.cos(turn), np.sin(turn)], axis=1)

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from optipath.light.light import Light
 
-_MOST = 2000
+_MOST = 25_000
 """How many points a trail may have."""
 
 _FEW = 12
@@ -50,7 +50,7 @@ def poincare(
     Parameters
     ----------
     light : Light
-        One, or a batch of shape (n,) in its order, of 2000 at most.
+        One, or a batch of shape (n,) in its order, of 25000 at most.
     ax : Axes3D, optional
         Where, of three dimensions; a figure of its own by default. What another picture of this
         kind has drawn there stays.
