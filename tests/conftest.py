@@ -1,6 +1,8 @@
 """Examples that are the same every time; or, asked for, many new ones from hypothesis.
 
 HYPOTHESIS_PROFILE=search pytest
+
+With HYPOTHESIS_PROFILE=few they are few: whether all runs with other versions is told by few.
 """
 
 import os
@@ -11,6 +13,7 @@ from hypothesis import settings
 
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.register_profile("search", max_examples=2000, deadline=None)
+settings.register_profile("few", max_examples=15, derandomize=True, deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 

@@ -111,6 +111,15 @@ def test_keys_alone_reach_and_change_everything(visited):
     assert outline != "none"
 
 
+def test_taps_are_dashed_in_space(visited):
+    page = visited.open("preset=ellipsometer-pcsa")
+    dashes = "all => all.map((each) => getComputedStyle(each).strokeDasharray)"
+    rays = page.locator("[data-picture=scene] .ray")
+    taps = page.locator("[data-picture=scene] .ray.tap").evaluate_all(dashes)
+    assert taps == ["8px, 4px"]
+    assert rays.evaluate_all(dashes).count("none") == rays.count() - 2  # Light leaves, too.
+
+
 @pytest.mark.parametrize("picture", ["sphere", "scene"])
 def test_pictures_in_space_are_turned_by_keys_and_by_dragging(visited, picture):
     page = visited.open("preset=npgr026&case=8")

@@ -28,6 +28,17 @@ def test_how_long_it_takes_is_told_before_and_progress_in_lines(capsys):
     assert Path("chart.png").exists()
 
 
+def test_the_title_says_what_was_changed(monkeypatch):
+    monkeypatch.setattr(critical_chart, "DISTANCES", (1e-3, 1e-1))
+    given = ["--case", "8", "--delta", "30", "--filter", "none", "--near", "normal"]
+    assert main(["chart", "npgr026", *given, "--data", "a.json"]) == 0
+    title = json.loads(Path("a.json").read_text("utf-8"))["title"]
+    assert title == "npgr026, case 8, delta 30 deg, filter none"
+    monkeypatch.setattr(chart, "REGIONS", chart.REGIONS[:1])
+    assert main([*QUICK, "--angle", "30", "--data", "b.json"]) == 0
+    assert json.loads(Path("b.json").read_text("utf-8"))["title"] == "malus, angle 30 deg"
+
+
 def test_what_is_measured_is_kept_drawn_and_told_where_ctrl_c_ends_it(capsys, monkeypatch):
     found, errors = [], chart.path_errors
 

@@ -143,11 +143,24 @@ def test_equal_notes_of_cases_are_told_once():
     assert sum(text.startswith("X1 is copper") for text in texts) == 1
 
 
+def test_a_case_is_named_and_its_values_are_no_defaults(tmp_path, capsys):
+    file = tmp_path / "x.svg"
+    for words, name, column in (([], "npgr026", "default"), (["8"], "npgr026, case 8", "value")):
+        given = [word for case in words for word in ("--case", case)]
+        assert main(["show", "npgr026", *given, "--svg", str(file)]) == 0
+        texts = texts_of(file.read_text("utf-8"))
+        assert {name, column} <= {*texts}
+        heading = next(line for line in capsys.readouterr().out.splitlines() if "range" in line)
+        assert heading.split()[:2] == ["parameter", column]
+        assert len({"default", "value"} & {*texts}) == 1
+
+
 @pytest.mark.parametrize("name", ["x.png", "x", "x.svg.gz"])
 def test_a_file_that_does_not_end_in_svg_is_refused(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["show", "malus", "--svg", name]) == 2
     told = capsys.readouterr()
     assert told.out == ""
-    assert told.err.startswith(f"optipath: --svg draws SVG, and '{name}' ends otherwise")
+    wrong = f"--svg draws SVG, and '{name}' ends otherwise; name a file such as 'x.svg'"
+    assert told.err == f"optipath: {wrong}\n"
     assert not [*tmp_path.iterdir()]

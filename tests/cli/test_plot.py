@@ -188,6 +188,42 @@ def test_a_long_title_goes_on_in_the_next_line():
     assert path.parameters.keys() >= many.keys()
 
 
+@pytest.mark.parametrize("kind", ["stokes", "mueller"])
+def test_lines_of_a_title_break_between_values_and_stay_within_the_picture(kind):
+    values = {"intensity": 123456789.123456, "n1": 0.123456789012345}
+    values |= dict.fromkeys(("delta", "rho", "phi", "filter", "n2", "k2"), 0.5812345678901)
+    figure = picture("npgr026", kind, None, **values)
+    assert faults_of(figure) == []
+    lines = figure.get_suptitle().split("\n")
+    assert len(lines) > 3
+    assert all(line.endswith(",") for line in lines[:-1])
+
+
+def test_a_name_longer_than_the_picture_is_wide_goes_on_in_the_next_line(tmp_path):
+    file = tmp_path / ("w" * 150 + ".toml")
+    file.write_text(op.load_preset("malus").to_toml(), "utf-8")
+    figure = picture(str(file), "stokes", angle=0.5)
+    assert faults_of(figure) == []
+    assert str(file) in figure.get_suptitle().replace("\n", "")
+
+
+def test_more_detectors_than_colours_are_refused_with_the_option_that_names_one(tmp_path, capsys):
+    path = op.PathGraph()
+    path.add("lamp", op.Source())
+    last = "lamp.out"
+    for number in range(7):
+        path.add(f"split{number}", op.BeamSplitter())
+        path.add(f"eye{number}", op.Detector())
+        path.connect(last, f"split{number}.in")
+        path.connect(f"split{number}.reflected", f"eye{number}.in")
+        last = f"split{number}.transmitted"
+    (tmp_path / "many.toml").write_text(path.to_toml(), "utf-8")
+    asked = ["plot", "many.toml", "--kind", "stokes", "--out", "a.svg"]
+    assert main(asked) == 2
+    assert "add --detector eye0" in capsys.readouterr().err
+    assert main([*asked, "--detector", "eye0"]) == 0
+
+
 def test_published_values_stand_beside_those_of_an_unchanged_case_alone():
     def told(case, reads=None, **values):
         given = {"x": (), "y": None, "detector": None, "reads": reads}
@@ -218,6 +254,14 @@ def test_the_line_by_default_is_that_of_the_case():
         (["--kind", "elipse"], "'elipse' is not one of"),
         (["--kind", "ellipse", "--x", "delta"], "--x is of poincare or curve, and --kind ellipse"),
         (["--kind", "stokes", "--y", "S0"], "--y is of curve, and --kind stokes has none"),
+        (["--kind", "ellipse", "--y", ""], "--y is of curve, and --kind ellipse has none"),
+        (["--kind", "bench", "--detector", ""], "--detector is of ellipse or"),
+        (["--kind", "stokes", "--kind", "ellipse"], "--kind is given 2 times; give it once"),
+        (
+            ["--kind", "stokes", "--detector", "E", "--detector", "X", "--out", "a.png"],
+            "--detector is given 2 times; give it once",
+        ),
+        (["--kind", "stokes", "--out", "a.png", "--out", "b.png"], "--out is given 2 times"),
         (["--kind", "energy", "--detector", "E"], "--detector is of ellipse or"),
         (["--kind", "poincare", "--detector", "E"], "add --x NAME, or leave --detector out"),
         (["--kind", "ellipse", "--detector", "X1"], "detector 'X1' is unknown"),

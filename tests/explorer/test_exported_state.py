@@ -13,6 +13,44 @@ from optipath.cli import main
 from optipath.explorer.explored_presets import ExploredPresets
 from optipath.explorer.page_answers import PageAnswers
 
+ODD_NAMES = """
+format = 1
+description = "Parameters with names that Python and the library use themselves"
+[parameters.case]
+default = "10 deg"
+unit = "deg"
+[parameters.lambda]
+default = "20 deg"
+unit = "deg"
+[parameters.keep]
+default = "30 deg"
+unit = "deg"
+[elements.L]
+kind = "source"
+[elements.P]
+kind = "polarizer"
+angle = "$case"
+[elements.Q]
+kind = "polarizer"
+angle = "$lambda"
+[elements.R]
+kind = "polarizer"
+angle = "$keep"
+[elements.E]
+kind = "detector"
+[[links]]
+from = "L.out"
+to = "P.in"
+[[links]]
+from = "P.out"
+to = "Q.in"
+[[links]]
+from = "Q.out"
+to = "R.in"
+[[links]]
+from = "R.out"
+to = "E.in"
+"""
 CURVE = {"x": "delta", "from": "0", "to": "90", "count": 5, "y": ["S0"]}
 
 
@@ -137,3 +175,19 @@ def test_lines_of_python_open_the_file_as_the_command_did(tmp_path, monkeypatch,
         in (answers.export({**state, "form": "python"})["text"])
     )
     assert python(answers, state, capsys) == printed(answers, state)
+
+
+@pytest.mark.parametrize(
+    "values", [{"case": "40"}, {"lambda": "33"}, {"case": "1", "keep": "2", "lambda": "70"}]
+)
+def test_lines_of_python_run_whatever_a_parameter_is_called(values, tmp_path, capsys):
+    file = tmp_path / "odd.toml"
+    file.write_text(ODD_NAMES, "utf-8")
+    answers = PageAnswers(ExploredPresets(str(file)))
+    state = {"preset": "odd.toml", "values": values}
+    angles = [values.get(name, text) for name, text in (("case", 10), ("lambda", 20), ("keep", 30))]
+    first, second, third = np.radians([float(angle) for angle in angles])
+    expected = 0.5 * np.cos(second - first) ** 2 * np.cos(third - second) ** 2
+    shown = printed(answers, state | {"want": ["scene", "energy", "explanation"]})
+    assert float(shown.split()[1]) == pytest.approx(expected, rel=1e-5)
+    assert python(answers, state, capsys) == shown

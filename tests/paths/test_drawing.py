@@ -1,3 +1,5 @@
+import numpy as np
+
 import optipath as op
 from optipath.paths.drawing import draw
 
@@ -19,3 +21,17 @@ def test_a_path_with_a_cycle_can_still_be_drawn():
     one, other = path.add("one", op.Polarizer()), path.add("other", op.Rotator(0.5))
     one >> other >> one
     assert "  | out --> one.in" in draw(path).splitlines()
+
+
+def test_light_is_told_in_numbers_a_matrix_by_its_size_and_a_flag_as_yes_or_no():
+    drawn = {name: draw(op.load_preset(name)) for name in op.preset_names()}
+    assert "stokes=[1, 1, 0, 0]" in drawn["double-pass-waveplate"]
+    assert "matrix=a 4 x 4 matrix  straight=no" in drawn["ellipsometer-rough"]
+    assert "parallel=no" in drawn["prism-refraction"]
+    assert not [name for name, text in drawn.items() if "array" in text]
+
+
+def test_many_numbers_are_counted():
+    path = op.PathGraph()
+    path.add("lamp", op.Source(stokes=np.ones((3, 5, 4)) * [1.0, 0.0, 0.0, 0.5]))
+    assert "stokes=array of shape (3, 5, 4)" in draw(path)

@@ -54,6 +54,27 @@ def test_a_tap_takes_nothing_and_what_it_reads_does_not_end():
     assert [*found.left] == ["S.transmitted"]
 
 
+def test_light_behind_a_tap_is_read_however_far_it_goes():
+    path = op.Source() >> op.Polarizer("0 deg") >> op.Detector()
+    path.add("analyser", op.Polarizer("30 deg"))
+    path.add("split", op.BeamSplitter())
+    path.add("probe", op.Detector())
+    path.connect("polarizer.out", "analyser.in", tap=True)
+    path.connect("analyser.out", "split.in")
+    path.connect("split.transmitted", "probe.in")
+    found = assert_conserved(path)
+    assert {name: p.item() for name, p in found.taken.items()} == pytest.approx({"polarizer": 0.5})
+    assert [*found.ended] == ["detector"]
+    assert not found.left
+    read = {link.name for link in found.links if link.tap}
+    assert read == {
+        "polarizer.out -> analyser.in",
+        "analyser.out -> split.in",
+        "split.transmitted -> probe.in",
+        "split.reflected",
+    }
+
+
 def test_light_of_several_sources_is_told_apart():
     found = assert_conserved(op.load_preset("sky-and-window"))
     assert {name: float(p) for name, p in found.given.items()} == {"heaven": 10.0, "lamp": 2.0}
@@ -87,6 +108,19 @@ def test_rounding_is_not_taken_for_light():
     assert found.taken["second"] == 0.0
 
 
+def test_what_is_left_of_crossed_polarisers_is_no_power():
+    path = op.load_preset("senarmont")
+    assert 0.0 < path.trace().intensity < 1e-15
+    found = energy_along(path)
+    assert found.ended["eye"] == 0.0
+    assert found.links[-1].power == 0.0
+
+
+def test_light_that_is_faint_since_it_was_dimmed_keeps_its_power():
+    path = op.Source() >> op.Attenuator(1e-30) >> op.Attenuator(0.5) >> op.Detector()
+    assert energy_along(path).ended["detector"] == pytest.approx(5e-31)
+
+
 def test_many_values_give_powers_of_their_shape():
     found = assert_conserved(op.load_preset("malus"), angle=np.radians([[0.0], [90.0]]))
     assert {power.shape for power in found.taken.values()} == {(2, 1)}
@@ -103,3 +137,9 @@ def test_all_of_it_is_written_as_json():
     assert read == written
     assert read["links"][0]["name"] == "lamp.out -> front.in"
     assert read["ended"].keys() == {"reflected", "transmitted"}
+
+
+def test_a_power_that_is_not_a_number_is_null():
+    path = op.path_from_vertices([[0, -1, 1], [0, 0, 0], [0, 9, 1]], [1.5], events="T", bad="mask")
+    written = json.dumps(energy_along(path).as_json(), allow_nan=False)
+    assert None in [link["power"] for link in json.loads(written)["links"]]

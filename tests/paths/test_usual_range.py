@@ -2,11 +2,13 @@
 
 import math
 
+import numpy as np
 import pytest
 
 import optipath as op
 from optipath.errors import ParameterError
 from optipath.paths.usual_range import usual_range
+from optipath.values.units import in_unit
 
 
 def of(parameter, element=op.Polarizer, **cases):
@@ -57,8 +59,53 @@ def test_a_range_far_from_the_usual_one_is_taken_itself():
 
     assert of_index(minimum=5.0, maximum=6.0) == (5.0, 6.0)
     assert of_index(minimum=5.0) == (5.0, 10.0)
+    assert of_index(default=4.0, minimum=4.0) == (4.0, 8.0)
+    assert of_index(maximum=0.5) == (0.0, 0.5)
     with pytest.raises(ParameterError, match="'n' has one value alone"):
         of_index(minimum=1.5, maximum=1.5)
+
+
+def test_a_least_value_far_from_the_usual_ones_is_followed_by_one_of_its_size():
+    def of_medium(name, **limits):
+        given = {"length": 1e-3} | {name: op.Parameter("p", **limits)}
+        return usual_range(op.Source() >> op.Medium(**given) >> op.Detector(), "p")
+
+    assert of_medium("length", minimum="5 mm", unit="mm") == pytest.approx((5e-3, 10e-3))
+    assert of_medium("absorption", minimum="3 1/m", unit="1/m") == pytest.approx((3.0, 6.0))
+    low, high = of(op.Parameter("a", minimum="400 deg"))
+    assert np.degrees(low) == pytest.approx(400.0)
+    assert low < high
+
+
+@pytest.mark.filterwarnings("ignore::optipath.AngleWarning")
+@pytest.mark.parametrize("unit", ["", "nm", "1/um", "deg"])
+@pytest.mark.parametrize("given", [{"default": 1e308}, {"minimum": 1e298}, {"default": 1.7e308}])
+def test_of_huge_values_the_range_has_ends_in_its_unit_as_well(unit, given):
+    parameter = op.Parameter("p", unit=unit, **given)
+    path = {
+        "": lambda: op.Source(parameter),
+        "nm": lambda: op.Source() >> op.Medium(parameter),
+        "1/um": lambda: op.Source() >> op.Medium(1e-3, absorption=parameter),
+        "deg": lambda: op.Source() >> op.Retarder(parameter),
+    }[unit]() >> op.Detector()
+    low, high = usual_range(path, "p")
+    assert low < high
+    points = np.linspace(low, high, 5)
+    assert np.isfinite([in_unit(each, unit) for each in points]).all()
+
+
+def test_a_signed_range_is_no_wider_than_floats():
+    low, high = of(op.Parameter("a", 1e308), op.Retarder, one=-1e308)
+    assert np.isfinite(high - low)
+
+
+def test_far_limits_do_not_make_a_range_wide_where_there_is_a_default():
+    low, high = usual_range(op.load_preset("dichroic-sheet"), "dichroism")
+    assert (low, high) == pytest.approx((-2e5, 2e5))  # Its default is 0.09 / um.
+
+
+def test_of_a_share_the_whole_is_seen_however_small_its_default():
+    assert of(op.Parameter("share", 0.01), op.Attenuator) == (0.0, 1.0)
 
 
 def test_an_index_goes_from_one_to_three_and_a_thickness_to_twice_its_default():

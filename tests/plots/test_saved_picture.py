@@ -40,6 +40,12 @@ def test_an_ending_that_cannot_be_drawn_is_refused(name, tmp_path):
     assert not [*tmp_path.iterdir()]
 
 
+def test_a_folder_that_is_not_there_is_told_as_no_fault_of_a_surface(tmp_path):
+    with pytest.raises(op.OptipathError, match=r"x.png' cannot be written: No such file") as told:
+        op.plots.save(figures.Figure(), tmp_path / "none" / "x.png")
+    assert type(told.value) is op.OptipathError
+
+
 @pytest.mark.parametrize("nothing", [None, [], "map"])
 def test_what_is_no_picture_is_refused(nothing, tmp_path):
     with pytest.raises(op.OptipathError, match="give what a function of plots returned"):

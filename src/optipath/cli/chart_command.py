@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
+from optipath.cli.changed_title import title_of
 from optipath.cli.chart_options import (
     AT,
     DATA,
@@ -51,7 +52,7 @@ def _chart(
     peers: Path | None,
 ) -> None:
     """Measure speed against accuracy, for a preset, a TOML file or one interface, and draw it."""
-    path = chosen.path()
+    path, title = chosen.path(), title_of(chosen)
 
     def measure(tell: Tell, keep: Keep) -> Chart:
         # The extra 'chart'.
@@ -62,13 +63,13 @@ def _chart(
         from optipath.lab.accuracy.peer_times import check_race  # noqa: PLC0415
 
         if near:
-            return critical_chart(path, chosen.title, places_near(near), progress=tell, keep=keep)
+            return critical_chart(path, title, places_near(near), progress=tell, keep=keep)
         if peers is not None:
             check_race(read_text(peers), str(peers))
         effort = LITTLE if quick else FULL
         effort = effort._replace(engines=engines) if engines else effort
         click.echo(expected(effort), err=True)
-        return path_chart(path, chosen.title, effort, tell, keep)
+        return path_chart(path, title, effort, tell, keep)
 
     _measure_and_draw(measure, out, data, peers)
 

@@ -17,7 +17,7 @@ _DASHES = "-\u2010\u2011\u2012\u2013\u2014\u2212"
 
 
 class StrictCommand(click.Command):
-    """A command that says what words were meant for which there is no place."""
+    """A command that says what words were meant for which there is no place, or more than one."""
 
     allow_extra_args = True
 
@@ -37,11 +37,26 @@ class StrictCommand(click.Command):
         words = list(args)
         with unknown_options_told(ctx, words):
             left = super().parse_args(ctx, args)
-        if left and not ctx.resilient_parsing:
+        if ctx.resilient_parsing:
+            return left
+        if repeated := self._repeated(ctx, words):
+            raise click.UsageError("; ".join(repeated), ctx)
+        if left:
             options = [one for one in self.get_params(ctx) if isinstance(one, click.Option)]
             flags = {flag: one.is_flag for one in options for flag in one.opts}
             raise click.UsageError(_left_over(left[0], words, flags), ctx)
         return left
+
+    def _repeated(self, ctx: click.Context, words: Sequence[str]) -> list[str]:
+        """Say which options are given several times that take one value."""
+        # Of the values click keeps the last alone.
+        _, _, order = self.make_parser(ctx).parse_args([*words])
+        return [
+            f"{one.opts[0]} is given {order.count(one)} times; give it once"
+            for one in dict.fromkeys(order)
+            if isinstance(one, click.Option) and not (one.multiple or one.is_flag or one.count)
+            if order.count(one) > 1
+        ]
 
 
 def _left_over(word: str, words: Sequence[str], flags: Mapping[str, bool]) -> str:

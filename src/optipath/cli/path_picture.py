@@ -42,7 +42,7 @@ text { fill: #e8e8e8 } .faint { fill: #b0b0b0 } .page { fill: #16191d }
 """.replace("FACE", FACE)
 
 
-def path_picture(path: PathGraph, name: str) -> str:
+def path_picture(path: PathGraph, name: str, case: str | None = None) -> str:
     """Return the drawing of a path, as SVG.
 
     Nodes stand below all that send light to them; a tap is dashed, light that goes round is led
@@ -54,6 +54,8 @@ def path_picture(path: PathGraph, name: str) -> str:
         The path.
     name : str
         What it is called.
+    case : str, optional
+        The case whose values it has.
 
     Returns
     -------
@@ -65,13 +67,14 @@ def path_picture(path: PathGraph, name: str) -> str:
     >>> path_picture(op.load_preset("malus"), "malus")[:42]
     '<svg xmlns="http://www.w3.org/2000/svg" wi'
     """
+    name += f", case {case}" if case else ""
     layers, boxes, labels = _laid_out(path)
     items = [item for row in layers.rows for item in row]
     extents = {one: boxes[one].extent if isinstance(one, str) else _PASSING for one in items}
     ends = {link: (boxes[link[0]].leaving[link], boxes[link[1]].entering[link]) for link in labels}
     places = layer_places(layers, extents, _GAP, ends)
     right = max((place + extents[item].right for item, place in places.items()), default=0.0)
-    legend = legend_of(path)
+    legend = legend_of(path, case)
     graph_width = right + _LANE * 1.5 * len(layers.back)
     width = max(_NARROWEST, graph_width + 2 * _MARGIN, legend.width + 2 * _MARGIN)
     page = _page(path, name)

@@ -12,6 +12,26 @@ Row = tuple[str, str, str, str]
 """The name, the default, the range, and what it is."""
 
 
+def headings(case: str | None) -> Row:
+    """Return what stands above the columns: of a path with the values of a case no defaults.
+
+    Parameters
+    ----------
+    case : str or None
+        Its name.
+
+    Returns
+    -------
+    Row
+
+    Examples
+    --------
+    >>> headings(None)[1], headings("8")[1]
+    ('default', 'value')
+    """
+    return "parameter", "default" if case is None else "value", "range", "what it is"
+
+
 def parameter_rows(path: PathGraph) -> list[Row]:
     """Return the rows of a path.
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from rich.cells import cell_len
 
 from optipath.cli.node_box import SMALL
-from optipath.cli.path_rows import parameter_rows
+from optipath.cli.path_rows import headings, parameter_rows
 from optipath.cli.svg_words import add_text, lines_of, text_width
 
 if TYPE_CHECKING:
@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 
     from optipath.paths.path_graph import PathGraph
 
-_HEADERS = ("parameter", "default", "range", "what it is")
 _WIDEST, _LAST, _CELLS, _BETWEEN = (22, 22, 24), 40, 98, 2  # In letters.
 _STEP, _APART = 16.0, 4.0
 
@@ -70,13 +69,15 @@ class PictureLegend:
         return y
 
 
-def legend_of(path: PathGraph) -> PictureLegend:
+def legend_of(path: PathGraph, case: str | None = None) -> PictureLegend:
     """Return the legend of a path.
 
     Parameters
     ----------
     path : PathGraph
         The path.
+    case : str, optional
+        The case whose values it has.
 
     Returns
     -------
@@ -85,10 +86,10 @@ def legend_of(path: PathGraph) -> PictureLegend:
     """
     found = PictureLegend([], [])
     if rows := parameter_rows(path):
-        _add(found, [_HEADERS, *rows], _WIDEST)
+        _add(found, [headings(case), *rows], _WIDEST)
     named: dict[str, list[str]] = {}
-    for name, case in path.cases.items():
-        named.setdefault(case.note, []).append(name)
+    for name, each in path.cases.items():
+        named.setdefault(each.note, []).append(name)
     if named:
         alone = [*named] == [""]
         notes = [(", ".join(names), note) for note, names in named.items()]

@@ -75,7 +75,7 @@ def _kind_faults(kind: str | None, asked: Mapping[str, Any]) -> list[str]:
     return [
         f"--{option} is of {' or '.join(takers)}, and --kind {kind} has none; leave it out"
         for option in ("x", "y", "detector")
-        if asked[option] and option not in KINDS[kind].takes
+        if asked[option] not in (None, ()) and option not in KINDS[kind].takes
         for takers in [[name for name, one in KINDS.items() if option in one.takes]]
     ]
 

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from textwrap import wrap
 from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optipath.cli.picture_title import draw_title
+from optipath.errors import ParameterError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from optipath.cli.plot_request import PlotRequest
     from optipath.values.axis_texts import AxisValues
-
-_LETTERS, _LINE = 11.0, 0.26
-"""How many letters of a title stand on an inch, and how many inches a line of it takes."""
 
 
 class PlotKind(NamedTuple):
@@ -54,10 +53,7 @@ def drawn(asked: PlotRequest) -> Any:
 
     first: Any = np.array(KINDS[asked.kind].draw(asked), object).flat[0]
     figure = first.figure
-    lines = wrap(asked.title, int(figure.get_figwidth() * _LETTERS))
-    # What is drawn keeps the room that it was given.
-    figure.set_figheight(figure.get_figheight() + _LINE * len(lines))
-    figure.suptitle("\n".join(lines), fontsize="large", parse_math=False)
+    draw_title(figure, asked.title)
     return figure
 
 
@@ -90,7 +86,13 @@ def _poincare(asked: PlotRequest) -> Any:
 
 def _stokes(asked: PlotRequest) -> Any:
     from optipath.plots import stokes  # noqa: PLC0415 - an extra
+    from optipath.plots.states.lights_to_draw import MOST  # noqa: PLC0415 - ditto
 
+    if len(asked.ends) > MOST:
+        raise ParameterError(
+            f"the path has {len(asked.ends)} detectors, and their bars are told apart up to "
+            f"{MOST}; add --detector {asked.ends[0]}"
+        )
     lights = asked.path.trace_all()
     published = {name: asked.published[name] for name in asked.ends if name in asked.published}
     return stokes({name: lights[name] for name in asked.ends}, published=published or None)

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from optipath.cli.changed_title import title_of
 from optipath.cli.given_axes import refuse_arrays
 from optipath.errors import ParameterError, listed, shown, unknown
 from optipath.paths.presets.loader import preset_of_case
-from optipath.values.displayed import displayed
-from optipath.values.named_materials import WAVELENGTH, materials_among
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Mapping, Sequence
@@ -128,7 +127,7 @@ def request_of(
         raise ParameterError(*faults)
     changed = bool(chosen.values or chosen.axes or reads)
     published = {} if changed or chosen.case is None else path.cases[chosen.case].published
-    title = ", ".join([chosen.title, *_told(chosen, reads=reads, at=detector)])
+    title = title_of(chosen, reads=reads, at=detector)
     return PlotRequest(kind, title, path, axes, quantities, ends, published)
 
 
@@ -211,19 +210,3 @@ def _count_faults(
             f"values, --{example} START:STOP:COUNT"
         )
     return faults
-
-
-def _told(chosen: Chosen, **others: str | None) -> list[str]:
-    """Return what is given besides the case, each value with its name."""
-    labels = {name: label for name, label, _ in materials_among(chosen.values)}
-    told = []
-    for name, value in chosen.values.items():
-        parameter = chosen.opened.parameters.get(name, WAVELENGTH)
-        if isinstance(value, float):
-            text = displayed(value, parameter.unit)
-        elif name in labels or isinstance(value, str):
-            text = labels.get(name, value)
-        else:
-            text = parameter.text(value)
-        told.append(f"{name} {text}")
-    return told + [f"{name} {text}" for name, text in others.items() if text]

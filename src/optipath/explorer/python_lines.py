@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from keyword import iskeyword
 from typing import TYPE_CHECKING, Any
 
 from optipath.values.materials import Material
 from optipath.values.named_materials import extinction_beside
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from optipath.explorer.read_values import ReadState
+
+_OF_LOADING = ("case",)
+"""What `load_preset` takes for itself, and a parameter may be called, too."""
 
 _PRINTED = """\
 lights = path.trace_all()
@@ -32,17 +38,28 @@ def python_lines(state: ReadState, source: str) -> str:
     -------
     str
     """
+    given = {name: repr(word) for name, word in state.asked.places.items()}
+    given |= {name: _value(state, name, value) for name, value in state.given.items()}
+    own = {name: text for name, text in given.items() if name in _OF_LOADING}
     arguments = [repr(source)]
     if state.asked.case is not None:
         arguments.append(f"case={state.asked.case!r}")
-    arguments += [f"{name}={word!r}" for name, word in state.asked.places.items()]
-    arguments += [f"{name}={_value(state, name, value)}" for name, value in state.given.items()]
+    arguments += _by_name({name: text for name, text in given.items() if name not in own})
     loaded = f"path = op.load_preset({', '.join(arguments)})"
     if len(loaded) > 88:
         inner = "".join(f"    {each},\n" for each in arguments)
         loaded = f"path = op.load_preset(\n{inner})"
+    if own:
+        loaded += f".bind({', '.join(_by_name(own))})"
     ends = repr([*state.explored.detectors])
     return f"import optipath as op\n\n{loaded}\n{_PRINTED.format(ends=ends)}"
+
+
+def _by_name(given: Mapping[str, str]) -> list[str]:
+    """Return arguments; in one mapping those whose names Python keeps for itself."""
+    kept = [f"{name!r}: {text}" for name, text in given.items() if iskeyword(name)]
+    plain = [f"{name}={text}" for name, text in given.items() if not iskeyword(name)]
+    return [*plain, f"**{{{', '.join(kept)}}}"] if kept else plain
 
 
 def _value(state: ReadState, name: str, value: Any) -> str:

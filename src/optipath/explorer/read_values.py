@@ -106,7 +106,10 @@ class ReadState:
     def faults(self, error: OptipathError) -> list[FieldFault]:
         """Return what is wrong with the fields that sentences name."""
         known = {WAVELENGTH.name, *self.explored.parameters, *self.asked.values}
-        return [FieldFault(_field(sentence, known), sentence) for sentence in error.faults]
+        media = [*self.materials]
+        # Sentences on a medium name the element that it is in.
+        other = media[0] if len(media) == 1 else None
+        return [FieldFault(_field(sentence, known) or other, sentence) for sentence in error.faults]
 
 
 def read_state(presets: ExploredPresets, asked: AskedState) -> ReadState:

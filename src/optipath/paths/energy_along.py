@@ -7,14 +7,18 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import networkx as nx
 import numpy as np
 
+from optipath.composer.travel import reached
 from optipath.composer.wiring import Wiring
 from optipath.paths.lights_along import lights_along
+from optipath.values.plain_json import plain
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     import numpy.typing as npt
 
+    from optipath.light.light import Light
+    from optipath.paths.lights_along import LightOnLink
     from optipath.paths.path_graph import PathGraph
 
 _ROUNDING = 1e-12
@@ -33,9 +37,9 @@ class PowerOnLink(NamedTuple):
     end, enters : str
         The node that it goes to, and the in-port; empty where it leaves the path.
     power : ndarray, shape (...)
-        The intensity S0, all rounds together.
+        The intensity S0, all rounds together; 0 where it is no more than rounding.
     tap : bool
-        Whether the link reads light and takes nothing.
+        Whether light is only read here: at a tap, and on every way that light reaches by one alone.
     in_loop : bool
         Whether light passes it again and again.
     """
@@ -68,7 +72,7 @@ class EnergyAlong(NamedTuple):
     left : mapping of str to ndarray, shape (...)
         What leaves the path at each outlet, by its port.
     ended : mapping of str to ndarray, shape (...)
-        What ends in each detector and dump; what a tap brings there is only read.
+        What ends in each detector and dump; what light of a tap brings there is only read.
     notes : tuple of str
         What there is to know: light that goes round, elements that amplify.
 
@@ -90,11 +94,13 @@ class EnergyAlong(NamedTuple):
     notes: tuple[str, ...]
 
     def as_json(self) -> dict[str, Any]:
-        """Return the same as texts, numbers, lists and dicts, as JSON has them."""
-        plain = {field: _plain(getattr(self, field)) for field in ("given", "taken", "left")}
-        links = [link._asdict() | {"power": link.power.tolist()} for link in self.links]
-        ended = _plain(self.ended)
-        return {"links": links, **plain, "ended": ended, "notes": [*self.notes]}
+        """Return the same as texts, numbers, lists and dicts, as JSON has them.
+
+        None stands for a power that is not a number, as of a place that there is not.
+        """
+        powers = {name: _plain(getattr(self, name)) for name in ("given", "taken", "left", "ended")}
+        links = [link._asdict() | {"power": plain(link.power)} for link in self.links]
+        return {"links": links, **powers, "notes": [*self.notes]}
 
 
 def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
@@ -120,12 +126,13 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     """
     wiring = Wiring(path.graph, keep="all")
     lit = [*lights_along(path, **parameters)]
-    powers = np.broadcast_arrays(*[np.asarray(each.light.intensity, float) for each in lit])
-    round_and_round = _going_round(wiring)
-    links = tuple(
-        PowerOnLink(*each[:5], power, each.tap, _passes(each, round_and_round))
-        for each, power in zip(lit, powers, strict=True)
-    )
+    powers = np.broadcast_arrays(*[_power(each.light) for each in lit])
+    spent, round_and_round = reached(wiring.untapped, wiring.starts), _going_round(wiring)
+    links = []
+    for each, power in zip(lit, powers, strict=True):
+        tap = each.tap or (each.start, each.leaves) not in spent
+        in_loop = not each.tap and _passes(each, round_and_round)
+        links.append(PowerOnLink(*each[:5], power, tap, in_loop))
     flows = [link for link in links if not link.tap]
     inner = {node for node, e in wiring.elements.items() if e.inputs and e.outputs}
     begin = {node for node, e in wiring.elements.items() if not e.inputs}
@@ -133,11 +140,17 @@ def energy_along(path: PathGraph, /, **parameters: Any) -> EnergyAlong:
     taken = {node: _taken(node, flows) for node in _in_order(flows) if node in inner}
     left = {link.name: link.power for link in flows if not link.end}
     ended = _sums((link.end, link.power) for link in flows if link.end and link.end not in inner)
-    return EnergyAlong(links, given, taken, left, ended, (*_notes(links, taken),))
+    return EnergyAlong((*links,), given, taken, left, ended, (*_notes(links, taken),))
 
 
-def _passes(link: Any, ports: set[Any]) -> bool:
-    return {(link.start, link.leaves), (link.end, link.enters)} <= ports and not link.tap
+def _power(light: Light) -> npt.NDArray[np.float64]:
+    """Return the intensity of light; 0 where that is no more than the noise of what it was."""
+    power = np.asarray(light.intensity, float)
+    return np.where(np.abs(power) < light.noise, 0.0, power)
+
+
+def _passes(link: LightOnLink, ports: set[Any]) -> bool:
+    return {(link.start, link.leaves), (link.end, link.enters)} <= ports
 
 
 def _going_round(wiring: Wiring) -> set[Any]:
@@ -176,4 +189,4 @@ def _notes(links: Iterable[PowerOnLink], taken: Mapping[str, Any]) -> Iterable[s
 
 
 def _plain(powers: Mapping[str, npt.NDArray[np.float64]]) -> dict[str, Any]:
-    return {name: power.tolist() for name, power in powers.items()}
+    return {name: plain(power) for name, power in powers.items()}

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from optipath.composer.composer import Composer
 from optipath.composer.wiring import Wiring, link_text
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from optipath.composer.travel import Port
     from optipath.light.light import Light
     from optipath.paths.path_graph import PathGraph
+
+KEEPING = Composer(keep="all")
+"""What composes a path so that the light on every link is kept."""
 
 
 class LightOnLink(NamedTuple):
@@ -65,10 +70,9 @@ def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     pane2.reflected -> eye.in 0.0
     pane2.transmitted 0.074
     """
-    lights: Mapping[str, Light] = path.trace(keep="all", **parameters)
+    # By the plan, since a parameter may be called keep.
+    lights: Mapping[str, Light] = path.plan_by(KEEPING).run_all(**parameters)
     wiring = Wiring(path.graph, keep="all")
-    travelled = [port for stretch in wiring.stretches for port in stretch.ports]
-    order = {port: place for place, port in enumerate(travelled)}
     found = [
         LightOnLink(name, start, leaves, end, enters, lights[name], bool(tap))
         for start, end, (leaves, enters), tap in path.graph.edges(keys=True, data="tap")
@@ -77,4 +81,19 @@ def lights_along(path: PathGraph, /, **parameters: Any) -> list[LightOnLink]:
     for name in lights.keys() & {*wiring.outlets}:
         start, _, leaves = name.rpartition(".")
         found.append(LightOnLink(name, start, leaves, "", "", lights[name]))
-    return sorted(found, key=lambda each: (order[each.start, each.leaves], each.tap))
+    order = _order(wiring)
+    return sorted(found, key=lambda each: (*order[each.start, each.leaves], each.tap))
+
+
+def _order(wiring: Wiring) -> dict[Port, tuple[int, int]]:
+    """Return where in the order of travel light leaves each port, by where it has come in."""
+    travelled = [port for stretch in wiring.stretches for port in stretch.ports]
+    place = {port: number for number, port in enumerate(travelled)}
+    found = {}
+    for name, port in travelled:
+        own = place[name, port]
+        ways = [c.enters for c in wiring.couplings[name] if c.leaves == port]
+        fed = [place.get((name, enters), own) for enters in ways if enters is not None]
+        # That which comes round in a loop comes in behind the port.
+        found[name, port] = max([at for at in fed if at < own], default=own), own
+    return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -28,6 +29,7 @@ _INDEX = 1.0, 3.0
 _WIDEST = 10.0
 """How many times as wide as what is given a range may be that is taken as it is."""
 
+_MOST = sys.float_info.max
 _ROUND = 1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0
 
 
@@ -36,7 +38,8 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
 
     The default and the values of all cases lie in it, and it lies where values are allowed: the
     visible light of a wavelength, a half turn of an axis, an index from 1 to 3, the quadrant of an
-    angle of incidence, and twice the largest value of what has no end.
+    angle of incidence, and twice the largest value of what has no end. Both ends, and how far they
+    are apart, are numbers that a float has, in the unit of the parameter too.
 
     Parameters
     ----------
@@ -73,17 +76,22 @@ def usual_range(path: PathGraph, name: str) -> tuple[float, float]:
     seen = [*_seen(path, parameter, uses)]
     low, high = _around(seen, parameter, limits, uses)
     low, high = max(low, limits[0]), min(high, limits[1])
-    return (low, high) if low < high else _between(name, limits)
+    if not low < high:
+        low, high = _between(parameter, limits)
+    most = min(_MOST, _MOST / in_unit(1.0, parameter.unit))
+    low, high = max(low, -most), min(high, most)
+    return (low, high) if math.isfinite(high - low) else (low / 2, high / 2)
 
 
-def _between(name: str, limits: tuple[float, float]) -> tuple[float, float]:
+def _between(parameter: Parameter, limits: tuple[float, float]) -> tuple[float, float]:
     """Return the limits themselves where nothing usual lies between them, as far as they go."""
     low, high = limits
     if low == high:
-        raise ParameterError(f"parameter '{name}' has one value alone, and no range")
+        raise ParameterError(f"parameter '{parameter.name}' has one value alone, and no range")
+    one = _in_base_unit(1.0, parameter)
     if math.isinf(low):
-        low = high - max(1.0, abs(high))
-    return low, high if math.isfinite(high) else low + max(1.0, abs(low))
+        low = high - max(one, abs(high))
+    return low, high if math.isfinite(high) else low + max(one, abs(low))
 
 
 def _seen(path: PathGraph, parameter: Parameter, uses: list[Use]) -> Iterable[float]:
@@ -151,7 +159,9 @@ def _of_sizes(
     one = _in_base_unit(1.0, parameter)
     largest = max(map(abs, seen), default=0.0)
     widest = max(map(abs, limits))
-    if math.isfinite(widest) and (not largest or widest <= max(_WIDEST * largest, one)):
+    # Of a pure number, as a share, the whole is seen; one of a unit says nothing about sizes.
+    enough = max(_WIDEST * largest, 0.0 if parameter.unit else one)
+    if math.isfinite(widest) and (not largest or widest <= enough):
         return limits
     end = _in_base_unit(_rounded_up(2 * in_unit(largest, parameter.unit)), parameter) or one
     return (-end if limits[0] < 0.0 else 0.0), end
@@ -163,7 +173,7 @@ def _in_base_unit(number: float, parameter: Parameter) -> float:
 
 
 def _rounded_up(number: float) -> float:
-    """Return the next round number.
+    """Return the next round number, or the largest float.
 
     Examples
     --------
@@ -172,5 +182,6 @@ def _rounded_up(number: float) -> float:
     """
     if not number:
         return 0.0
-    power = 10.0 ** math.floor(math.log10(number))
-    return power * next((each for each in _ROUND if number <= each * power * (1 + 1e-9)), 10.0)
+    power = 10.0 ** math.floor(math.log10(min(number, _MOST)))
+    factor = next((each for each in _ROUND if number <= each * power * (1 + 1e-9)), 10.0)
+    return min(factor * power, _MOST)

@@ -31,12 +31,17 @@ def own_axes(given: Any, size: tuple[float, float]) -> Axes:
     Raises
     ------
     OptipathError
-        If what is given is something else.
+        If what is given is something else, or axes in space or of angles.
     """
     if given is None:
         return Figure(figsize=size, layout="constrained").add_subplot()
     if not isinstance(given, Axes):
         raise OptipathError(f"ax is {shown(given)}; give Axes of Matplotlib, or leave it out")
+    if not _is_flat(given):
+        raise OptipathError(
+            f"ax has the projection '{given.name}', and the picture is a flat one; give plain "
+            f"Axes, as figure.add_subplot() makes them, or leave it out"
+        )
     return given
 
 
@@ -59,15 +64,19 @@ def own_panel(given: Any, shape: tuple[int, int], size: tuple[float, float]) -> 
     Raises
     ------
     OptipathError
-        If what is given is something else, or of another shape.
+        If what is given is something else, or of another shape, or axes in space.
     """
     if given is None:
         return Figure(figsize=size, layout="constrained").subplots(*shape, squeeze=False)
     panel = np.array(given, object)
-    if panel.size != shape[0] * shape[1] or not all(isinstance(ax, Axes) for ax in panel.flat):
+    if panel.size != shape[0] * shape[1] or not all(map(_is_flat, panel.flat)):
         rows, columns = shape
         raise OptipathError(
             f"axes are {shown(given)}; give {rows} x {columns} Axes of Matplotlib, as "
             f"figure.subplots({rows}, {columns}) makes them, or leave them out"
         )
     return panel.reshape(shape)
+
+
+def _is_flat(ax: Any) -> bool:
+    return isinstance(ax, Axes) and ax.name == "rectilinear"

@@ -46,5 +46,5 @@ def save(drawn: Any, file: str | os.PathLike[str], dots_per_inch: float = 150.0)
         raise OptipathError(*faults)
     figure: Any = first[0].figure.figure if isinstance(first[0], Axes) else first[0]
     place = given_file(file, OptipathError)
-    with told_of(place):
+    with told_of(place, OptipathError):
         write_picture(figure, place, dots_per_inch)

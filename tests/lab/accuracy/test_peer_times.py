@@ -101,6 +101,17 @@ def test_what_is_no_race_is_refused(text):
         peer_times(text, "race.json", CHART)
 
 
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("error", 10**400), ("error", -1e-9), ("error", True), ("least", True), ("least", 10**400)],
+)
+def test_a_time_or_an_error_that_is_no_such_number_is_refused(name, value):
+    found = json.loads(race())
+    found["contests"]["absorbing"]["results"][1][name] = value
+    with pytest.raises(op.OptipathError, match="is no whole race"):
+        peer_times(json.dumps(found), "race.json", CHART)
+
+
 def test_peers_stand_in_a_panel_of_their_own_with_their_names(tmp_path):
     pytest.importorskip("matplotlib")
     file = tmp_path / "race.json"

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 import optipath as op
 from optipath.errors import OptipathError, ParameterError
 from optipath.plots import curve
+from optipath.plots.curves.drawn_quantity import drawn_quantities
 from pictures import faults_of, texts_of
 
 WAVEPLATE = (
@@ -50,7 +51,7 @@ def test_photon_energies_stand_along_the_axis_and_the_default_among_them():
 
 
 def test_names_are_read_in_small_letters():
-    assert [*lines(curve(op.load_preset("malus"), "angle", ("s0", "dolp")))] == ["S0", "DoLP"]
+    assert [each.name for each in drawn_quantities(("s0", "dolp"))] == ["S0", "DoLP"]
 
 
 def test_quantities_of_two_units_have_two_axes():
@@ -90,6 +91,31 @@ def test_an_angle_that_comes_round_is_no_line_across():
     assert np.nanmin(y) == pytest.approx(-90.0)
 
 
+def marks(ax):
+    """The points that are marked."""
+    (line,) = [line for line in ax.get_lines() if line.get_marker() not in {"None", "", None}]
+    assert line.get_linestyle() == "None"
+    return line.get_xydata()
+
+
+def test_few_points_are_marked_and_flips_between_them_leave_them_seen():
+    # Each step turns the light by 90 deg, which is drawn neither up nor down.
+    ax = curve(WAVEPLATE, "turn", "aop", values="0 deg:180 deg:5")
+    x, y = marks(ax).T
+    assert x == pytest.approx([0.0, 45.0, 90.0, 135.0, 180.0])
+    assert np.abs(y) == pytest.approx([0.0, 90.0, 0.0, 90.0, 0.0], abs=1e-9)
+    assert faults_of(ax.figure) == []
+    assert len(marks(curve(op.load_preset("malus"), "angle", values="0 deg:90 deg:7"))) == 7
+
+
+def test_of_many_points_those_are_marked_that_stand_alone():
+    # The light is turned by 90 deg from each to the next.
+    ax = curve(WAVEPLATE, "turn", "aop", values="0 deg:1800 deg:41")
+    assert len(marks(ax)) == 41
+    lit = op.load_preset("malus")
+    assert not [line for line in curve(lit, "angle").get_lines() if line.get_marker() == "o"]
+
+
 def test_the_angle_of_light_without_polarisation_is_left_open_and_told():
     path = op.Source(op.Parameter("power", 1.0)) >> op.Detector()
     ax = curve(path, "power", ("S0", "AoP"))
@@ -120,10 +146,14 @@ def test_the_curve_is_open_where_the_path_refuses_values_that_nobody_gave():
         curve(path, "dichroism", values="-1 1/um:1 1/um:9")
 
 
-@pytest.mark.parametrize("size", [(6.4, 4.2), (3.2, 2.1)])
 @pytest.mark.parametrize(
-    ("preset", "x"),
-    [("npgr026", "rho"), ("lyot-depolarizer", "wavelength"), ("dichroic-sheet", "retardance")],
+    ("preset", "x", "size"),
+    [
+        ("npgr026", "rho", (6.4, 4.2)),
+        ("npgr026", "rho", (3.2, 2.1)),
+        ("lyot-depolarizer", "wavelength", (3.2, 2.1)),
+        ("dichroic-sheet", "retardance", (3.2, 2.1)),
+    ],
 )
 def test_no_text_is_over_another_or_cut_at_either_size(preset, x, size):
     figure = Figure(figsize=size, layout="constrained")
@@ -175,6 +205,7 @@ def test_which_of_several_detectors_is_asked():
         ({"x": "angle", "y": ("S0", "s0")}, "give each of them once"),
         ({"x": "angle", "y": ()}, "quantities are"),
         ({"x": "angle", "values": 0.3}, "give two or more"),
+        ({"x": "angle", "values": "30 deg:30 deg:5"}, "values of 'angle' are 30 deg alone; give"),
         ({"x": "angle", "values": ["vertical", "10 deg"]}, "has the word 'vertical'"),
         ({"x": "angle", "values": "0 deg:90 deg:5", "intensity": [1.0, 2.0]}, "one value"),
         ({"x": "angle", "intensty": 1.0}, "'intensty' is unknown; did you mean 'intensity'"),

@@ -7,6 +7,7 @@ from matplotlib.figure import Figure
 import optipath as op
 from optipath.errors import OptipathError
 from optipath.plots import quantity_map
+from optipath.plots.curves.drawn_quantity import drawn_quantity
 from pictures import faults_of
 
 FEW = {"x_values": "0 deg:180 deg:19", "y_values": "0.5, 1, 2"}
@@ -17,18 +18,26 @@ def image(ax):
     return mesh
 
 
-def test_a_map_has_malus_law_along_x_and_the_power_along_y():
-    ax = quantity_map(op.load_preset("malus"), "angle", "intensity", **FEW)
-    numbers = image(ax).get_array()
+@pytest.fixture(scope="module")
+def malus():
+    return quantity_map(op.load_preset("malus"), "angle", "intensity", **FEW)
+
+
+def test_a_map_has_malus_law_along_x_and_the_power_along_y(malus):
     law = 0.5 * np.cos(np.radians(np.linspace(0, 180, 19))) ** 2
-    np.testing.assert_allclose(numbers, np.outer([0.5, 1.0, 2.0], law), atol=1e-12)
+    expected = np.outer([0.5, 1.0, 2.0], law)
+    np.testing.assert_allclose(image(malus).get_array(), expected, atol=1e-12)
 
 
-def test_values_in_any_order_are_put_in_order():
+def test_a_map_ends_at_the_first_and_the_last_value(malus):
+    limits = *malus.get_xlim(), *malus.get_ylim()
+    assert limits == pytest.approx((0.0, 180.0, 0.5, 2.0))
+
+
+def test_values_in_any_order_are_put_in_order(malus):
     given = FEW | {"y_values": "2, 0.5, 1"}
-    path = op.load_preset("malus")
-    one, other = (quantity_map(path, "angle", "intensity", **each) for each in (FEW, given))
-    np.testing.assert_array_equal(image(one).get_array(), image(other).get_array())
+    other = quantity_map(op.load_preset("malus"), "angle", "intensity", **given)
+    np.testing.assert_array_equal(image(malus).get_array(), image(other).get_array())
 
 
 @pytest.mark.parametrize(
@@ -43,9 +52,14 @@ def test_values_in_any_order_are_put_in_order():
     ],
 )
 def test_colours_are_in_order_apart_from_zero_or_round(quantity, colours, low, high):
-    mesh = image(quantity_map(op.load_preset("malus"), "angle", "intensity", quantity, **FEW))
-    assert mesh.cmap.name == colours
-    assert (mesh.norm.vmin, mesh.norm.vmax) == (low, high)
+    scale = drawn_quantity(quantity).colours(np.array([[0.0, 0.2], [0.5, 1.0]]))
+    assert scale.colours == colours
+    assert (scale.norm.vmin, scale.norm.vmax) == (low, high)
+
+
+def test_the_map_has_the_colours_of_its_quantity(malus):
+    mesh = image(malus)
+    assert (mesh.cmap.name, mesh.norm.vmin, mesh.norm.vmax) == ("viridis", 0.0, 1.0)
 
 
 def test_places_without_the_quantity_are_grey_and_the_bar_says_so():
@@ -58,10 +72,9 @@ def test_places_without_the_quantity_are_grey_and_the_bar_says_so():
     assert bar.get_ylabel().endswith("(grey: none)")
 
 
-def test_a_cross_marks_the_values_by_default():
-    ax = quantity_map(op.load_preset("malus"), "angle", "intensity", **FEW)
-    assert ax.get_lines()[-1].get_xydata().tolist() == [pytest.approx([30.0, 1.0])]
-    assert ax.get_title() == "+ by default: angle 30°, intensity 1"
+def test_a_cross_marks_the_values_by_default(malus):
+    assert malus.get_lines()[-1].get_xydata().tolist() == [pytest.approx([30.0, 1.0])]
+    assert malus.get_title() == "+ by default: angle 30°, intensity 1"
 
 
 def test_what_the_path_refuses_is_grey_where_nobody_gave_it(monkeypatch):

@@ -19,11 +19,15 @@ def curves(ax):
     return {line.get_label(): line.get_xydata() for line in ax.get_lines()}
 
 
-def test_glass_reflects_four_per_cent_upright_and_all_of_it_at_grazing_incidence():
-    found = curves(reflection(1.5))
+@pytest.fixture(scope="module")
+def glass():
+    return curves(reflection(1.5))
+
+
+def test_glass_reflects_four_per_cent_upright_and_all_of_it_at_grazing_incidence(glass):
     for name in ("$R_s$", "$R_p$", "$R$ unpolarised"):
-        assert found[name][0].tolist() == pytest.approx([0.0, 0.04])
-        assert found[name][-1].tolist() == pytest.approx([90.0, 1.0])
+        assert glass[name][0].tolist() == pytest.approx([0.0, 0.04])
+        assert glass[name][-1].tolist() == pytest.approx([90.0, 1.0])
 
 
 def test_curves_are_those_of_the_amplitudes():
@@ -34,9 +38,9 @@ def test_curves_are_those_of_the_amplitudes():
     np.testing.assert_allclose(found["$R_p$"][:, 1], np.abs(r_p) ** 2, atol=1e-12)
 
 
-def test_brewsters_angle_of_glass_is_marked_with_its_value():
+def test_brewsters_angle_of_glass_is_marked_with_its_value(glass):
     assert marks(1.5) == {"Brewster's angle": pytest.approx(56.3099, abs=1e-4)}
-    assert "Brewster's angle 56.31°" in curves(reflection(1.5))
+    assert "Brewster's angle 56.31°" in glass
     assert reflected(1.5, np.arctan(1.5)).dolp == pytest.approx(1.0)
 
 
@@ -75,11 +79,30 @@ def test_a_material_is_given_by_its_name_and_a_wavelength():
     assert "gold at 516 nm" in by_name.get_title()
 
 
+@pytest.mark.parametrize(
+    ("given", "title"),
+    [
+        ({"index": 1.00001, "outside": 1.00002}, "n = 1.00001 in n = 1.00002"),
+        ({"index": "0.2+3.4j", "outside": "1.33"}, "n = 0.2 + 3.4i in n = 1.33"),
+    ],
+)
+def test_the_title_has_numbers_that_differ_and_no_number_for_a_name(given, title):
+    assert reflection(**given).get_title() == f"reflection: {title}"
+
+
+def test_a_formula_that_holds_at_any_wavelength_is_taken_at_one():
+    # n = 1.5 + 0.004 / 0.5^2, in micrometres.
+    ax = reflection(op.Material.cauchy([1.5, 0.004]), wavelength="500 nm")
+    assert ax.get_title() == "reflection: n = 1.516 in n = 1"
+    with pytest.raises(OptipathError, match="depends on the wavelength; give one"):
+        reflection(op.Material.cauchy([1.5, 0.004]))
+
+
 @pytest.mark.parametrize("size", [(6.4, 4.4), (3.2, 2.2)])
 @pytest.mark.parametrize(
     "given",
     [
-        {"index": 1.0, "outside": 1.5},
+        {"index": 1.00000001, "outside": 1.00000002},
         {"index": "gold", "outside": "water", "wavelength": "516 nm"},
     ],
 )
@@ -97,11 +120,16 @@ def test_no_text_is_over_another_or_cut_at_either_size(given, size):
         ({"index": 1.5, "outside": 1.5}, "are both 1.5, and nothing is reflected"),
         ({"index": 1.5, "outside": 1.0 + 1.0j}, "give the index of a clear medium"),
         ({"index": np.array([1.5, 1.6])}, "a picture is of one index"),
-        ({"index": "unobtainium"}, "unobtainium"),
         ({"index": -1.0}, "index"),
         ({"index": None}, "index"),
         ({"index": "gold", "wavelength": 516.0}, "wavelength"),
         ({"index": "gold", "wavelength": ["500 nm", "600 nm"]}, "a picture is of one"),
+        ({"index": "gold", "wavelength": [500e-9]}, "a picture is of one"),
+        ({"index": 0.0}, "index is 0, which is that of no medium"),
+        (
+            {"index": "gold", "wavelength": "1e-9 m"},
+            "'gold' is not known at 1 nm; give a wavelength within 187.9 nm .. 1937 nm$",
+        ),
     ],
 )
 def test_what_is_wrong_is_told(given, told):

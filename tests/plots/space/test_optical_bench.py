@@ -3,12 +3,15 @@
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.path import Path
 
 import optipath as op
+from optipath.plots.line_colours import FAINT
 from optipath.plots.space.bench_symbols import DIAL, ELLIPSE
 from pictures import faults_of
 
-PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "double-pass-waveplate"]
+PLANE = ["malus", "solc-filter", "sky-and-window", "glass-slab", "coated-metal"]
+PLANE += ["double-pass-waveplate", "faraday-isolator", "fresnel-rhomb", "pile-of-plates"]
 
 
 def texts_in(ax):
@@ -22,12 +25,21 @@ def dials_of(ax, colour=ELLIPSE):
     return [(p - (p.min(axis=0) + p.max(axis=0)) / 2) / DIAL / 0.92 for p in points]
 
 
+def over_symbols(ax):
+    """The texts that touch what is drawn."""
+    drawn = [each.get_path().transformed(each.get_transform()) for each in ax.patches]
+    shapes = [Path(points) for each in drawn for points in each.to_polygons()]
+    boxes = [(t.get_text(), t.get_window_extent()) for t in ax.texts if t.get_text()]
+    return [text for text, box in boxes for shape in shapes if shape.intersects_bbox(box)]
+
+
 @pytest.mark.parametrize("preset", PLANE)
 @pytest.mark.parametrize("size", [(9.0, 5.4), (4.5, 2.7)])
-def test_no_name_is_over_another_or_cut(preset, size):
+def test_no_name_is_over_another_or_a_symbol_or_cut(preset, size):
     figure = Figure(figsize=size, layout="constrained")
     op.plots.bench(op.load_preset(preset), figure.add_subplot())
     assert faults_of(figure) == []
+    assert over_symbols(figure.axes[0]) == []
 
 
 def test_names_and_values_stand_below_their_symbols():
@@ -50,9 +62,40 @@ def test_what_a_link_turns_is_turned_in_the_dial_of_the_plate():
     assert abs(np.degrees(np.arctan2(way[1], way[0])) % 180.0 - 135.0) < 1e-6
 
 
+def round_about(head, middle):
+    """To which side a head goes round a middle: 1 is counter-clockwise."""
+    tip, *foot = head.get_xy()[:3]
+    way = tip - np.mean(foot, axis=0)
+    out = np.mean(foot, axis=0) - middle
+    return np.sign(out[0] * way[1] - out[1] * way[0])
+
+
+@pytest.mark.parametrize("s3", [1.0, -1.0])
+@pytest.mark.parametrize("tilt", [0.0, 0.3])
+def test_heads_in_dials_turn_as_the_field_does_to_who_looks_at_the_source(s3, tilt):
+    light = op.Source(stokes=[1.0, np.sin(tilt), 0.0, s3 * np.cos(tilt)])
+    ax = op.plots.bench(light >> op.Detector())
+    (head,) = [patch for patch in ax.patches if patch.get_gid() == "turn"]
+    assert round_about(head, np.array([0.5, 0.0])) == s3
+
+
+def test_light_that_is_linear_has_no_head_that_turns():
+    ax = op.plots.bench(op.load_preset("malus"))
+    assert [patch for patch in ax.patches if patch.get_gid() == "turn"] == []
+
+
 def test_dark_light_has_no_dial():
     dark = dials_of(op.plots.bench(op.load_preset("malus"), angle="90 deg"))
     assert len(dark) == 1
+
+
+def test_light_that_is_rounding_has_no_dial_and_no_star():
+    dark, lit = (
+        op.plots.bench(op.load_preset("senarmont"), analyzer=angle)
+        for angle in ("120 deg", "100 deg")
+    )
+    assert len(dials_of(lit)) - len(dials_of(dark)) == 1
+    assert len(dials_of(lit, FAINT)) == len(dials_of(dark, FAINT)) == 3
 
 
 def test_long_straight_benches_take_rows():
@@ -72,6 +115,24 @@ def test_the_assignment_in_one_plane_is_drawn():
     assert {"X1\ndelta = 53 deg", "X2\nphi = 56 deg"} <= {
         "\n".join(text.split("\n")[:2]) for text in texts_in(ax)
     }
+
+
+@pytest.mark.parametrize(
+    ("preset", "name", "sine"),
+    [
+        ("coated-metal", "metal", np.sin(np.radians(40.0)) / 1.5),
+        ("glass-slab", "back", np.sin(np.radians(40.0)) / 1.5),
+        ("prism-refraction", "front", 1.5 * 0.5),
+    ],
+)
+def test_the_angle_that_is_told_of_a_face_is_that_at_which_light_meets_it(preset, name, sine):
+    texts = texts_in(op.plots.bench(op.load_preset(preset)))
+    assert f"{name}\nincidence = {np.degrees(np.arcsin(sine)):.5g} deg" in texts
+
+
+def test_no_angle_is_told_with_the_sign_of_nothing():
+    texts = texts_in(op.plots.bench(op.load_preset("npgr026", case="1")))
+    assert "X1\ndelta = 53 deg\nazimuth -rho = 0 deg" in texts
 
 
 def test_given_axes_are_drawn_into_and_returned():

@@ -79,6 +79,20 @@ def test_from_the_side_a_straight_path_is_a_level_line():
     assert np.allclose(heights, 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("s3", [1.0, -1.0])
+@pytest.mark.parametrize(("azimuth", "towards"), [(45.0, 1.0), (225.0, -1.0)])
+def test_heads_on_ellipses_turn_as_the_field_does(s3, azimuth, towards):
+    path = op.Source(stokes=[1.0, 0.0, 0.0, s3]) >> op.Detector()
+    ax = op.plots.geometry(path, view=(20.0, azimuth))
+    (head,) = [patch for patch in ax.patches if patch.get_gid() == "turn"]
+    (ellipse,) = [line for line in ax.lines if line.get_zorder() == 5.0]
+    tip, *foot = head.get_xy()[:3]
+    out = np.mean(foot, axis=0) - np.mean(ellipse.get_xydata()[:-1], axis=0)
+    way = tip - np.mean(foot, axis=0)
+    # The light goes along x of the world: from an azimuth of 45 deg one looks at the source.
+    assert np.sign(out[0] * way[1] - out[1] * way[0]) == s3 * towards
+
+
 def test_given_axes_are_drawn_into_and_returned():
     given = Figure().add_subplot()
     assert op.plots.geometry(op.load_preset("malus"), given) is given

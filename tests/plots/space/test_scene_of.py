@@ -48,7 +48,7 @@ def test_what_every_preset_tells_a_page_is_plain_json_with_the_agreed_keys(prese
     expected = "notes schematic nodes rays planes frames angles bounds"
     assert [*told] == expected.split()
     assert {*told["nodes"][0]} == {*SceneNode._fields} - {"axis"}
-    ray = "name start end from to frame ellipse intensity dop leaves"
+    ray = "name start end from to frame ellipse intensity dop leaves tap"
     assert {*told["rays"][0]} == {*ray.split()}
 
 
@@ -245,10 +245,41 @@ def test_arcs_are_as_wide_as_the_angles_they_name():
         assert abs(np.degrees(np.arccos(cosine)) - expected) < 1e-9
 
 
+@pytest.mark.parametrize("preset", preset_names())
+def test_the_names_of_angles_belong_to_their_arcs(preset):
+    scene = scene_of(op.load_preset(preset))
+    for angle in scene.angles:
+        seen = len(angle.arc) and np.linalg.norm(angle.arc[-1] - angle.arc[0]) > 0.01 * scene.unit
+        near = angle.arc if seen else np.array([angle.centre])
+        away = np.linalg.norm(near - angle.at, axis=1).min()
+        assert away < 0.02 * scene.unit, angle.text
+
+
+def test_a_page_is_told_which_rays_are_taps():
+    told = scene_of(op.load_preset("ellipsometer-pcsa")).as_json()
+    taps = [ray["name"] for ray in told["rays"] if ray["tap"]]
+    assert taps == ["S.reflected -> state.in"]
+
+
 def test_an_element_that_is_left_out_has_no_arc():
     (found,) = [a for a in scene_of(op.load_preset("npgr026")).angles if a.name == "filter"]
     assert found.text == "filter = none"
     assert found.arc.shape == (0, 3)
+
+
+def test_an_element_that_is_left_out_on_the_way_back_has_no_sign():
+    texts = [angle.text for angle in scene_of(op.load_preset("npgr026").reversed()).angles]
+    assert "filter = none" in texts
+    assert not any(text.startswith("-") for text in texts)
+
+
+@pytest.mark.parametrize(
+    "given", [{"default": "10 arcsec"}, {"default": "10 arcsec", "unit": "arcsec"}]
+)
+def test_small_angles_are_told_in_the_unit_of_their_parameter(given):
+    tilt = op.Parameter("tilt", **given)
+    path = op.Source() >> op.Polarizer(tilt) >> op.Detector()
+    assert [angle.text for angle in scene_of(path).angles] == ["tilt = 10 arcsec"]
 
 
 def test_ellipses_lie_across_the_ray_and_are_as_large_as_the_light_is_polarised():
@@ -266,6 +297,21 @@ def test_dark_light_has_no_ellipse_and_no_nan_in_json():
     assert {ray["ellipse"] for ray in told["rays"]} == {None}
     assert {ray["dop"] for ray in told["rays"]} == {None}
     assert {ray["intensity"] for ray in told["rays"]} == {0.0}
+
+
+@pytest.mark.parametrize("draw", [op.plots.geometry, op.plots.bench, scene_of])
+@pytest.mark.parametrize("given", ["malus", op.Polarizer(0.0), None])
+def test_what_is_no_path_is_refused_with_the_cure(draw, given):
+    with pytest.raises(op.OptipathError, match=r"draws a path, not .*give a PathGraph"):
+        draw(given)
+
+
+@pytest.mark.parametrize("draw", [op.plots.geometry, op.plots.bench, scene_of])
+def test_light_that_goes_a_way_that_there_is_not_is_refused(draw):
+    points = [[0, -1, 1], [0, 0, 0], [0, 9, 1]]
+    path = op.path_from_vertices(points, [1.5], events="T", bad="mask")
+    with pytest.raises(op.PathError, match=r"ways that light can go, but on '.*not a number"):
+        draw(path)
 
 
 def test_several_paths_at_once_are_refused():

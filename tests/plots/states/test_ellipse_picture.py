@@ -6,6 +6,7 @@ from pictures import faults_of, texts_of
 
 figures = pytest.importorskip("matplotlib.figure")
 patches = pytest.importorskip("matplotlib.patches")
+colors = pytest.importorskip("matplotlib.colors")
 
 NAN = np.nan
 LIGHTS = {
@@ -157,6 +158,15 @@ def test_a_batch_has_a_curve_each_by_its_name():
     assert len(curves_of(ax)) == 3
     told = [text.get_text().split(":")[0] for text in ax.get_legend().get_texts()]
     assert told == ["a", "b", "c"]
+
+
+def test_light_with_a_circle_alone_has_its_colour_in_the_key_and_dark_light_none():
+    ax = op.plots.ellipse({name: LIGHTS[name] for name in ("linear", "unpolarised", "dark")})
+    (circle,) = (each for each in circles_of(ax) if each.radius == pytest.approx(np.sqrt(0.5)))
+    _, unpolarised, dark, _ = ax.get_legend().get_lines()
+    assert colors.same_color(unpolarised.get_color(), circle.get_edgecolor())
+    assert unpolarised.is_dashed()
+    assert dark.get_linestyle() == "None"
 
 
 def test_names_are_told_as_they_are():

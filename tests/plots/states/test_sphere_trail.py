@@ -79,3 +79,9 @@ def test_a_path_of_dark_light_is_drawn():
     ax = op.plots.poincare_path(path)
     assert keys_of(ax)[0].endswith("(dark)")
     assert faults_of(ax.figure) == []
+
+
+@pytest.mark.parametrize("given", ["malus", op.Polarizer(0.0), None])
+def test_what_is_no_path_is_refused_with_the_cure(given):
+    with pytest.raises(op.OptipathError, match=r"a trail is of a path, not of .*give a PathGraph"):
+        op.plots.poincare_path(given)

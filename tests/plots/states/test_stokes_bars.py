@@ -72,6 +72,32 @@ def test_numbers_published_numbers_and_differences_stand_below_the_bars():
     assert ax.get_xlabel() == "computed, (published), Δ = computed less published"
 
 
+def test_six_digits_of_what_was_published_are_kept():
+    ax = op.plots.stokes(PATH.trace(), published=PUBLISHED)
+    told = [lines[2].strip("()") for lines in ticks_of(ax)]
+    assert [float(each) for each in told] == [19.1245, 10.9873, -13.0076, -8.70795]
+
+
+@pytest.mark.parametrize(("preset", "case"), [("achromatic-rhomb", "green"), ("npgr026", "7")])
+def test_long_numbers_stand_by_themselves_on_small_axes(preset, case):
+    path = op.load_preset(preset, case=case)
+    (published,) = path.cases[case].published.values()
+    ax = op.plots.stokes(path.trace(), axes(2.8, 2.2), published=published)
+    assert faults_of(ax.figure) == []
+
+
+def test_what_is_left_of_crossed_polarisers_is_nothing():
+    ax = op.plots.stokes(op.load_preset("senarmont").trace())
+    assert [lines[1] for lines in ticks_of(ax)] == ["0", "0", "0", "0"]
+    assert ax.get_ylabel() == "Stokes parameter\n(unit of the source)"
+    assert not heights_of(ax).any()
+
+
+def test_rounding_is_no_difference():
+    ax = op.plots.stokes(op.Light([0.1 + 0.2, 0.2, 0.0, 0.0]), published=[0.3, 0.2, 0.0, 0.0])
+    assert [lines[-1] for lines in ticks_of(ax)] == ["Δ 0"] * 4
+
+
 def test_marks_stand_at_what_was_published():
     ax = op.plots.stokes(PATH.trace(), published=PUBLISHED)
     (marks,) = (line for line in ax.get_lines() if line.get_marker() == "D")
@@ -82,6 +108,14 @@ def test_marks_stand_at_what_was_published():
 def test_what_a_detector_does_not_read_is_told():
     ax = op.plots.stokes(op.Light([1.0, NAN, NAN, NAN]))
     assert [lines[1] for lines in ticks_of(ax)] == ["1", "not read", "not read", "not read"]
+
+
+def test_infinite_light_is_told_as_such():
+    infinite = op.Light([np.inf, 0.0, 0.0, 0.0], physical=False)
+    ax = op.plots.stokes(infinite)
+    assert [lines[1] for lines in ticks_of(ax)] == ["infinite", "0", "0", "0"]
+    ax = op.plots.stokes({"hot": infinite, "lamp": ROWS[0]})
+    assert keys_of(ax) == ["hot: infinite", "lamp"]
 
 
 @pytest.mark.parametrize(
@@ -106,6 +140,21 @@ def test_dark_light_has_no_power_of_ten():
     assert faults_of(ax.figure) == []
 
 
+@pytest.mark.parametrize("stokes", [[0.0, 0.0, 0.0, 0.0], [NAN, NAN, NAN, NAN]])
+def test_axes_of_dark_light_go_from_0_to_1(stokes):
+    assert op.plots.stokes(op.Light(stokes)).get_ylim() == (0.0, 1.0)
+    lit = op.plots.stokes(op.Light(stokes), published=[4.0, 0.0, 0.0, 0.0])
+    assert lit.get_ylim()[1] > 4.0
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.5])
+def test_long_names_are_not_cut(scale):
+    lights = {"a": ROWS[0], "b" * 60: ROWS[1], "$x_2$": ROWS[2]}
+    ax = op.plots.stokes(lights, axes(5.6 * scale, 4.4 * scale))
+    assert faults_of(ax.figure) == []
+    assert [key.replace("\n", "") for key in keys_of(ax)] == [*lights]
+
+
 def test_a_light_has_the_name_that_it_is_given():
     ax = op.plots.stokes(ROWS[0], labels="eye")
     assert "eye" in {text.get_text() for text in texts_of(ax.figure)}
@@ -125,3 +174,15 @@ def test_a_light_has_the_name_that_it_is_given():
 def test_published_values_that_do_not_fit_are_told(light, published, told):
     with pytest.raises(op.OptipathError, match=told):
         op.plots.stokes(light, published=published)
+
+
+@pytest.mark.parametrize(
+    "light", [op.Light(np.zeros(4)), op.Light([0.0, NAN, NAN, NAN]), op.Light([NAN] * 4)]
+)
+def test_an_axis_without_bars_goes_from_0_to_1(light):
+    ax = op.plots.stokes(light)
+    assert ax.get_ylim() == (0.0, 1.0)
+    assert faults_of(ax.figure) == []
+    ax.figure.draw_without_rendering()
+    assert ax.yaxis.get_offset_text().get_text() == ""
+    assert op.plots.stokes(light, published=[2.0, 0.0, 0.0, 0.0]).get_ylim()[1] > 2.0

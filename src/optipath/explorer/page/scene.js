@@ -111,7 +111,8 @@ function fitted(scene, view, width, height) {
 function drawRay(ray, at, add, parts) {
   const [from, to] = [at(ray.from), at(ray.to)];
   const direction = [to[0] - from[0], to[1] - from[1]];
-  const look = ray.leaves ? "ray leaves" : ray.intensity === 0 ? "ray dark" : "ray";
+  const kind = ray.leaves ? "leaves" : ray.intensity === 0 ? "dark" : ray.tap ? "tap" : "";
+  const look = `ray ${kind}`;
   const share = ray.ellipse !== null && parts.has("ellipses") ? 0.76 : 0.56;
   const tip = from.map((each, k) => each + (to[k] - each) * (ray.leaves ? 1 : share));
   add([from, to], segment(from, to, look));

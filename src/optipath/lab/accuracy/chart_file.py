@@ -120,8 +120,8 @@ def _is_whole(chart: Any) -> bool:
             and chart["format"] == FORMAT
             and chart["contenders"]
             and all(isinstance(word, str) for word in words)
-            and all(_is_number(size) and 1e-30 < size < 1e30 for size in sizes)
-            and all(_is_number(error) and error >= 0 for error in off)
+            and all(is_number(size) and 1e-30 < size < 1e30 for size in sizes)
+            and all(is_number(error) and error >= 0 for error in off)
         )
     except (KeyError, TypeError, AttributeError):
         return False
@@ -161,11 +161,12 @@ def _is_whole_near(chart: Any) -> bool:
         and all(lengths)
         and all(place["errors"] and place["distances"] for place in chart["places"])
         and all(isinstance(word, str) for word in words)
-        and all(_is_number(size) and 1e-30 < size < 1e30 for size in sizes)
-        and all(_is_number(error) and error >= 0 for error in off)
+        and all(is_number(size) and 1e-30 < size < 1e30 for size in sizes)
+        and all(is_number(error) and error >= 0 for error in off)
     )
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: Any) -> bool:
+    """Tell whether what JSON holds is a number that a float can be."""
     # An integer of JSON may have more digits than a float.
     return isinstance(value, float) or (type(value) is int and abs(value) < 1e30)

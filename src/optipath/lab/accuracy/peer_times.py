@@ -7,6 +7,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optipath.errors import OptipathError, shown
+from optipath.lab.accuracy.chart_file import is_number
 from optipath.lab.accuracy.machine import processor
 
 if TYPE_CHECKING:
@@ -126,8 +127,9 @@ def _is_whole(race: Any) -> bool:
         return bool(
             all(isinstance(word, str) for word in words)
             and sizes
-            and all(1e-30 < size < 1e30 for size in sizes)
-            and all(isinstance(error, float | int) for error in errors)
+            and all(is_number(size) and 1e-30 < size < 1e30 for size in sizes)
+            # One of which no digit is right may be told as NaN.
+            and all(is_number(error) and not error < 0 for error in errors)
         )
     except (KeyError, TypeError, AttributeError):
         return False

@@ -27,6 +27,12 @@ _MARGIN = 0.04
 """The share of an axis that is left free above and below."""
 
 
+_FEW = 12
+"""As many points are each marked."""
+
+_MARKS = "o", "s", "D", "^", "v"
+
+
 def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
     """Return quantities by their units: the left axis, and the right one.
 
@@ -49,6 +55,8 @@ def units_of(quantities: Sequence[DrawnQuantity]) -> list[list[DrawnQuantity]]:
 
 def draw_curves(ax: Axes, along: AlongAxis, curves: Sequence[Drawn]) -> None:
     """Draw curves, their axes, and a legend where there are several.
+
+    Points are marked where they are few, or stand alone between gaps.
 
     Parameters
     ----------
@@ -94,11 +102,24 @@ def _draw(
     values: npt.NDArray[np.float64],
     place: int,
 ) -> list[Any]:
+    given = along
     if quantity.period:
         along, values = open_at_jumps(along, values, quantity.period)
-    dash = (place + place // len(LINES)) % len(DASHES)
-    style: dict[str, Any] = {"color": LINES[place % len(LINES)], "linestyle": DASHES[dash]}
+    marked = np.isfinite(values)
+    if len(given) > _FEW:
+        marked &= _is_alone(values)
+    dash, colour = (place + place // len(LINES)) % len(DASHES), LINES[place % len(LINES)]
+    if (marked := marked & np.isin(along, given)).any():
+        mark: dict[str, Any] = {"marker": _MARKS[place % len(_MARKS)], "markersize": 4.0}
+        ax.plot(along[marked], values[marked], color=colour, linestyle="none", **mark)
+    style: dict[str, Any] = {"color": colour, "linestyle": DASHES[dash]}
     return ax.plot(along, values, label=quantity.short, gid=quantity.name, **style)
+
+
+def _is_alone(values: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
+    """Return which points have none beside them that a line would lead to."""
+    gaps: npt.NDArray[np.bool_] = np.pad(~np.isfinite(values), 1, constant_values=True)
+    return gaps[:-2] & gaps[2:]
 
 
 def _limit(ax: Axes, members: Sequence[Drawn]) -> None:

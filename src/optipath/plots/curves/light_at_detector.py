@@ -107,7 +107,7 @@ def axis_of(
         unit, numbers = parameter.unit, given * _size(parameter.unit)
     else:
         read = read_values(inputs, name, values)
-        _check_numbers(name, read.shown, read.given)
+        _check_numbers(name, read.shown, read.given, read.unit)
         given, unit, numbers = read.given, read.unit, np.asarray(read.shown, np.float64)
         if unit != parameter.unit and unit in {"rad", "m", "1/m", "rad/m"}:
             unit, numbers = parameter.unit, given * _size(parameter.unit)
@@ -120,7 +120,9 @@ def _size(unit: str) -> float:
     return in_unit(1.0, unit)
 
 
-def _check_numbers(name: str, numbers: npt.NDArray[Any], given: npt.NDArray[Any]) -> None:
+def _check_numbers(
+    name: str, numbers: npt.NDArray[Any], given: npt.NDArray[Any], unit: str
+) -> None:
     if numbers.dtype.kind in "USO" or given.dtype.kind == "O":
         words = [each for each in numbers.ravel().tolist() if str(each)[:1].isalpha()]
         raise ParameterError(
@@ -133,10 +135,11 @@ def _check_numbers(name: str, numbers: npt.NDArray[Any], given: npt.NDArray[Any]
             f"parameter '{name}' is complex, and an axis is of real numbers; let n and k be "
             f"parameters of their own, as op.Material(op.Parameter('n'), op.Parameter('k'))"
         )
-    if np.unique(numbers).size < 2:
+    if (different := np.unique(numbers)).size < 2:
+        one = f"{different[0]:.15g} {unit}".rstrip() if different.size else "none"
         raise ParameterError(
-            f"values of '{name}' are {shown(numbers.tolist())}; give two or more, such as "
-            f"'0 deg:90 deg:91', or leave them out"
+            f"values of '{name}' are {one} alone; give two or more, such as '0 deg:90 deg:91', or "
+            f"leave them out"
         )
 
 

@@ -46,15 +46,18 @@ def draw_map(
     sorted_numbers = numbers[np.ix_(columns, rows)].T
     scale = quantity.colours(numbers)
     colours = mpl.colormaps[scale.colours].with_extremes(bad=_NONE)
+    x, y = along.numbers[columns], up.numbers[rows]
     image: Any = ax.pcolormesh(
-        along.numbers[columns],
-        up.numbers[rows],
+        x,
+        y,
         np.ma.masked_invalid(sorted_numbers),
         cmap=colours,
         norm=scale.norm,
         shading="nearest",
         rasterized=True,
     )
+    # The outer cells reach beyond the values, where there may be none.
+    ax.set(xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
     bar = scale.bar(image, ax, "")
     label_axes(ax, along.labels, up.labels)
     room = bar.ax.get_window_extent().height

@@ -13,10 +13,14 @@ from optipath.plots.fitting_text import fitting_text, label_axes
 from optipath.plots.legend_above import legend_above
 from optipath.plots.line_colours import DASHES, FAINT, INK, LINES
 from optipath.plots.own_axes import own_axes
+from optipath.values.curves.curve_value import CurveValue
+from optipath.values.curves.wavelength_range import span_text
 from optipath.values.materials import Material
 from optipath.values.wavelength import Wavelength
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from matplotlib.axes import Axes
 
 _SIZE = 6.4, 4.4
@@ -92,7 +96,7 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
     """Return the index behind, that in front, and titles that say both."""
     given = {"index": index, "outside": outside}
     media = {name: _medium(name, one) for name, one in given.items()}
-    depending = [name for name, one in media.items() if one.span != (0.0, np.inf)]
+    depending = [name for name, one in media.items() if _depends(one)]
     if depending and wavelength is None:
         raise OptipathError(
             f"{depending[0]} {shown(given[depending[0]])} depends on the wavelength; give one, "
@@ -103,15 +107,11 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
             f"wavelength is {shown(wavelength)}, and no index depends on it; leave it out, or "
             f"give the name of a material"
         )
-    at = {}
+    at = ""
     if depending:
-        parameter = Wavelength()
-        resolved = parameter.resolve(wavelength).value
-        if np.ndim(resolved):
-            raise OptipathError(f"wavelength is {shown(wavelength)}; a picture is of one")
-        length = float(resolved)
+        length, at = _one_wavelength(wavelength)
+        _check_known_there(given, media, length, at)
         media = {name: one.at(length) for name, one in media.items()}
-        at = {name: f" at {parameter.text(length)}" for name in depending}
     numbers = {name: np.asarray(one.refractive_index) for name, one in media.items()}
     faults = [
         f"{name} is {shown(given[name])}; a picture is of one index"
@@ -128,34 +128,72 @@ def _indices(index: Any, outside: Any, wavelength: Any) -> tuple[complex, float,
         )
     if not faults and behind == front:
         faults.append(f"index and outside are both {_written(front)}, and nothing is reflected")
+    if not faults and not behind:
+        faults.append("index is 0, which is that of no medium; give n or k above 0")
     if faults:
         raise OptipathError(*faults)
-    names = {name: one if isinstance(one, str) else "" for name, one in given.items()}
-    long, short = [
-        " in ".join(
-            _told(names[name] if named else "", number, at.get(name, "") if named else "")
-            for name, number in (("index", behind), ("outside", front))
-        )
-        for named in (True, False)
+    told = [f"n = {number}" for number in _told_apart(behind, front)]
+    long = " in ".join(
+        f"{one.strip()}{at if name in depending else ''}, {number}" if _is_name(one) else number
+        for (name, one), number in zip(given.items(), told, strict=True)
+    )
+    return behind, front.real, [f"reflection: {long}", long, " in ".join(told)]
+
+
+def _depends(medium: Material) -> bool:
+    return any(isinstance(part, CurveValue) for part in (medium.n, medium.k))
+
+
+def _one_wavelength(wavelength: Any) -> tuple[float, str]:
+    """Return a wavelength in metres, and as titles have it."""
+    parameter = Wavelength()
+    resolved = parameter.resolve(wavelength).value
+    if np.ndim(resolved):
+        raise OptipathError(f"wavelength is {shown(wavelength)}; a picture is of one")
+    return float(resolved), f" at {parameter.text(float(resolved))}"
+
+
+def _check_known_there(given: Any, media: Mapping[str, Material], length: float, at: str) -> None:
+    """Refuse a wavelength at which an index is not known."""
+    faults = [
+        f"{name} {shown(given[name])} is not known{at}; give a wavelength within "
+        f"{span_text(one.span)}"
+        for name, one in media.items()
+        if not one.span[0] <= length <= one.span[1]
     ]
-    return behind, front.real, [f"reflection: {long}", long, short]
+    if faults:
+        raise OptipathError(*faults)
 
 
 def _medium(name: str, given: Any) -> Material:
     """Return the medium that an index, a name or a material stands for."""
     if isinstance(given, Material):
         return given
-    if isinstance(given, str) and given.strip()[:1].isalpha():
+    if _is_name(given):
         return Material.named(given)
     number = np.asarray(given_index(name, given))
     return Material(number.real.copy(), number.imag.copy())
 
 
-def _told(name: str, number: complex, at: str) -> str:
-    written = f"n = {_written(number)}"
-    return f"{name}{at}, {written}" if name else written
+def _is_name(given: Any) -> bool:
+    return isinstance(given, str) and given.strip()[:1].isalpha()
 
 
-def _written(index: complex) -> str:
-    n = f"{index.real:.4g}"
-    return f"{n} + {index.imag:.4g}i" if index.imag else n
+def _told_apart(behind: complex, front: complex) -> tuple[str, str]:
+    """Return two indices with as many digits as it takes to tell one from the other.
+
+    Examples
+    --------
+    >>> _told_apart(1.5, 1.0), _told_apart(1.00001, 1.0)
+    (('1.5', '1'), ('1.00001', '1'))
+    """
+    for digits in range(4, 18):
+        told = _written(behind, digits), _written(front, digits)
+        if told[0] != told[1]:
+            break
+    return told
+
+
+def _written(index: complex, digits: int = 4) -> str:
+    n = f"{index.real:.{digits}g}"
+    return f"{n} + {index.imag:.{digits}g}i" if index.imag else n

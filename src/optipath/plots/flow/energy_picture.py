@@ -40,8 +40,8 @@ def energy(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
 
     Ribbons are as wide as the intensity S0. What an element takes (absorbs, blocks, or lets go by
     a way that the path does not have) ends in a spike; light that leaves the path has a row of
-    its own. In a loop, a ribbon is as wide as all rounds together. Taps are dotted: they read
-    light and take nothing.
+    its own. In a loop, a ribbon is as wide as all rounds together. Taps, and all ways behind
+    them, are dotted: light is read there, and nothing of it is taken.
 
     Parameters
     ----------

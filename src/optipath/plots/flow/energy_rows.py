@@ -26,7 +26,7 @@ class EnergyLink(NamedTuple):
     back : bool
         Whether it goes up, to a row above.
     tap : bool
-        Whether it reads light and takes nothing.
+        Whether light is only read there.
     """
 
     start: str
@@ -171,4 +171,4 @@ def _told(name: str, found: EnergyAlong) -> tuple[str, float]:
     if name in found.taken:
         power = float(found.taken[name])
         return ("takes" if power > 0.0 else "adds" if power < 0.0 else ""), abs(power)
-    return "reads", float(np.sum([link.power for link in found.links if link.end == name]))
+    return "reads", float(np.sum([link.power for link in found.links if _end(link) == name]))

@@ -68,7 +68,7 @@ def draw_symbol(ax: Axes, node: SceneNode, at: Array, way: Array, face: Array | 
         _add(ax, Circle(tuple(at), 0.07, fc="white", ec=INK))
 
 
-def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> None:
+def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> Array:
     """Draw a dial with what is seen in it when one looks at the source.
 
     Parameters
@@ -83,20 +83,24 @@ def dial(ax: Axes, at: Array, line: Array, colour: str, zorder: float = 6.0) -> 
         Of the line.
     zorder : float, optional
         What it is drawn over.
+
+    Returns
+    -------
+    ndarray of shape (points, 2)
+        The line on the sheet.
     """
     _add(ax, Circle(tuple(at), DIAL, fc="white", ec=FAINT, lw=0.7), zorder)
-    if len(line):
-        # Who looks at the source has x to the right where y is up, and z comes to him.
-        ax.plot(
-            *(at + 0.92 * DIAL * line).T,
-            color=colour,
-            lw=1.6,
-            solid_capstyle="round",
-            zorder=zorder + 0.1,
-        )
+    # Who looks at the source has x to the right where y is up, and z comes to him.
+    seen = at + 0.92 * DIAL * np.reshape(line, (-1, 2))
+    if len(seen):
+        style: Any = {"color": colour, "lw": 1.6, "solid_capstyle": "round"}
+        ax.plot(*seen.T, zorder=zorder + 0.1, **style)
+    return seen
 
 
 def _lamp(ax: Axes, at: Array) -> None:
+    # No name stands between its rays.
+    ax.add_patch(Circle(tuple(at), 0.19, fc="none", ec="none"))
     for angle in np.arange(0.0, 2.0 * np.pi, np.pi / 4.0):
         way = np.array([np.cos(angle), np.sin(angle)])
         ax.plot(*np.array([at + 0.13 * way, at + 0.19 * way]).T, color=INK, lw=1.0, zorder=5)

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 from optipath.elements.boundary_frames import BoundaryElement
 from optipath.elements.medium import Medium
-from optipath.plots.space.posture import has_axis
-from optipath.plots.space.told_values import number, told_angle
+from optipath.plots.space.posture import angles_at, has_axis
+from optipath.plots.space.told_values import number, quantity_text, told_incidence
 from optipath.values.operands import Operand
 from optipath.values.parameters import Parameter
-from optipath.values.units import in_unit
 
 if TYPE_CHECKING:
     from optipath.elements.element import Element
@@ -64,13 +63,12 @@ def values_below(element: Element) -> list[str]:
 
 
 def _text(element: Element, name: str, value: Any, unit: str) -> str:
+    if name == "incidence" and isinstance(element, BoundaryElement):
+        return told_incidence(value, angles_at(element)[0]).text
     if not isinstance(value, Parameter):
-        said = f"{in_unit(value, unit):.5g} {unit}".strip()
+        said = quantity_text(number(value), unit)
         return said if name == "angle" else f"{name} {said}"
     if not bool(Operand(value, "present").numbers()):
         return f"{value.name} = none"
-    if name == "incidence" and isinstance(element, BoundaryElement):
-        return told_angle(value).text
-    unit = value.unit or unit
-    said = f"{value.formula} = {in_unit(number(value), unit):.5g} {unit}".strip()
+    said = f"{value.formula} = {quantity_text(number(value), value.unit or unit)}"
     return f"azimuth {said}" if name == "azimuth" else said

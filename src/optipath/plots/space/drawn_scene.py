@@ -36,6 +36,10 @@ _ARROW_AT, _ARROW = 0.72, (0.085, 0.028)
 """Where on a ray its arrow points to, and how long and wide it is."""
 
 
+_TURN, _NARROW = (0.065, 0.025), 0.8
+"""The head on an ellipse, and how wide the ellipse is at least, in widths of the head."""
+
+
 def draw_scene(ax: Axes, scene: Scene, view: View, weight: float = 1.0) -> None:
     """Draw all of a scene but its names.
 
@@ -183,16 +187,62 @@ def _ray(ax: Axes, scene: Scene, ray: SceneRay, view: View) -> None:
     dashes: Any = _DOTS if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
     _line(ax, ends, color=colour, lw=width, ls=dashes, zorder=4.0)
     way = ends[1] - ends[0]
-    length = float(np.linalg.norm(way))
-    if length > 0.1 * scene.unit:
-        along, share = way / length, 1.0 if ray.leaves else _ARROW_AT
-        tip = ends[0] + share * way
-        long, wide = (scene.unit * part for part in _ARROW)
-        foot, aside = tip - long * along, wide * np.array([-along[1], along[0]])
-        head = Polygon([tip, foot + aside, foot - aside], fc=colour, ec="none", zorder=4.2)
-        ax.add_patch(head)
+    if np.linalg.norm(way) > 0.1 * scene.unit:
+        tip = ends[0] + (1.0 if ray.leaves else _ARROW_AT) * way
+        size = scene.unit * np.array(_ARROW)
+        draw_head(ax, tip, way, size, fc=colour, zorder=4.2)
     if _has_ellipse(ray):
-        _line(ax, view.points(_ellipse(ray)), color=ELLIPSE, lw=1.4, zorder=5.0)
+        curve = view.points(_ellipse(ray))
+        _line(ax, curve, color=ELLIPSE, lw=1.4, zorder=5.0)
+        if ray.turns:
+            draw_turn(ax, curve, scene.unit, ELLIPSE, zorder=5.05)
+
+
+def draw_head(ax: Axes, tip: Array, way: Array, size: Array, **style: Any) -> None:
+    """Draw the head of an arrow.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where.
+    tip, way : ndarray of shape (2,)
+        Where it ends, and where it points to.
+    size : ndarray of shape (2,)
+        Its length, and half its width.
+    **style
+        As patches take it.
+    """
+    along = way / np.linalg.norm(way)
+    foot, aside = tip - size[0] * along, size[1] * np.array([-along[1], along[0]])
+    ax.add_patch(Polygon([tip, foot + aside, foot - aside], ec="none", **style))
+
+
+def draw_turn(ax: Axes, curve: Array, unit: float, colour: str, zorder: float) -> None:
+    """Draw a head on an ellipse that shows how the field turns, where the ellipse is flattest.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where.
+    curve : ndarray of shape (points, 2)
+        In the order of time; the last point is the first one.
+    unit : float
+        How long a link is, by which the head is sized.
+    colour : str
+        Of the head.
+    zorder : float
+        What it is drawn over.
+    """
+    size = unit * np.array(_TURN)
+    narrow = np.linalg.svd(curve[:-1] - curve[:-1].mean(axis=0))[1][1]
+    if narrow * np.sqrt(2.0 / len(curve[:-1])) < _NARROW * size[1]:
+        return  # On what looks like a line a head would say that the field goes along it.
+    steps = (curve[2:] - curve[:-2]) / unit
+    # Of a circle the first one, whatever the rounding.
+    place = int(np.argmax(np.linalg.norm(steps, axis=1).round(6)))
+    way = steps[place] / np.linalg.norm(steps[place])
+    tip = curve[place + 1] + 0.5 * size[0] * way
+    draw_head(ax, tip, way, size, fc=colour, gid="turn", zorder=zorder)
 
 
 def _has_ellipse(ray: SceneRay) -> bool:

@@ -6,13 +6,13 @@ import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.patches import Polygon
 from matplotlib.transforms import Bbox
 
 from optipath.plots.line_colours import FAINT, INK
 from optipath.plots.own_axes import own_axes
-from optipath.plots.space.bench_symbols import ELLIPSE, HIGH, dial, draw_symbol
+from optipath.plots.space.bench_symbols import ELLIPSE, dial, draw_symbol
 from optipath.plots.space.bench_texts import values_below
+from optipath.plots.space.drawn_scene import draw_head, draw_turn
 from optipath.plots.space.flat_sheet import direction_at, flat_sheet, in_rows
 from optipath.plots.space.placed_labels import Label, place_labels
 from optipath.plots.space.scene_of import LARGEST_ELLIPSE, scene_with
@@ -70,7 +70,7 @@ def bench(path: PathGraph, ax: Axes | None = None, **values: Any) -> Axes:
     PathError
         If light leaves the plane, or the values are those of several paths.
     OptipathError
-        If `ax` is none.
+        If `ax` is none, or what is given is no path.
 
     Examples
     --------
@@ -195,11 +195,8 @@ def _beam(ax: Axes, ray: SceneRay, flat: FlatSheet, drawn: FlatRay) -> None:
     style: Any = (0, (1, 2)) if ray.is_dark else (0, (4, 2)) if ray.tap else "-"
     for tail, head in drawn.pieces:
         ax.plot(*np.array([tail, head]).T, color=colour, lw=width, ls=style, zorder=3)
-        along = (head - tail) / np.linalg.norm(head - tail)
         tip = head if ray.leaves or len(drawn.pieces) > 1 else tail + 0.3 * (head - tail)
-        aside = 0.025 * np.array([-along[1], along[0]])
-        foot = tip - 0.08 * along
-        ax.add_patch(Polygon([tip, foot + aside, foot - aside], fc=colour, ec="none", zorder=3.1))
+        draw_head(ax, tip, head - tail, np.array([0.08, 0.025]), fc=colour, zorder=3.1)
     if not (ray.leaves or ray.is_dark):
         _polarisation(ax, ray, flat, drawn.middle)
 
@@ -208,7 +205,9 @@ def _polarisation(ax: Axes, ray: SceneRay, flat: FlatSheet, at: Array) -> None:
     """Draw the ellipse of light in a dial, and a star for light that has none."""
     if ray.ellipse is not None:
         points = flat.in_dial(ray.axes, ray.ellipse) / (LARGEST_ELLIPSE * flat.unit)
-        dial(ax, at, points, ELLIPSE)
+        seen = dial(ax, at, points, ELLIPSE)
+        if ray.turns:
+            draw_turn(ax, seen, 1.0, ELLIPSE, zorder=6.2)
         return
     dial(ax, at, np.zeros((0, 2)), FAINT)
     for way in 0.6 * _STAR:
@@ -232,23 +231,10 @@ def _write_beside(
 ) -> None:
     """Write texts where they cover neither beams nor symbols."""
     size, room = where
-    turn = np.linspace(0.0, 2.0 * np.pi, 25)
-    circle = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    lines = [piece for ray in flat.rays for piece in ray.pieces]
-    solids = [ray.middle + 0.16 * circle for ray in flat.rays]
-    for node in scene.nodes:
-        at, face = flat.at[node.name], _face(scene, flat, node)
-        if face is None:
-            way = direction_at(node, scene, flat)
-            sides = np.array([[1.0, 1.0], [1.0, -1.0], [-1.0, -1.0], [-1.0, 1.0]])
-            halves = [0.11, HIGH] if node.role == "plate" else [0.2, 0.2]
-            solids.append(at + (sides * halves) @ np.array([way, [-way[1], way[0]]]))
-        else:
-            lines += [face[1:], face[1:] - 0.05 * face[0], face[1:] - 0.1 * face[0]]
-            solids.append(at + 0.12 * circle)
+    lines = [np.array(line.get_xydata()) for line in ax.lines]
     style = {"fontsize": size, "color": INK, "linespacing": 1.15}
     labels = [
         Label("\n".join(texts[n.name]), flat.at[n.name], style, 2.0 if n.normal is None else 0.8)
         for n in scene.nodes
     ]
-    place_labels(ax, labels, lines, room, solids)
+    place_labels(ax, labels, lines, room, ax.patches)

@@ -64,7 +64,7 @@ def geometry(
     PathError
         If the values are those of several paths.
     OptipathError
-        If `ax` or `view` is none.
+        If `ax` or `view` is none, or what is given is no path.
 
     Examples
     --------
@@ -76,8 +76,6 @@ def geometry(
     scene = scene_of(path, "geometry", **values)
     seen_from = None if view is None else _given_view(view)
     ax = own_axes(ax, _SIZE)
-    if ax.name == "3d":
-        raise OptipathError("ax is axes in space; give plain Axes, into which space is projected")
     ax.set_axis_off()
     figure: Any = ax.figure.figure
     figure.draw_without_rendering()  # Until then nobody knows how large axes are.

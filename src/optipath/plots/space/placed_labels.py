@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
+from matplotlib.path import Path
 from matplotlib.transforms import Bbox
 
 from optipath.plots.line_colours import FAINT
@@ -15,12 +16,22 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
     from matplotlib.axes import Axes
+    from matplotlib.patches import Patch
 
     Array = npt.NDArray[np.float64]
 
 _DIRECTIONS = np.radians(np.arange(0.0, 360.0, 22.5))
-_STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5
+_STEPS = 0.6, 1.0, 1.7, 2.6, 3.8, 5.2, 7.0, 9.5, 12.5
 """How far from what they name texts are tried, in heights of a line."""
+
+_COVERED = 1.0
+"""What four pixels of a line cost that are covered."""
+
+_FREE = 3.0
+"""How far texts are from what is drawn, in pixels."""
+
+_APART = np.array([9.0, 5.0])
+"""How far texts are from one another, in pixels across and up."""
 
 
 class Label(NamedTuple):
@@ -45,7 +56,7 @@ class Label(NamedTuple):
 
 
 def place_labels(
-    ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Array] = ()
+    ax: Axes, labels: list[Label], lines: list[Array], within: Bbox, solids: Sequence[Patch] = ()
 ) -> None:
     """Write each text near what it names, over no other text and over few lines.
 
@@ -59,11 +70,10 @@ def place_labels(
         What should not be covered, in data.
     within : Bbox
         What texts must not leave, in pixels.
-    solids : sequence of ndarray of shape (points, 2), optional
-        What texts should not even touch, in data.
+    solids : sequence of Patch, optional
+        What is drawn and no text should touch.
     """
-    shapes = [ax.transData.transform(solid) for solid in solids]
-    filled = [Bbox([shape.min(axis=0), shape.max(axis=0)]) for shape in shapes]
+    filled = [outline for solid in solids for outline in _outlines(solid)]
     crowd = [_dense(ax.transData.transform(line)) for line in lines if len(line)]
     drawn = np.concatenate(crowd) if crowd else np.zeros((0, 2))
     anchors = ax.transData.transform(np.array([label.at for label in labels]).reshape(-1, 2))
@@ -85,7 +95,7 @@ def place_labels(
         half = np.array([box.width, box.height]) / 2.0
         offset = _best(anchor, half, drawn, (taken, filled), within)
         middle = anchor + offset
-        taken.append(Bbox([middle - half, middle + half]).padded(5.0))
+        taken.append(Bbox([middle - half - _APART, middle + half + _APART]))
         _move(ax, text, label, offset, half)
 
 
@@ -103,49 +113,54 @@ def _move(ax: Axes, text: Any, label: Label, offset: Array, half: Array) -> None
             tuple(near * scale),
             textcoords="offset points",
             annotation_clip=False,
-            zorder=9,
+            zorder=3.5,
             arrowprops={"arrowstyle": "-", "lw": 0.6, "color": FAINT, "shrinkA": 0, "shrinkB": 2},
         )
 
 
 def _best(
-    anchor: Array, half: Array, drawn: Array, boxes: tuple[list[Bbox], list[Bbox]], within: Bbox
+    anchor: Array, half: Array, drawn: Array, shapes: tuple[list[Bbox], list[Path]], within: Bbox
 ) -> Array:
     """Return the offset at which a text of so many pixels covers least."""
-    found: list[tuple[float, tuple[float, float]]] = []
-    line, (taken, filled) = 2.0 * half[1], boxes
-    for step in _STEPS:
-        for direction in _DIRECTIONS:
-            way = np.array([np.cos(direction), np.sin(direction)])
-            # The edge of the text, and not its middle, is so far away.
-            offset = way * step * line + np.sign(way.round(9)) * half * np.minimum(
-                abs(way) * 1.3, 1
-            )
-            box = Bbox([anchor + offset - half, anchor + offset + half])
-            cost = 1.3 * step + 0.4 * (way[0] < 0.0) + 0.2 * (way[1] < 0.0)
-            cost += 1e6 * _outside(box, within)
-            cost += 1e4 * sum(box.padded(1.0).overlaps(other) for other in taken)
-            cost += 20.0 * sum(box.overlaps(other) for other in filled)
-            around = box.padded(2.0)
-            covered = (
-                (drawn[:, 0] > around.x0)
-                & (drawn[:, 0] < around.x1)
-                & (drawn[:, 1] > around.y0)
-                & (drawn[:, 1] < around.y1)
-            )
-            cost += 0.35 * min(int(covered.sum()), 40)
-            found.append((cost, (offset[0], offset[1])))
-    return np.array(min(found)[1])
+    offsets, cost = _tried(half)
+    low, high = anchor + offsets - half, anchor + offsets + half
+    out = np.maximum(within.min - low, 0.0) + np.maximum(high - within.max, 0.0)
+    cost += 1e6 * out.sum(axis=1)
+    taken, solids = shapes
+    cost += 1e4 * _overlap(low - 1.0, high + 1.0, taken).sum(axis=1)
+    low, high = low - _FREE, high + _FREE
+    # Where frames of two do not overlap they do not touch, which is soon found.
+    for which, solid in np.argwhere(_overlap(low, high, [each.get_extents() for each in solids])):
+        cost[which] += 1e3 * solids[solid].intersects_bbox(Bbox([low[which], high[which]]))
+    covered = ((drawn > low[:, np.newaxis]) & (drawn < high[:, np.newaxis])).all(axis=2)
+    cost += _COVERED * np.minimum(covered.sum(axis=1), 30)
+    return np.asarray(offsets[np.argmin(cost)])
 
 
-def _outside(box: Bbox, within: Bbox) -> float:
-    """Return by how many pixels a box leaves another."""
-    return float(
-        max(within.x0 - box.x0, 0.0)
-        + max(box.x1 - within.x1, 0.0)
-        + max(within.y0 - box.y0, 0.0)
-        + max(box.y1 - within.y1, 0.0)
-    )
+def _tried(half: Array) -> tuple[Array, Array]:
+    """Return the offsets that are tried, and what they cost, which is least near and right."""
+    ways = np.stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)], axis=-1)
+    # The edge of the text, and not its middle, is so far away.
+    edges = np.sign(ways.round(9)) * half * np.minimum(abs(ways) * 1.3, 1.0)
+    steps = np.array(_STEPS)[:, np.newaxis]
+    offsets = 2.0 * half[1] * steps[..., np.newaxis] * ways + edges
+    left, below = ways.T.round(9) < 0.0
+    cost = 1.3 * steps + 0.4 * left + 0.2 * below
+    return offsets.reshape(-1, 2), cost.ravel()
+
+
+def _overlap(low: Array, high: Array, boxes: list[Bbox]) -> npt.NDArray[np.bool_]:
+    """Tell which rectangles overlap which boxes, shape (rectangles, boxes)."""
+    corners = np.array([each.extents for each in boxes]).reshape(-1, 2, 2)
+    apart = (low[:, np.newaxis] >= corners[:, 1]) | (high[:, np.newaxis] <= corners[:, 0])
+    return np.asarray(~apart.any(axis=2))
+
+
+def _outlines(solid: Patch) -> list[Path]:
+    """Return the closed outlines of what is drawn, in pixels."""
+    drawn = solid.get_path().transformed(solid.get_transform())
+    # Of paths with codes Matplotlib forgets the side that closes them.
+    return [Path(points) for points in drawn.to_polygons()]
 
 
 def _dense(line: Array, apart: float = 4.0) -> Array:

@@ -72,6 +72,11 @@ class SceneRay(NamedTuple):
     tap: bool
 
     @property
+    def turns(self) -> bool:
+        """Whether its field turns, and is no line."""
+        return self.ellipse is not None and bool(self.light.handedness)
+
+    @property
     def is_dark(self) -> bool:
         """Whether there is no light, but for rounding."""
         return bool(np.isnan(self.light.dop))
@@ -209,6 +214,7 @@ def _ray(ray: SceneRay) -> dict[str, Any]:
         "intensity": _number(ray.light.intensity),
         "dop": _number(ray.light.dop),
         "leaves": ray.leaves,
+        "tap": ray.tap,
     }
 
 

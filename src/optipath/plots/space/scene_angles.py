@@ -13,7 +13,7 @@ from optipath.elements.vertices.by_angles import VerticesByAngles
 from optipath.plots.space.fixed_places import incidence_at
 from optipath.plots.space.posture import angles_at
 from optipath.plots.space.scene import SceneAngle
-from optipath.plots.space.told_values import ToldAngle, number, told_angle
+from optipath.plots.space.told_values import ToldAngle, number, told_angle, told_incidence
 from optipath.values.parameters import Parameter
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 _AT_SURFACE, _ABOUT_RAY, _ON_PLATE = 0.32, 0.3, 0.3
 """How large arcs are, of the length of a link."""
+
+_SEEN = np.radians(1.0)
+"""The least angle that is seen as one."""
 
 _OF_AXES = "angle", "dichroic_angle"
 """The fields of elements that say how an axis stands to x, or by how much light is turned."""
@@ -66,22 +69,20 @@ def _incidences(placing: Placing, name: str, element: Any) -> Iterator[SceneAngl
     """Yield the angle between the light that arrives and the normal, or that is given behind."""
     posture, at = placing.postures[name], placing.at[name]
     normal: Any = posture.normal
-    front, told = incidence_at(element, posture), ToldAngle("", 0.0)
+    front = incidence_at(element, posture)
+    value: Any = front
     if not isinstance(element, ChainVertex):
-        told = told_angle(element.incidence)
-        value = number(element.incidence)
+        value = element.incidence
         _, behind = angles_at(element)
-        if abs(value - front) > 1e-9 and abs(value - behind) < 1e-9 and told.name:
-            out = posture.axes["transmitted"][:, 2]
-            yield _arc(told, at, -normal, out, behind, _AT_SURFACE * placing.unit)
-        if abs(value - front) > 1e-9:
-            told = ToldAngle("", 0.0)
+        given = number(value) if isinstance(value, Parameter) else front
+        if abs(given - front) > 1e-9 and abs(given - behind) < 1e-9:
+            out, size = posture.axes["transmitted"][:, 2], _AT_SURFACE * placing.unit
+            yield _arc(told_angle(value), at, -normal, out, behind, size)
     elif isinstance(element.vertices, VerticesByAngles):
         chain = element.vertices
         order = chain.incidences[::-1] if chain.backwards else chain.incidences
-        told = told_angle(order[int(element.place) - 1])
-    if not told.name:
-        told = ToldAngle("incidence", front)
+        value = order[int(element.place) - 1]
+    told = told_incidence(value, front)
     arriving = -posture.axes["in"][:, 2]
     yield _arc(told, at, normal, arriving, front, _AT_SURFACE * placing.unit)
 
@@ -116,7 +117,7 @@ def _axes(placing: Placing, name: str, element: Any) -> Iterator[SceneAngle]:
             told = told_angle(value)
             angle = number(value) if told.there else 0.0
             found = _turn(told, placing.at[name], (x, y), angle, size, "axis")
-            yield found if told.there else found._replace(arc=found.arc[:0])
+            yield found if told.there else found._replace(arc=found.arc[:0], at=placing.at[name])
             size *= 1.25
 
 
@@ -137,5 +138,7 @@ def _turn(
     first, second = sides
     steps = np.linspace(0.0, angle, 2 + int(abs(angle) / 0.08))[:, np.newaxis]
     arc = at + size * (np.cos(steps) * first + np.sin(steps) * second)
-    middle = at + size * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
+    # An angle that is not seen has its name where it would open.
+    reach = size if abs(angle) > _SEEN else 0.0
+    middle = at + reach * (np.cos(angle / 2) * first + np.sin(angle / 2) * second)
     return SceneAngle(told.name, told.text, arc, middle, at, about)

@@ -59,7 +59,9 @@ def scene_of(path: PathGraph, what: str = "a scene", /, **values: Any) -> Scene:
     Raises
     ------
     PathError
-        If the values are those of several paths.
+        If the values are those of several paths, or there is no such light.
+    OptipathError
+        If what is given is no path.
 
     Examples
     --------

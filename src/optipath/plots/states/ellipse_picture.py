@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from optipath.light.light import Light
 
 _REACH = 1.15
+_DASHED: dict[str, Any] = {"linewidth": 0.8, "linestyle": (0, (4, 3))}
+"""Of the part of one of several lights that is unpolarised."""
+
 _SIDE = "seen towards the source (⊙\u00a0z)"
 
 
@@ -116,17 +119,17 @@ def _draw_several(ax: Axes, several: Mapping[str, Light]) -> list[Any]:
     for place, (name, light) in enumerate(several.items()):
         line: dict[str, Any] = {"color": LINES[place], "linestyle": DASHES[place]}
         told = fitting(ax, f"{name}: {state_text(light)}, {figures_text(light)}", "x-small", less=5)
-        circle = {"edgecolor": LINES[place], "linewidth": 0.8, "linestyle": (0, (4, 3))}
-        draw_unpolarised(ax, light, circle | {"facecolor": "none"})
+        rest = {"edgecolor": LINES[place], "facecolor": "none"} | _DASHED
+        circle = draw_unpolarised(ax, light, rest)
         if no_ellipse(light):
-            keys.append(Line2D([], [], linestyle="none", label=told))
+            seen = {"color": LINES[place]} | _DASHED if circle else {"linestyle": "none"}
+            keys.append(Line2D([], [], label=told, **seen))
             continue
         curve = draw_ellipse(ax, light, line | {"linewidth": 1.8})
         curve.set_label(told)
         keys.append(curve)
     if any(unpolarised_share(light) > 0.0 for light in several.values()):
-        dashed: dict[str, Any] = {"color": INK, "linewidth": 0.8, "linestyle": (0, (4, 3))}
-        keys.append(Line2D([], [], label="unpolarised part", **dashed))
+        keys.append(Line2D([], [], label="unpolarised part", color=INK, **_DASHED))
     return keys
 
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from matplotlib.axes import Axes
+    from matplotlib.legend import Legend
 
 _WIDTH = 0.58
 """Of a letter, of the size of its font, in the middle of texts."""
@@ -20,8 +21,6 @@ _LEAST = 10
 
 _NARROW = 3.0
 """In inches."""
-
-_WHOLE: dict[str, Any] = {"break_long_words": False, "break_on_hyphens": False}
 
 _EQUAL = "\u00a0=\u00a0"
 
@@ -63,7 +62,10 @@ def fitting(ax: Axes, text: str, size: str = "small", *, less: int = 0) -> str:
     kept = max(_LEAST, int(letters))
     # What is equal stays on one line.
     lines = text.replace(" = ", _EQUAL).split("\n")
-    broken = "\n".join(fill(line, kept, **_WHOLE) for line in lines)
+    broken = "\n".join(
+        fill(line, kept, break_long_words=_EQUAL not in line, break_on_hyphens=False)
+        for line in lines
+    )
     return broken.replace(_EQUAL, " = ")
 
 
@@ -127,16 +129,19 @@ def key_above(ax: Axes, handles: Sequence[Any]) -> None:
     """
     if handles:
         wide = inches_wide(ax) > _NARROW
-        columns = 2 if wide and len(handles) > 1 else 1
         size = "small" if wide else "x-small"
         at: dict[str, Any] = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
-        _draw_key(ax, handles, fontsize=size, ncols=columns, **at)
+        for columns in (2, 1) if wide and len(handles) > 1 else (1,):
+            legend = _draw_key(ax, handles, fontsize=size, ncols=columns, **at)
+            if legend.get_window_extent().width <= inches_wide(ax) * ax.figure.figure.dpi:
+                break
 
 
-def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> None:
-    """Draw a legend of labels as they are, be they begun by "_" or with "$" within."""
+def _draw_key(ax: Axes, handles: Sequence[Any], **options: Any) -> Legend:
+    """Return a legend of labels as they are, be they begun by "_" or with "$" within."""
     blank = ["-"] * len(handles)
     legend = ax.legend(handles, blank, frameon=False, **options)
     for text, handle in zip(legend.get_texts(), handles, strict=True):
         text.set(text=handle.get_label(), parse_math=False)
     legend.set_zorder(10)
+    return legend

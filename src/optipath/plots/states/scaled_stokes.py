@@ -6,17 +6,31 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optipath.light.light import Light
 from optipath.light.underflow import normalise_exponent
+from optipath.values.arrays.jax_values import known
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     import numpy.typing as npt
 
-    from optipath.light.light import Light
-
 _PLAIN = range(-3, 5)
 """The powers of ten that numbers on an axis are written without."""
+
+
+def without_noise(light: Light) -> Light:
+    """Return light with 0 for what is no more than rounding.
+
+    Examples
+    --------
+    >>> import optipath as op
+    >>> without_noise(op.load_preset("senarmont").trace()).stokes
+    array([0., 0., 0., 0.])
+    """
+    numbers, floor = known(light.mantissa), np.asarray(light.noise_floor)[..., np.newaxis]
+    noise = (np.abs(numbers) < floor) & np.isfinite(floor)
+    return Light.of(np.where(noise, 0.0, numbers), light.frame, light.exponent, measured=True)
 
 
 def power_of_ten(lights: Sequence[Light], others: Iterable[npt.NDArray[np.float64]]) -> int:
@@ -53,7 +67,7 @@ def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]
     Parameters
     ----------
     stokes : ndarray, shape (4,)
-        The numbers; what is infinite becomes NaN.
+        The numbers; what is infinite stays so.
     exponent : int or ndarray
         Of the power of two times them.
     power : int
@@ -68,9 +82,12 @@ def scaled_to(stokes: Any, exponent: Any, power: int) -> npt.NDArray[np.float64]
     >>> scaled_to(np.array([2e-300, 0.0, np.nan, 1e-300]), 0, -300).round(12)
     array([ 2.,  0., nan,  1.])
     """
-    numbers = np.where(np.isinf(stokes), np.nan, np.asarray(stokes, float))
+    infinite = np.isinf(stokes)
+    numbers = np.where(infinite, np.nan, np.asarray(stokes, float))
     if not power:
-        return np.asarray(np.ldexp(numbers, exponent))
-    mantissa, own = normalise_exponent(numbers, exponent)
-    with np.errstate(under="ignore"):
-        return np.asarray(mantissa * np.exp2(float(own) - power * np.log2(10.0)))
+        scaled = np.ldexp(numbers, exponent)
+    else:
+        mantissa, own = normalise_exponent(numbers, exponent)
+        with np.errstate(under="ignore"):
+            scaled = mantissa * np.exp2(float(own) - power * np.log2(10.0))
+    return np.asarray(np.where(infinite, stokes, scaled))

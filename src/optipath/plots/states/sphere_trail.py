@@ -8,8 +8,9 @@ import numpy as np
 from matplotlib.colors import to_rgba
 from matplotlib.lines import Line2D
 
-from optipath.errors import OptipathError
+from optipath.errors import OptipathError, shown
 from optipath.paths.lights_along import lights_along
+from optipath.paths.path_graph import PathGraph
 from optipath.plots.line_colours import FAINT, LINES
 from optipath.plots.states.fitting_words import fitting, key_below
 from optipath.plots.states.lights_to_draw import known_light
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
     from mpl_toolkits.mplot3d import Axes3D
 
     from optipath.paths.lights_along import LightOnLink
-    from optipath.paths.path_graph import PathGraph
 
 _SAME = 0.02
 """How near points are, in radii, that are drawn as one."""
@@ -69,7 +69,7 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     Raises
     ------
     OptipathError
-        If the axes are flat, or the light is a batch.
+        If the axes are flat, the light is a batch, or what is given is no path.
     ParameterError
         As `PathGraph.trace`; or if JAX traces a value.
 
@@ -80,6 +80,8 @@ def poincare_path(path: PathGraph, ax: Axes3D | None = None, **values: Any) -> A
     >>> print(ax.get_legend().get_texts()[0].get_text())
     1  lamp → polarizer
     """
+    if not isinstance(path, PathGraph):
+        raise OptipathError(f"a trail is of a path, not of {shown(path)}; give a PathGraph")
     links = lights_along(path, **values)
     for link in links:
         known_light(link.light)

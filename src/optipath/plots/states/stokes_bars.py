@@ -13,7 +13,7 @@ from optipath.plots.own_axes import own_axes
 from optipath.plots.states.fitting_words import fitting, inches_wide, key_above
 from optipath.plots.states.lights_to_draw import lights_to_draw
 from optipath.plots.states.published_stokes import published_for
-from optipath.plots.states.scaled_stokes import power_of_ten, scaled_to
+from optipath.plots.states.scaled_stokes import power_of_ten, scaled_to, without_noise
 from optipath.plots.states.state_words import digits
 from optipath.values.arrays.jax_values import known
 
@@ -43,6 +43,14 @@ _SEVERAL = "Δ: the largest of computed less published"
 _NARROW = 3.0
 """In inches."""
 
+_DIGITS = 6
+"""As many as published tables have."""
+
+_FILLED = 0.92
+"""How much of the distance of two bars the numbers below them take at most."""
+
+_ROUNDING = 4.0 * float(np.finfo(float).eps)
+
 _GROUP = 0.78
 """How wide the bars of one component are together."""
 
@@ -58,7 +66,8 @@ def stokes(
 
     Below the bars of one light stand its components, what was published in brackets, and the
     difference, computed minus published; below those of several stands the largest difference.
-    Very faint or bright light is in powers of ten, which the axis names.
+    What is no more than rounding (`Light.noise`) is 0. Very faint or bright light is in powers of
+    ten, which the axis names.
 
     Parameters
     ----------
@@ -91,7 +100,7 @@ def stokes(
     >>> ax.get_ylabel()
     'Stokes parameter\n(unit of the source)'
     """
-    several = lights_to_draw(light, labels)
+    several = {name: without_noise(each) for name, each in lights_to_draw(light, labels).items()}
     beside = published_for(published, light, several)
     power = power_of_ten([*several.values()], beside.values())
     numbers = {
@@ -107,8 +116,12 @@ def stokes(
     ax.grid(visible=True, axis="y", alpha=0.3)
     ax.set_axisbelow(True)
     ax.margins(y=0.08)
+    if not any(np.nan_to_num(each).any() for each in (*numbers.values(), *printed.values())):
+        # Bars of no height say nothing of how high the axis is.
+        ax.set_ylim(0.0, 1.0)
     _tell_numbers(ax, numbers, printed)
     key_above(ax, keys)
+    _fit_numbers(ax)
     return ax
 
 
@@ -123,12 +136,13 @@ def _draw_bars(ax: Axes, numbers: _ByName, printed: _ByName) -> list[Any]:
             "edgecolor": "white",
             "hatch": _HATCHES[place],
         }
-        ax.bar(middle, np.nan_to_num(found), 0.94 * width, **style)
+        ax.bar(middle, np.where(np.isfinite(found), found, 0.0), 0.94 * width, **style)
         if name in printed:
             ax.plot(middle, printed[name], **_PUBLISHED)
         if name or printed:
             told = name or "computed"
-            told += "" if np.isfinite(found).any() else ": not read"
+            told += ": infinite" if np.isinf(found).any() else ""
+            told += ": not read" if np.isnan(found).all() else ""
             keys.append(Patch(label=fitting(ax, told, less=5), **style))
     return [*keys, Line2D([], [], label="published", **_PUBLISHED)] if printed else keys
 
@@ -143,7 +157,7 @@ def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
             told = [f"({_number(each)})" if np.isfinite(each) else "(none)" for each in given]
             texts = [_lines(text, each) for text, each in zip(texts, told, strict=True)]
     if printed:
-        apart = np.array([numbers[name] - given for name, given in printed.items()])
+        apart = np.array([_apart(numbers[name], given) for name, given in printed.items()])
         texts = [_lines(text, _largest(each)) for text, each in zip(texts, apart.T, strict=True)]
         legend = _ONE if len(numbers) == 1 else _SEVERAL
         ax.set_xlabel(fitting(ax, legend), fontsize="small")
@@ -151,6 +165,24 @@ def _tell_numbers(ax: Axes, numbers: _ByName, printed: _ByName) -> None:
     ax.tick_params(axis="x", length=0.0)
     if any("\n" in text for text in texts):
         ax.tick_params(axis="x", labelsize="small" if inches_wide(ax) > _NARROW else "xx-small")
+
+
+def _fit_numbers(ax: Axes) -> None:
+    """Write the numbers below the bars as small as it takes for each to stand by itself."""
+    figure: Any = ax.figure.figure
+    figure.draw_without_rendering()  # By which axes have the places of their layout.
+    (left, _), (right, _) = ax.transData.transform([(0.0, 0.0), (1.0, 0.0)])
+    texts = ax.get_xticklabels()
+    share = _FILLED * (right - left) / max(text.get_window_extent().width for text in texts)
+    if share < 1.0:
+        ax.tick_params(axis="x", labelsize=share * texts[0].get_fontsize())
+
+
+def _apart(found: Any, given: Any) -> Any:
+    """Return differences, 0 where they are rounding of the largest number."""
+    apart = found - given
+    largest = np.max(np.abs(found), initial=0.0, where=np.isfinite(found))
+    return np.where(np.abs(apart) <= _ROUNDING * largest, 0.0, apart)
 
 
 def _largest(apart: npt.NDArray[np.float64]) -> str:
@@ -164,4 +196,6 @@ def _lines(*texts: str) -> str:
 
 
 def _number(value: float) -> str:
-    return "not read" if np.isnan(value) else digits(value, 5)
+    if np.isfinite(value):
+        return digits(value, _DIGITS)
+    return "not read" if np.isnan(value) else "infinite"

@@ -6,7 +6,7 @@ import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from optipath.errors import SurfaceError
+from optipath.errors import OptipathError, SurfaceError
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,18 +14,20 @@ if TYPE_CHECKING:
 
 
 @contextmanager
-def told_of(place: Path) -> Iterator[None]:
+def told_of(place: Path, error: type[OptipathError] = SurfaceError) -> Iterator[None]:
     """Tell what the file system refuses while a file is written.
 
     Parameters
     ----------
     place : Path
         Where it is to be.
+    error : type, optional
+        What is raised.
 
     Raises
     ------
-    SurfaceError
-        In place of an OSError.
+    OptipathError
+        Of that type, in place of an OSError.
 
     Examples
     --------
@@ -40,6 +42,6 @@ give a name in a folder that takes files
         yield
     except OSError as fault:
         why = os.strerror(fault.errno) if fault.errno else fault
-        raise SurfaceError(
+        raise error(
             f"'{place}' cannot be written: {why}; give a name in a folder that takes files"
         ) from None
