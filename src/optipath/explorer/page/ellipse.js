@@ -58,20 +58,22 @@ function angle(at, middle, aop) {
   ];
 }
 
-/** Heads of arrows at both ends of linear light. */
-function ends(curve) {
+/** Heads of arrows at both ends of linear light. @param {number[][]} curve as it is seen */
+export function ends(curve, size = 13) {
   const half = Math.floor(curve.length / 2);
   const length = (i) => Math.hypot(...[0, 1].map((k) => curve[i][k] - curve[i + half][k]));
   let best = 0;
   for (let i = 1; i < half; i += 1) if (length(i) > length(best)) best = i;
   const [one, other] = [curve[best], curve[best + half]];
   const direction = [one[0] - other[0], one[1] - other[1]];
+  const tip = Math.min(size, 0.45 * length(best));
+  if (tip < 2) return [];
   return [
-    head(one, direction, 13, "field-tip"),
+    head(one, direction, tip, "field-tip"),
     head(
       other,
       direction.map((each) => -each),
-      13,
+      tip,
       "field-tip",
     ),
   ];

@@ -14,24 +14,36 @@ export function glyph(node, at, size) {
   if (node.role === "source") return [dot(place, 8, "lamp"), dot(place, 3.4, "lamp-core")];
   if (node.role === "detector") return [dot(place, 8, "eye"), dot(place, 3.6, "eye-core")];
   if (node.role === "dump") return [...crossed(place)];
-  const sides = sidesOf(node);
-  if (sides === null) return [dot(place, 6, "element")];
-  const [across, up] = sides;
-  if (node.role === "surface" || node.role === "mirror") {
-    const corners = [
-      [1, 1],
-      [-1, 1],
-      [-1, -1],
-      [1, -1],
-    ].map(([a, b]) => at(plus(plus(node.at, across, 1.25 * a * size), up, 1.25 * b * size)));
-    return [line(corners, node.role, true)];
-  }
-  const ring = Array.from({ length: 33 }, (_, i) => {
-    const t = (i * Math.PI) / 16;
-    return at(plus(plus(node.at, across, Math.cos(t) * size), up, Math.sin(t) * size));
-  });
+  const outline = outlineOf(node, size);
+  if (outline.length === 1) return [dot(place, 6, "element")];
+  const drawn = line(outline.map(at), isFlat(node) ? node.role : "plate", true);
+  if (isFlat(node)) return [drawn];
+  const [across] = sidesOf(node);
   const axis = [-1, 1].map((each) => at(plus(node.at, across, 0.96 * each * size)));
-  return [line(ring, "plate", true), segment(...axis, "plate-axis")];
+  return [drawn, segment(...axis, "plate-axis")];
+}
+
+const isFlat = ({ role }) => role === "surface" || role === "mirror";
+
+const CORNERS = [
+  [1.25, 1.25],
+  [-1.25, 1.25],
+  [-1.25, -1.25],
+  [1.25, -1.25],
+];
+const RING = Array.from({ length: 33 }, (_, i) => (i * Math.PI) / 16).map((t) => [
+  Math.cos(t),
+  Math.sin(t),
+]);
+
+/** The points around an element, in space; its place alone where it is drawn as a mark. */
+export function outlineOf(node, size) {
+  const sides = ["source", "detector", "dump"].includes(node.role) ? null : sidesOf(node);
+  if (sides === null) return [node.at];
+  const [across, up] = sides;
+  return (isFlat(node) ? CORNERS : RING).map(([a, b]) =>
+    plus(plus(node.at, across, a * size), up, b * size),
+  );
 }
 
 /** Two directions in the surface of an element, at a right angle. */

@@ -83,6 +83,15 @@ export function along(from, to, half = 2) {
   });
 }
 
+/** The box around points, not less than 24 wide and high. */
+export function around(points) {
+  const side = (k) => points.map((each) => each[k]);
+  const [left, top] = [0, 1].map((k) => Math.min(...side(k)));
+  const [right, bottom] = [0, 1].map((k) => Math.max(...side(k)));
+  const room = [24 - (right - left), 24 - (bottom - top)].map((each) => Math.max(0, each) / 2);
+  return [left - room[0], top - room[1], right + room[0], bottom + room[1]];
+}
+
 /** Heights moved apart by at least `gap`, in their order, within [low, high]. */
 export function spread(heights, gap, low, high) {
   const order = heights.map((_, i) => i).sort((a, b) => heights[a] - heights[b]);

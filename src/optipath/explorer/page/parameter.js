@@ -4,6 +4,9 @@ import { chip, debounced, element, option, say } from "./dom.js";
 import { converted, plainText, short, stepped, taken } from "./units.js";
 import { materialInWords } from "./words.js";
 
+/** The unit of more letters has more room. */
+const LONG = 4;
+
 /**
  * @typedef {{set: (name: string, text: string|null, key: string|null) => void,
  *   settle: () => void}} Actions
@@ -87,6 +90,7 @@ export class ParameterRow {
       ...units.map((each) => option(each)),
     );
     made.value = unit;
+    made.classList.toggle("long", unit.length > LONG);
     return made;
   }
 
@@ -100,7 +104,7 @@ export class ParameterRow {
       this.actions.settle();
     });
     this.units.addEventListener("change", () => {
-      this.unit = this.units.value;
+      this.show(this.units.value);
       this.write();
     });
     this.slider?.addEventListener("input", () => {
@@ -135,6 +139,7 @@ export class ParameterRow {
   show(unit) {
     this.unit = unit;
     this.units.value = unit;
+    this.units.classList.toggle("long", unit.length > LONG);
   }
 
   /** @param {object} value from the server @param {boolean} changed from the case or default */

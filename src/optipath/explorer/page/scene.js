@@ -1,13 +1,17 @@
 /** The path in space: elements, rays, planes of incidence, frames, ellipses and angles. */
 
-import { along, placed } from "./labels.js";
+import { along, around, placed } from "./labels.js";
+import { ends } from "./ellipse.js";
 import { plus, projected } from "./projection.js";
-import { glyph } from "./glyphs.js";
+import { glyph, outlineOf } from "./glyphs.js";
 import { head, line, segment, show, text, widthOf } from "./svg.js";
 import { typeset } from "./units.js";
 import { sceneInWords } from "./words.js";
 
 export const SCENE_VIEW = [-55, 24, 1];
+
+/** Half as wide as a surface, against a usual ray. */
+const GLYPH = 0.16;
 
 /**
  * @param {SVGElement} svg
@@ -30,7 +34,7 @@ export function drawScene(svg, scene, view, parts) {
   }
   for (const ray of scene.rays) drawRay(ray, at, add, parts);
   for (const node of scene.nodes) {
-    add([at(node.at)], ...glyph(node, at, 0.16 * size));
+    add([at(node.at)], ...glyph(node, at, GLYPH * size));
     if (parts.has("names")) labels.push({ at: at(node.at), words: node.name, look: "strong" });
   }
   if (parts.has("frames"))
@@ -49,7 +53,7 @@ export function drawScene(svg, scene, view, parts) {
     height,
     sceneInWords(scene),
     ...things.flatMap(([, drawn]) => drawn),
-    ...named(labels, scene, at, [width, height]),
+    ...named(labels, scene, at, [width, height], parts),
   );
 }
 
@@ -75,7 +79,9 @@ function heightOf(scene, width) {
 function extent(scene, view) {
   const points = [
     ...scene.rays.flatMap(({ from, to }) => [from, to]),
-    ...scene.nodes.map((each) => each.at),
+    ...scene.nodes.flatMap((each) => outlineOf(each, GLYPH * sizeOf(scene))),
+    ...scene.rays.flatMap(ellipseOf),
+    ...scene.angles.flatMap((each) => each.arc),
     ...scene.planes.flatMap((each) => each.corners),
   ].map(projected(view));
   const side = (k) => points.map((each) => each[k]);
@@ -113,12 +119,36 @@ function drawRay(ray, at, add, parts) {
   if (Math.hypot(...direction) > 14)
     add([from, to], head(tip, direction, 9, ray.leaves ? "ray-tip leaves" : "ray-tip"));
   if (!parts.has("ellipses") || ray.ellipse === null || ray.leaves) return;
-  const middle = plus(ray.from, plus(ray.to, ray.from, -1), 0.5);
-  const curve = ray.ellipse.map((each) => at(plus(middle, each)));
+  const curve = ellipseOf(ray).map(at);
   add(curve, line(curve, "field fill", true), line(curve, "field thin", true));
+  add(curve, ...tipsOf(ray.ellipse, curve));
+}
+
+/** The points of the ellipse of a ray, in space; none where there is none. */
+function ellipseOf({ from, to, ellipse, leaves }) {
+  if (ellipse === null || leaves) return [];
+  const middle = plus(from, plus(to, from, -1), 0.5);
+  return ellipse.map((each) => plus(middle, each));
+}
+
+/** Which way the field turns; both ends of a field that does not; nothing where it is seen edge on. */
+function tipsOf(ellipse, curve) {
+  const lengths = ellipse.map((each) => Math.hypot(...each));
+  const [wide, narrow] = [Math.max(...lengths), Math.min(...lengths)];
+  if (narrow < 0.01 * wide) return ends(curve, 7);
   const i = Math.floor(curve.length / 8);
   const step = [curve[i + 1][0] - curve[i - 1][0], curve[i + 1][1] - curve[i - 1][1]];
-  if (Math.hypot(...step) > 0.5) add(curve, head(curve[i], step, 7, "field-tip"));
+  return isSeenFlat(curve) || Math.hypot(...step) < 0.5 ? [] : [head(curve[i], step, 7, "field-tip")];
+}
+
+/** Whether an ellipse is too narrow, as it is seen, for a head of an arrow. */
+function isSeenFlat(curve) {
+  const area = curve.reduce(
+    (sum, [x, y], i) => sum + x * curve.at(i - 1)[1] - y * curve.at(i - 1)[0],
+    0,
+  );
+  const across = Math.max(...curve.map(([x, y]) => Math.hypot(x - curve[0][0], y - curve[0][1])));
+  return Math.abs(area) / 2 < 4 * across;
 }
 
 const AXES = ["x", "y", "z"];
@@ -133,9 +163,12 @@ function drawFrame(frame, at, add, size) {
   });
 }
 
-function named(labels, scene, at, room) {
+function named(labels, scene, at, room, parts) {
+  const outlines = scene.nodes.map((node) => outlineOf(node, GLYPH * sizeOf(scene)));
   const obstacles = [
-    ...scene.nodes.map((node) => at(node.at)).map(([x, y]) => [x - 12, y - 12, x + 12, y + 12]),
+    ...[...outlines, ...(parts.has("ellipses") ? scene.rays.map(ellipseOf) : [])]
+      .filter((points) => points.length > 0)
+      .map((points) => around(points.map(at))),
     ...scene.rays.filter((each) => !each.leaves).flatMap(({ from, to }) => along(at(from), at(to))),
   ];
   const order = [...labels].sort((one, other) => (one.near ? 1 : 0) - (other.near ? 1 : 0));

@@ -68,7 +68,7 @@ export function powered(number) {
 /** For the eye: a true minus sign and a degree sign. */
 export function typeset(text) {
   return text
-    .replace(/(^|[\s(=])-(?=\d)/g, "$1\u2212")
+    .replace(/(^|[\s(=])-(?=\d)|^-(?=[a-z])/gi, "$1\u2212")
     .replace(/(\de)-(?=\d)/g, "$1\u2212")
     .replace(/(\d) deg\b/g, "$1\u00b0");
 }
