@@ -32,7 +32,7 @@ for name, metal in metals.items():
     light = reflected(metal, 0.0)
     colour = light.to_srgb(white=white, out_of_gamut="clip").hex
     (line,) = ax.plot(1e9 * wavelength, light.intensity / white.intensity, label=name)
-    line.set(color=colour, linewidth=4.5)
+    line.set(color=colour, linestyle="-", linewidth=4.5)
     line.set_path_effects([Stroke(linewidth=6, foreground="#222222"), Normal()])
 ax.set(xlabel="wavelength (nm)", ylabel="reflected at normal incidence", ylim=(0, 1.03))
 ax.legend(loc="lower right", ncols=2)
