@@ -37,7 +37,13 @@ extensions = [
     "plain_types",
     "root_pages",
 ]
-exclude_patterns = ["_*", "api/generated/README*", "gallery", "**/cache"]
+exclude_patterns = [
+    "_*",
+    "api/generated/README*",
+    "gallery",
+    "gallery-pages/index.rst",  # the page Gallery has it within
+    "**/cache",
+]
 templates_path = ["_templates"]
 language = "en_GB"
 

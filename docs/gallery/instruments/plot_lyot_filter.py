@@ -40,8 +40,8 @@ figure.supylabel("intensity, over that of the lamp", fontsize="medium")
 figure
 
 # %%
-# All four together are the preset ``lyot-filter``. The thickest plate makes the line narrow, and the
-# others take away the lines beside it; they make it somewhat narrower than the last plate's own, too.
+# All four together are the preset ``lyot-filter``. The thickest plate makes the line narrow; the
+# others take away the lines beside it, and make it somewhat narrower than the last plate's own.
 
 near = np.linspace(653e-9, 660e-9, 7001)
 last = op.Waveplate(8 * THICKNESS, quartz, op.Wavelength(), "45 deg")

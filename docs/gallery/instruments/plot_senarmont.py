@@ -22,8 +22,8 @@ ax.figure
 
 # %%
 # The sample, of 60 degrees here, takes horizontal light along a meridian, as far as it retards. The
-# quarter-wave plate turns that arc down to the equator: light is linear again, and its direction has
-# turned by half the retardance of the sample. The analyser finds where it is dark.
+# quarter-wave plate turns that arc down to the equator: light is linear again, and its direction
+# has turned by half the retardance of the sample. The analyser finds where it is dark.
 
 path = op.load_preset("senarmont")
 analyzer = np.linspace(90, 180, 91)

@@ -3,8 +3,8 @@ Light from a rough surface
 ==========================
 
 Photons that carry their polarisation walk over a random rough surface, here black lacquer. What
-they do is measured in all directions at once, pixel by pixel (``pip install ".[fast,plot,sweep]"``, in a
-clone of optipath).
+they do is measured in all directions at once, pixel by pixel (``pip install
+".[fast,plot,sweep]"``, in a clone of optipath).
 """
 
 import optipath as op
@@ -20,16 +20,16 @@ ax = op.plots.hemisphere(lacquer, "S0")
 ax.figure
 
 # %%
-# Unpolarised light becomes polarised: the more, the nearer its facets are to Brewster's angle. Where
-# few photons come, it is not known how much: these pixels are hatched.
+# Unpolarised light becomes polarised: the more, the nearer its facets are to Brewster's angle.
+# Where few photons come, it is not known how much: these pixels are hatched.
 
 ax = op.plots.hemisphere(lacquer, "DoLP")
 ax.figure
 
 # %%
-# In the plane of incidence, with standard errors. The dip next to the normal is of the pixels and not
-# of the lacquer: the frames of photons that fall on one pixel differ there, and their polarisation
-# cancels in part (:doc:`more of it </virtual-ellipsometry>`). Smaller pixels make it narrower.
+# In the plane of incidence, with standard errors. The dip next to the normal is of the pixels and
+# not of the lacquer: the frames of photons that fall on one pixel differ there, and their
+# polarisation cancels in part (:doc:`more of it </virtual-ellipsometry>`). Smaller pixels make it narrower.
 
 ax = op.plots.in_plane({"black lacquer": lacquer}, "DoLP")
 ax.figure
