@@ -16,7 +16,9 @@ import optipath as op
 LOADING = {"img", "script", "link", "iframe", "source", "video", "audio", "embed", "object"}
 LOADING |= {"track", "input", "image", "use", "feimage"}
 IN_STYLES = re.compile(r"(?:@import\s|url\()\s*(?:url\()?\s*['\"]?(?:https?:)?//[^;)]*")
-IN_SCRIPTS = re.compile(r"\b(?:import|from|fetch|importScripts)\s*\(?\s*['\"`](?:https?:)?//[^'\"`]*")
+IN_SCRIPTS = re.compile(
+    r"\b(?:import|from|fetch|importScripts)\s*\(?\s*['\"`](?:https?:)?//[^'\"`]*"
+)
 
 
 class Page(HTMLParser):

@@ -29,7 +29,8 @@ ax.figure
 # %%
 # In the plane of incidence, with standard errors. The dip next to the normal is of the pixels and
 # not of the lacquer: the frames of photons that fall on one pixel differ there, and their
-# polarisation cancels in part (:doc:`more of it </virtual-ellipsometry>`). Smaller pixels make it narrower.
+# polarisation cancels in part (:doc:`more of it </virtual-ellipsometry>`). Smaller pixels make it
+# narrower.
 
 ax = op.plots.in_plane({"black lacquer": lacquer}, "DoLP")
 ax.figure
